@@ -1,0 +1,2 @@
+//! The `handeye` program.
+fn main() {}

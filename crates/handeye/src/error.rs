@@ -1,0 +1,67 @@
+//! What can be wrong with the data.
+
+use serde::Serialize;
+
+/// Why a computation has no answer. Every variant carries the numbers that decided.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Not enough captures that can be used.
+    #[error("{found} usable captures, at least {needed} are needed: {advice}")]
+    TooFewPoses {
+        /// How many there are.
+        found: usize,
+        /// How many the method needs.
+        needed: usize,
+        /// What to do next.
+        advice: String,
+    },
+    /// Not enough point pairs.
+    #[error("{found} point pairs, at least {needed} are needed")]
+    TooFewPoints {
+        /// How many there are.
+        found: usize,
+        /// How many the method needs.
+        needed: usize,
+    },
+    /// The points lie on one line: the rotation about it is free.
+    #[error(
+        "the points lie on one line (spread across it is {ratio:.1e} of the spread along it): \
+         the rotation about that line is not determined; add points away from it"
+    )]
+    Collinear {
+        /// Second over first singular value of the point scatter.
+        ratio: f64,
+    },
+    /// The motions leave part of the answer free.
+    #[error("the motions do not determine the answer: {what}")]
+    NotDetermined {
+        /// The missing directions, in words.
+        what: String,
+    },
+    /// A number that is NaN or infinite reached the core.
+    #[error("{what} is not finite")]
+    NotFinite {
+        /// Which quantity.
+        what: String,
+    },
+    /// A value that makes no sense.
+    #[error("{0}")]
+    Invalid(String),
+}
+
+/// Something the user should know about a result that still stands.
+#[derive(Debug, Clone, PartialEq, Serialize, serde::Deserialize)]
+pub struct Warning {
+    /// Short fixed name, for programs: `pose-flipped`.
+    pub code: String,
+    /// What was seen, where, and what to do.
+    pub message: String,
+}
+
+impl Warning {
+    /// From its two parts.
+    pub fn new(code: &str, message: impl Into<String>) -> Self {
+        Self { code: code.into(), message: message.into() }
+    }
+}
