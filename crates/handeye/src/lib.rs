@@ -5,8 +5,10 @@ pub mod error;
 pub mod frame;
 pub mod image;
 pub mod lie;
+pub mod linalg;
 pub mod observation;
 pub mod scan;
+pub mod solve;
 pub mod target;
 
 pub use camera::{Distortion, Intrinsics};
@@ -18,4 +20,5 @@ pub use observation::{
     TargetPose, Touch, Workspace,
 };
 pub use scan::Scan;
+pub use solve::Method;
 pub use target::TargetModel;

@@ -1,0 +1,245 @@
+//! Closed forms: hand-eye calibration without a start value, a file per paper.
+//!
+//! `A X = Y B` methods take the pairs as they are; `A X = X B` methods take relative motions
+//! between pairs and find the target's place afterwards.
+
+pub mod consensus;
+pub mod daniilidis;
+pub mod motions;
+pub mod park_martin;
+pub mod shah;
+
+use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
+
+use crate::{Error, HandEye, Pose, PosePair, linalg};
+
+/// A published closed form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Method {
+    /// Shah 2013, `A X = Y B` by the Kronecker product.
+    Shah,
+    /// Park and Martin 1994, `A X = X B` by logarithms.
+    ParkMartin,
+    /// Daniilidis 1999, `A X = X B` by dual quaternions.
+    Daniilidis,
+}
+
+impl Method {
+    /// Every method, the one recommended for a start first.
+    pub const ALL: [Method; 3] = [Method::Shah, Method::ParkMartin, Method::Daniilidis];
+
+    /// The name in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Shah => "shah",
+            Method::ParkMartin => "park-martin",
+            Method::Daniilidis => "daniilidis",
+        }
+    }
+
+    /// The method of that name.
+    pub fn from_name(name: &str) -> Option<Method> {
+        Method::ALL.into_iter().find(|m| m.name() == name)
+    }
+}
+
+/// Fewest captures that can fix the answer: two motions about different axes.
+pub const FEWEST_POSES: usize = 3;
+
+/// Solves `A X = Y B` over all pairs with one published method.
+///
+/// # Errors
+/// [`Error::TooFewPoses`] below three pairs, [`Error::NotDetermined`] when all rotations are about
+/// one axis, [`Error::NotFinite`] on NaN.
+pub fn solve(pairs: &[PosePair], method: Method) -> Result<HandEye, Error> {
+    check(pairs)?;
+    let hand_eye = match method {
+        Method::Shah => shah::solve(pairs)?,
+        Method::ParkMartin => park_martin::solve(pairs)?,
+        Method::Daniilidis => daniilidis::solve(pairs)?,
+    };
+    if hand_eye.mount_from_camera.is_finite() && hand_eye.anchor_from_target.is_finite() {
+        Ok(hand_eye)
+    } else {
+        Err(Error::NotDetermined { what: format!("{} found no finite answer", method.name()) })
+    }
+}
+
+fn check(pairs: &[PosePair]) -> Result<(), Error> {
+    if pairs.len() < FEWEST_POSES {
+        return Err(Error::TooFewPoses {
+            found: pairs.len(),
+            needed: FEWEST_POSES,
+            advice: "take 10 to 15, the board tilted by 30 degrees and more about two axes".into(),
+        });
+    }
+    let finite = |p: &PosePair| p.anchor_from_mount.is_finite() && p.camera_from_target.is_finite();
+    match pairs.iter().position(|p| !finite(p)) {
+        Some(i) => Err(Error::NotFinite { what: format!("pose pair {}", i + 1) }),
+        None => motions::check_axes(pairs),
+    }
+}
+
+impl PosePair {
+    /// `R_A`.
+    pub(crate) fn r_a(&self) -> Matrix3<f64> {
+        self.anchor_from_mount.rotation()
+    }
+    /// `t_A`, m.
+    pub(crate) fn t_a(&self) -> Vector3<f64> {
+        self.anchor_from_mount.translation()
+    }
+    /// `R_B` of `B = target_from_camera`.
+    pub(crate) fn r_b(&self) -> Matrix3<f64> {
+        self.camera_from_target.rotation().transpose()
+    }
+    /// `t_B` of `B = target_from_camera`, m.
+    pub(crate) fn t_b(&self) -> Vector3<f64> {
+        self.camera_from_target.inverse().translation()
+    }
+}
+
+pub(crate) fn isometry(rotation: &Matrix3<f64>, translation: Vector3<f64>) -> Isometry3<f64> {
+    let pose = Pose::<(), ()>::from_parts(rotation, Vector3::zeros());
+    Isometry3::from_parts(Translation3::from(translation), pose.iso().rotation)
+}
+
+/// The target's place that fits best once the camera's is known: the mean of `A X B⁻¹`.
+pub fn place_target(
+    pairs: &[PosePair],
+    mount_from_camera: &Pose<crate::Mount, crate::Camera>,
+) -> HandEye {
+    let seen: Vec<_> = pairs
+        .iter()
+        .map(|p| p.anchor_from_mount * *mount_from_camera * p.camera_from_target)
+        .collect();
+    let rotation = linalg::mean_rotation(seen.iter().map(|y| &y.iso().rotation));
+    let translation =
+        seen.iter().map(|y| y.translation()).sum::<Vector3<f64>>() / seen.len().max(1) as f64;
+    HandEye {
+        mount_from_camera: *mount_from_camera,
+        anchor_from_target: Pose::claim(Isometry3::from_parts(translation.into(), rotation)),
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::{Anchor, Mount};
+    use nalgebra::Vector6;
+    use std::f64::consts::PI;
+
+    pub(crate) fn pose<A, B>(t: [f64; 3], axis_angle: [f64; 3]) -> Pose<A, B> {
+        Pose::claim(Isometry3::new(Vector3::from(t), Vector3::from(axis_angle)))
+    }
+
+    pub(crate) fn truths() -> Vec<HandEye> {
+        [
+            [0.1, -0.3, 1.5],
+            [0.0, 0.0, 0.0],
+            [PI, 0.0, 0.0],
+            [0.0, PI, 0.0],
+            [0.0, 0.0, -PI],
+            [2.2, 2.2, 0.1],
+        ]
+        .into_iter()
+        .map(|axis_angle| HandEye {
+            mount_from_camera: pose([0.05, -0.02, 0.11], axis_angle),
+            anchor_from_target: pose([0.8, 0.1, 0.02], [0.02, 3.0, -0.1]),
+        })
+        .collect()
+    }
+
+    pub(crate) fn exact_pairs(truth: &HandEye, count: usize) -> Vec<PosePair> {
+        (0..count)
+            .map(|s| s as f64)
+            .map(|s| {
+                let t = [0.5 + 0.05 * s.sin(), 0.1 * s.cos(), 0.6 + 0.02 * (2.1 * s).sin()];
+                let r = [0.6 * s.sin(), 2.8 + 0.4 * (1.3 * s).cos(), 0.8 * (0.7 * s).sin()];
+                let anchor_from_mount = pose::<Anchor, Mount>(t, r);
+                let anchor_from_camera = anchor_from_mount * truth.mount_from_camera;
+                PosePair {
+                    anchor_from_mount,
+                    camera_from_target: anchor_from_camera.inverse() * truth.anchor_from_target,
+                }
+            })
+            .collect()
+    }
+
+    #[track_caller]
+    pub(crate) fn assert_same<A, B>(found: Pose<A, B>, wanted: Pose<A, B>, what: &str) {
+        let (angle, distance) = (found.angle_to(&wanted), found.distance_to(&wanted));
+        assert!(distance < 1e-9, "{what}: translation off by {distance} m");
+        assert!(angle < 1e-9, "{what}: rotation off by {angle} rad");
+    }
+
+    #[test]
+    fn exact_pairs_give_the_truth() {
+        for method in Method::ALL {
+            for (k, truth) in truths().iter().enumerate() {
+                for count in [3, 4, 12, 80] {
+                    let what = format!("{} truth {k} with {count} poses", method.name());
+                    let found = solve(&exact_pairs(truth, count), method).expect(&what);
+                    assert_same(found.mount_from_camera, truth.mount_from_camera, &what);
+                    assert_same(found.anchor_from_target, truth.anchor_from_target, &what);
+                }
+            }
+        }
+    }
+
+    /// Re-measuring the same scene from another origin must move the target, and only the target.
+    #[test]
+    fn moving_the_anchor_moves_only_the_target() {
+        let new_from_old: Pose<Anchor, Anchor> = pose([1.0, -2.0, 0.3], [0.2, 0.7, -1.1]);
+        for method in Method::ALL {
+            let truth = truths()[0];
+            let mut pairs = exact_pairs(&truth, 12);
+            for pair in &mut pairs {
+                pair.anchor_from_mount = new_from_old * pair.anchor_from_mount;
+            }
+            let found = solve(&pairs, method).unwrap();
+            assert_same(found.mount_from_camera, truth.mount_from_camera, method.name());
+            let moved = new_from_old * truth.anchor_from_target;
+            assert_same(found.anchor_from_target, moved, method.name());
+        }
+    }
+
+    #[test]
+    fn rotations_about_one_axis_are_refused_by_name() {
+        let truth = truths()[0];
+        let pairs: Vec<PosePair> = (0..10)
+            .map(|k| {
+                let k = f64::from(k);
+                let anchor_from_mount =
+                    pose::<Anchor, Mount>([0.3 + 0.03 * k, 0.1, 0.5], [0.0, 0.0, 0.3 * k]);
+                let anchor_from_camera = anchor_from_mount * truth.mount_from_camera;
+                PosePair {
+                    anchor_from_mount,
+                    camera_from_target: anchor_from_camera.inverse() * truth.anchor_from_target,
+                }
+            })
+            .collect();
+        for method in Method::ALL {
+            let error = solve(&pairs, method).unwrap_err();
+            assert!(error.to_string().contains("about one axis"), "{error}");
+        }
+    }
+
+    #[test]
+    fn two_poses_are_too_few() {
+        let pairs = exact_pairs(&truths()[0], 2);
+        assert!(matches!(
+            solve(&pairs, Method::Shah),
+            Err(Error::TooFewPoses { found: 2, needed: 3, .. })
+        ));
+    }
+
+    #[test]
+    fn nan_is_named() {
+        let mut pairs = exact_pairs(&truths()[0], 5);
+        let nan = Vector6::new(0.0, 0.0, 0.0, f64::NAN, 0.0, 0.0);
+        pairs[3].anchor_from_mount = pairs[3].anchor_from_mount.retract(&nan);
+        let error = solve(&pairs, Method::Shah).unwrap_err();
+        assert_eq!(error.to_string(), "pose pair 4 is not finite");
+    }
+}

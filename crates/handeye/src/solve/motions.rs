@@ -1,0 +1,78 @@
+//! Relative motions between captures: the A and B of `A X = X B`, and what they can determine.
+//!
+//! `A_ij = A_j⁻¹ A_i` in the mount, `B_ij = B_j⁻¹ B_i` in the camera: then `A_ij X = X B_ij`.
+
+use nalgebra::{Isometry3, Matrix3, Vector3};
+
+use crate::{Error, PosePair, lie};
+
+/// One relative motion, seen by the robot and by the camera.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion {
+    /// In the mount.
+    pub a: Isometry3<f64>,
+    /// In the camera.
+    pub b: Isometry3<f64>,
+}
+
+/// Up to this many captures all pairs are used; above, each capture is paired with as many others.
+const ALL_PAIRS_UP_TO: usize = 64;
+
+/// Motions between captures: all pairs of few captures; of many, each with [`ALL_PAIRS_UP_TO`]
+/// others at evenly spaced distances in the order, so that the count stays linear.
+pub fn motions(pairs: &[PosePair]) -> Vec<Motion> {
+    let n = pairs.len();
+    if n <= ALL_PAIRS_UP_TO {
+        let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+        return all.map(|(i, j)| motion(&pairs[i], &pairs[j])).collect();
+    }
+    let step = |k: usize| 1 + k * (n - 1) / ALL_PAIRS_UP_TO;
+    (0..n)
+        .flat_map(|i| (0..ALL_PAIRS_UP_TO).map(move |k| (i, (i + step(k)) % n)))
+        .map(|(i, j)| motion(&pairs[i], &pairs[j]))
+        .collect()
+}
+
+/// The motion from capture `i` to capture `j`.
+pub fn motion(i: &PosePair, j: &PosePair) -> Motion {
+    Motion {
+        a: j.anchor_from_mount.iso().inv_mul(i.anchor_from_mount.iso()),
+        // B_j⁻¹ B_i with B = target_from_camera
+        b: j.camera_from_target.iso() * i.camera_from_target.iso().inverse(),
+    }
+}
+
+/// Middle over largest eigenvalue of the scatter of rotation axes below which all rotations count
+/// as being about one axis. With noise of 0.05 degrees on rotations of 5 degrees the ratio of a
+/// single axis is 1e-4.
+pub const ONE_AXIS: f64 = 1e-6;
+
+/// Scatter of the robot's rotation vectors (rad²) between captures, in the mount.
+pub fn axis_scatter(pairs: &[PosePair]) -> Matrix3<f64> {
+    let scatter = |w: Vector3<f64>| w * w.transpose();
+    motions(pairs).iter().map(|m| scatter(lie::so3_log(&m.a.rotation))).sum()
+}
+
+/// Refuses captures whose rotations are all about one axis, or that do not rotate at all.
+pub(super) fn check_axes(pairs: &[PosePair]) -> Result<(), Error> {
+    let eigen = axis_scatter(pairs).symmetric_eigen();
+    let mut values: Vec<f64> = eigen.eigenvalues.iter().copied().collect();
+    values.sort_by(|a, b| b.total_cmp(a));
+    let count = (pairs.len() * (pairs.len() - 1) / 2).max(1) as f64;
+    if values[0] / count < 1e-8 {
+        let what = "the robot does not rotate between the captures; tilt it by 30 degrees and more \
+                    about two axes";
+        return Err(Error::NotDetermined { what: what.into() });
+    }
+    if values[1] < ONE_AXIS * values[0] {
+        let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
+        return Err(Error::NotDetermined {
+            what: format!(
+                "all rotations are about one axis ({:.3}, {:.3}, {:.3}) of the mount: the position \
+                 along it is free; tilt the robot about a second axis, or touch a corner",
+                axis.x, axis.y, axis.z
+            ),
+        });
+    }
+    Ok(())
+}
