@@ -7,6 +7,7 @@ pub mod image;
 pub mod lie;
 pub mod linalg;
 pub mod observation;
+pub mod refine;
 pub mod scan;
 pub mod solve;
 pub mod target;
