@@ -8,6 +8,7 @@ pub mod lie;
 pub mod linalg;
 pub mod observation;
 pub mod refine;
+pub mod register;
 pub mod scan;
 pub mod solve;
 pub mod target;

@@ -206,11 +206,7 @@ pub fn fit_estimating_noise(
     setup: Setup,
 ) -> Result<PoseFit, Error> {
     if views.len() < crate::solve::FEWEST_POSES {
-        return Err(Error::TooFewPoses {
-            found: views.len(),
-            needed: crate::solve::FEWEST_POSES,
-            advice: "take 10 to 15 captures".into(),
-        });
+        return Err(crate::solve::too_few(views.len()));
     }
     let prior = levelled(views, start, first_noise(views, start, known), known, setup);
     let mut at = fit(views, start, &prior, setup);

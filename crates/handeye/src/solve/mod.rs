@@ -65,13 +65,17 @@ pub fn solve(pairs: &[PosePair], method: Method) -> Result<HandEye, Error> {
     }
 }
 
+pub(crate) fn too_few(found: usize) -> Error {
+    Error::TooFewPoses {
+        found,
+        needed: FEWEST_POSES,
+        advice: "take 10 to 15, the board tilted by 30 degrees and more about two axes".into(),
+    }
+}
+
 fn check(pairs: &[PosePair]) -> Result<(), Error> {
     if pairs.len() < FEWEST_POSES {
-        return Err(Error::TooFewPoses {
-            found: pairs.len(),
-            needed: FEWEST_POSES,
-            advice: "take 10 to 15, the board tilted by 30 degrees and more about two axes".into(),
-        });
+        return Err(too_few(pairs.len()));
     }
     let finite = |p: &PosePair| p.anchor_from_mount.is_finite() && p.camera_from_target.is_finite();
     match pairs.iter().position(|p| !finite(p)) {
