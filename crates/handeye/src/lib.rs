@@ -1,18 +1,26 @@
 //! Hand-eye calibration.
 
+pub mod calibrate;
+pub mod calibration;
 pub mod camera;
+pub mod diagnose;
 pub mod error;
+pub mod evaluate;
 pub mod frame;
 pub mod image;
 pub mod lie;
 pub mod linalg;
 pub mod observation;
+pub mod predict;
 pub mod refine;
 pub mod register;
 pub mod scan;
 pub mod solve;
 pub mod target;
+pub mod touches;
 
+pub use calibrate::{Config, Session, calibrate};
+pub use calibration::{Calibration, Verdict};
 pub use camera::{Distortion, Intrinsics};
 pub use error::{Error, Warning};
 pub use frame::{Anchor, Base, Camera, Flange, Frame, Mount, Point, Pose, Target, Tip, Tool};

@@ -310,6 +310,17 @@ fn moments(
     (found, expected)
 }
 
+impl PoseFit {
+    /// Squared Mahalanobis distance of a capture that the fit has not seen: its misfit against its
+    /// own noise and the fit's uncertainty together.
+    pub fn surprise(&self, view: &View, setup: Setup) -> Option<f64> {
+        let (r, j) = misfit_with_jacobian(&self.hand_eye, &view.pair);
+        let own = self.noise.covariance(view, &self.hand_eye, setup);
+        let expected = own + j * self.covariance? * j.transpose();
+        Some(r.dot(&(linalg::invert_spd(&expected)? * r)))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

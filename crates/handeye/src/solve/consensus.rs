@@ -235,8 +235,11 @@ fn settle(captures: &[Readings], hand_eye: HandEye) -> Consensus {
         })
         .collect();
     let sigma = |part: fn(&(f64, f64)) -> f64, least: f64| {
-        // the median of a chi-distributed length with three degrees of freedom is 1.538 sigma
-        (median(parts.iter().flatten().map(part).collect()) / 1.538).max(least)
+        // the median of a chi-distributed length with three degrees of freedom is 1.538 sigma;
+        // few captures are fitted closer than they are (Rousseeuw and Leroy 1987, section 5.1)
+        let lengths: Vec<f64> = parts.iter().flatten().map(part).collect();
+        let few = 1.0 + 5.0 / (lengths.len() as f64 - 2.0).max(1.0);
+        (few * median(lengths) / 1.538).max(least)
     };
     let (sigma_r, sigma_t) = (sigma(|p| p.0, LEAST.0), sigma(|p| p.1, LEAST.1));
     let agrees =

@@ -53,26 +53,45 @@ pub fn axis_scatter(pairs: &[PosePair]) -> Matrix3<f64> {
     motions(pairs).iter().map(|m| scatter(lie::so3_log(&m.a.rotation))).sum()
 }
 
+/// Mean square rotation (rad²) between captures below which the robot counts as not turning.
+const NO_ROTATION: f64 = 1e-8;
+
+/// Eigenvalues of the axis scatter, largest first, and the axis of the largest.
+fn principal(pairs: &[PosePair]) -> ([f64; 3], Vector3<f64>) {
+    let eigen = axis_scatter(pairs).symmetric_eigen();
+    let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
+    let mut values: [f64; 3] = eigen.eigenvalues.into();
+    values.sort_by(|a, b| b.total_cmp(a));
+    (values, axis)
+}
+
+/// Whether the robot turns at all between the captures.
+pub fn rotates(pairs: &[PosePair]) -> bool {
+    let count = (pairs.len() * pairs.len().saturating_sub(1) / 2).max(1) as f64;
+    principal(pairs).0[0] / count > NO_ROTATION
+}
+
+/// The axis (in the mount) about which all rotations are, if there is only one.
+pub fn single_axis(pairs: &[PosePair]) -> Option<Vector3<f64>> {
+    let (values, axis) = principal(pairs);
+    (rotates(pairs) && values[1] < ONE_AXIS * values[0]).then_some(axis)
+}
+
 /// Refuses captures whose rotations are all about one axis, or that do not rotate at all.
 pub(super) fn check_axes(pairs: &[PosePair]) -> Result<(), Error> {
-    let eigen = axis_scatter(pairs).symmetric_eigen();
-    let mut values: Vec<f64> = eigen.eigenvalues.iter().copied().collect();
-    values.sort_by(|a, b| b.total_cmp(a));
-    let count = (pairs.len() * (pairs.len() - 1) / 2).max(1) as f64;
-    if values[0] / count < 1e-8 {
+    if !rotates(pairs) {
         let what = "the robot does not rotate between the captures; tilt it by 30 degrees and more \
                     about two axes";
         return Err(Error::NotDetermined { what: what.into() });
     }
-    if values[1] < ONE_AXIS * values[0] {
-        let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
-        return Err(Error::NotDetermined {
+    match single_axis(pairs) {
+        None => Ok(()),
+        Some(axis) => Err(Error::NotDetermined {
             what: format!(
                 "all rotations are about one axis ({:.3}, {:.3}, {:.3}) of the mount: the position \
                  along it is free; tilt the robot about a second axis, or touch a corner",
                 axis.x, axis.y, axis.z
             ),
-        });
+        }),
     }
-    Ok(())
 }

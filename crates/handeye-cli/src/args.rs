@@ -1,0 +1,62 @@
+//! The command line, typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+
+/// Hand-eye calibration: where the camera sits on the robot, and how sure that is.
+///
+/// A folder of captures goes in; a transform comes out, with its uncertainty, a verdict, and the
+/// evidence. Exit codes: 0 accepted, 1 the input cannot be used, 2 wrong command line, 3 rejected
+/// or undetermined (the result is still written).
+#[derive(Parser)]
+#[command(version, max_term_width = 90)]
+pub struct Program {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// How to talk.
+    #[command(flatten)]
+    pub manners: Manners,
+}
+
+/// Options of every command.
+#[derive(Args, Clone)]
+pub struct Manners {
+    /// Print one JSON document on standard output and nothing else there.
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// No progress, no warnings.
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+}
+
+/// Commands.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Solve for the transform from pairs of robot and target poses in a JSON file.
+    Solve(SolveArgs),
+    /// Write completions for a shell.
+    #[command(
+        after_help = "Example:\n  handeye completions bash > ~/.local/share/bash-completion/completions/handeye"
+    )]
+    Completions {
+        /// Which shell.
+        shell: Shell,
+    },
+}
+
+/// Arguments of `solve`.
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  handeye solve pairs.json\n  handeye solve pairs.json --method park-martin --json\n\n\
+pairs.json:\n  {\"setup\": \"eye-in-hand\",\n   \"pairs\": [{\"id\": \"01\",\n     \"base_from_flange\":   {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]},\n     \"camera_from_target\": {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}}, ...]}"
+)]
+pub struct SolveArgs {
+    /// JSON file with `setup` and `pairs`.
+    pub pairs: PathBuf,
+    /// Run one published method as published: shah, park-martin, daniilidis.
+    #[arg(long)]
+    pub method: Option<String>,
+}

@@ -1,0 +1,127 @@
+//! What the terminal shows.
+
+use std::io::{self, IsTerminal, Write};
+
+use clap::CommandFactory;
+use clap_complete::Shell;
+use handeye::{Calibration, Verdict, calibration::Candidate};
+use serde::Serialize;
+
+use crate::args::{Manners, Program};
+
+/// Writes to standard output; a reader that went away (`| head`) is no error.
+pub fn print(text: &str) {
+    let _ = io::stdout().lock().write_all(text.as_bytes());
+}
+
+/// One JSON document on standard output.
+pub fn json(value: &impl Serialize) {
+    match serde_json::to_string_pretty(value) {
+        Ok(text) => print(&(text + "\n")),
+        Err(error) => eprintln!("error: {error}"),
+    }
+}
+
+/// Completions for a shell.
+pub fn completions(shell: Shell) {
+    clap_complete::generate(shell, &mut Program::command(), "handeye", &mut io::stdout());
+}
+
+/// Warnings, to standard error.
+pub fn warnings(calibration: &Calibration, manners: &Manners) {
+    if manners.quiet {
+        return;
+    }
+    for warning in &calibration.warnings {
+        eprintln!("warning [{}]: {}", warning.code, warning.message);
+    }
+}
+
+/// Colour, only where a person reads.
+fn paint(text: &str, code: &str) -> String {
+    if io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
+        format!("\x1b[{code}m{text}\x1b[0m")
+    } else {
+        text.to_owned()
+    }
+}
+
+fn verdict(v: Verdict) -> String {
+    match v {
+        Verdict::Accepted => paint("ACCEPTED", "1;32"),
+        Verdict::Rejected => paint("REJECTED", "1;31"),
+        Verdict::Undetermined => paint("UNDETERMINED", "1;33"),
+    }
+}
+
+/// The result for people, in 80 columns.
+pub fn summary(c: &Calibration) {
+    let mut text = format!("\n{}  {}\n", verdict(c.verdict), c.reasons.join("\n          "));
+    text += &transform(c);
+    text += &candidates(c);
+    let used = c.captures.iter().filter(|k| k.used).count();
+    if !c.captures.is_empty() {
+        text += &format!("\n{used} of {} captures used", c.captures.len());
+        if !c.rejected.is_empty() {
+            text += &format!("; left out: {}", c.rejected.join(", "));
+        }
+        text += "\n";
+    }
+    print(&text);
+}
+
+fn transform(c: &Calibration) -> String {
+    let Some(pose) = &c.hand_eye.mount_from_camera else {
+        return format!("\nnot determined: {}\n", c.undetermined.join(", "));
+    };
+    let (t, q) = (pose.translation() * 1e3, pose.iso().rotation.coords);
+    let mut text = format!("\n{}  ({})\n", c.name, c.method);
+    text += &format!("  translation  {:11.3} {:11.3} {:11.3}   mm\n", t.x, t.y, t.z);
+    text +=
+        &format!("  quaternion   {:11.7} {:11.7} {:11.7} {:11.7}   x y z w\n", q.x, q.y, q.z, q.w);
+    if let Some(rows) = &c.hand_eye.covariance.mount_from_camera {
+        let s = |k: usize| rows[k][k].max(0.0).sqrt();
+        text += &format!(
+            "  one sigma    {:11.3} {:11.3} {:11.3}   mm, in the camera's axes\n",
+            s(3) * 1e3,
+            s(4) * 1e3,
+            s(5) * 1e3
+        );
+        text += &format!(
+            "               {:11.4} {:11.4} {:11.4}   degrees about them\n",
+            s(0).to_degrees(),
+            s(1).to_degrees(),
+            s(2).to_degrees()
+        );
+    }
+    text
+}
+
+fn candidates(c: &Calibration) -> String {
+    if c.candidates.is_empty() {
+        return String::new();
+    }
+    let mut text = format!(
+        "\n  {:<26}{:>12}{:>13}{:>15}\n",
+        "candidate", "in sample", "held out", "predicted TRE"
+    );
+    for k in &c.candidates {
+        let mark = if c.chosen.as_deref() == Some(k.name.as_str()) { ">" } else { " " };
+        text += &format!(
+            "{mark} {:<26}{:>12}{:>13}{:>15}\n",
+            k.name,
+            mm(in_sample(k)),
+            mm(k.held_out_mm),
+            mm(k.predicted_tre_mm)
+        );
+    }
+    text
+}
+
+fn in_sample(k: &Candidate) -> Option<f64> {
+    if k.name.starts_with("two-step") { k.touch_rms_mm } else { k.in_sample.translation_rms_mm }
+}
+
+fn mm(value: Option<f64>) -> String {
+    value.map_or("-".into(), |v| format!("{v:.3} mm"))
+}

@@ -1,0 +1,219 @@
+//! The result of a calibration: everything that files and reports show.
+
+use nalgebra::{Matrix6, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::{Anchor, Camera, Mount, Pose, Setup, Target, Warning, predict::PredictedTre};
+
+/// Whether the answer can be used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// Use it; the uncertainty is stated.
+    Accepted,
+    /// Do not: the data contradict it or themselves.
+    Rejected,
+    /// The data do not determine it; the missing directions are named.
+    Undetermined,
+}
+
+/// A 6 x 6 covariance as rows, rotation (rad) first, then translation (m), perturbed on the right.
+pub type Rows = [[f64; 6]; 6];
+
+/// Rows of a covariance.
+pub fn rows(m: &Matrix6<f64>) -> Rows {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]))
+}
+
+/// The matrix of such rows.
+pub fn matrix(rows: &Rows) -> Matrix6<f64> {
+    Matrix6::from_fn(|i, j| rows[i][j])
+}
+
+/// Covariances of both answers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
+pub struct PoseCovariance {
+    /// Of `mount_from_camera`, in the camera frame.
+    pub mount_from_camera: Option<Rows>,
+    /// Of `anchor_from_target`, in the target frame.
+    pub anchor_from_target: Option<Rows>,
+}
+
+/// The answer as stored: what is not determined is null.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
+pub struct Answer {
+    /// Where the camera sits. Mount is the flange (eye-in-hand) or the base (eye-to-hand).
+    pub mount_from_camera: Option<Pose<Mount, Camera>>,
+    /// Where the target sits. Anchor is the base (eye-in-hand) or the flange (eye-to-hand).
+    pub anchor_from_target: Option<Pose<Anchor, Target>>,
+    /// How sure both are.
+    #[serde(default)]
+    pub covariance: PoseCovariance,
+}
+
+/// Misfit in rotation and translation.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
+pub struct Misfit {
+    /// Root mean square angle; null where no rotations were compared.
+    pub rotation_rms_deg: Option<f64>,
+    /// Root mean square distance at the target's first corner.
+    pub translation_rms_mm: Option<f64>,
+    /// Over all corners, by projecting them through the robot poses; null without pictures.
+    #[serde(default)]
+    pub reprojection_rms_px: Option<f64>,
+}
+
+/// One way to the answer, beside the others.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Candidate {
+    /// `closed-form-shah`, `least-squares`, `two-step-svd` ...
+    pub name: String,
+    /// Its answer.
+    pub hand_eye: Answer,
+    /// Misfit on the captures it was made from.
+    pub in_sample: Misfit,
+    /// Misfit on captures left out of it.
+    pub held_out: Misfit,
+    /// RMS distance of touches to its prediction, including touches it was made from.
+    pub touch_rms_mm: Option<f64>,
+    /// The error on what it has not seen: touches where there are any, captures otherwise.
+    pub held_out_mm: Option<f64>,
+    /// Predicted error (rms) where the answer will be used.
+    pub predicted_tre_mm: Option<f64>,
+    /// What to know about it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+}
+
+/// One capture in the result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CaptureResult {
+    /// Its name.
+    pub id: String,
+    /// Whether the answer rests on it.
+    pub used: bool,
+    /// Why not, if not.
+    pub reason: Option<String>,
+    /// Corners found in its picture.
+    pub corners: usize,
+    /// Corners found in its scan.
+    pub corners_3d: usize,
+    /// RMS distance of its corners to the target model seen from its own best pose.
+    pub residual_px: Option<f64>,
+    /// RMS distance of its corners to where the answer and the robot pose put them.
+    pub reprojection_px: Option<f64>,
+    /// Misfit of its loop, at the target's first corner.
+    pub residual_mm: Option<f64>,
+    /// Misfit of its loop, rotation.
+    pub residual_deg: Option<f64>,
+    /// The same misfit when the answer was made without it.
+    pub held_out_mm: Option<f64>,
+    /// The same, rotation.
+    pub held_out_deg: Option<f64>,
+}
+
+/// One touch in the result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TouchResult {
+    /// The placement that was touched.
+    pub capture: String,
+    /// Which corner.
+    pub corner: u32,
+    /// Distance between the tip and where the chosen answer puts the corner.
+    pub residual_mm: f64,
+    /// That difference in the base frame, tip minus prediction.
+    pub difference_mm: Vector3<f64>,
+    /// Whether candidates were made with it.
+    pub used: bool,
+}
+
+/// What the poses can determine.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Diversity {
+    /// Captures used.
+    pub captures: usize,
+    /// Largest rotation between two of them.
+    pub largest_rotation_deg: f64,
+    /// Spread of the rotation axes: eigenvalues of their scatter, largest is one.
+    pub axis_spread: [f64; 3],
+    /// Extent of the robot positions.
+    pub travel_mm: [f64; 3],
+}
+
+/// One source of error and its size.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BudgetEntry {
+    /// `robot`, `picture` ...
+    pub source: String,
+    /// Standard deviation per axis, in words with units.
+    pub sigma: String,
+    /// Standard deviation, mm per axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma_mm: Option<f64>,
+    /// Standard deviation, degrees per axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma_deg: Option<f64>,
+}
+
+/// Size of the target as the robot's motions see it, over the declared one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Scale {
+    /// Found over declared.
+    pub value: f64,
+    /// Standard deviation.
+    pub sigma: f64,
+}
+
+/// A finished calibration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Calibration {
+    /// Version of this format.
+    pub format: String,
+    /// Who carries the camera.
+    pub setup: Setup,
+    /// Whether it can be used.
+    pub verdict: Verdict,
+    /// Why: one sentence a reason, most important first.
+    pub reasons: Vec<String>,
+    /// Name of the chosen candidate's method.
+    pub method: String,
+    /// The answer.
+    pub hand_eye: Answer,
+    /// The answer's name for the user: `base_from_camera` or `flange_from_camera`.
+    pub name: String,
+    /// Name of the chosen candidate.
+    pub chosen: Option<String>,
+    /// Why it was chosen.
+    pub why: String,
+    /// All candidates.
+    pub candidates: Vec<Candidate>,
+    /// Predicted error where the answer will be used.
+    pub predicted_tre_mm: Option<PredictedTre>,
+    /// Misfit of the chosen answer.
+    pub residual: Misfit,
+    /// Misfit of the chosen method on what was left out.
+    pub held_out: Misfit,
+    /// All captures, in the order of their names.
+    pub captures: Vec<CaptureResult>,
+    /// All touches.
+    pub touches: Vec<TouchResult>,
+    /// Names of captures that were left out.
+    pub rejected: Vec<String>,
+    /// Directions that the data leave free, in words.
+    pub undetermined: Vec<String>,
+    /// What the poses can determine.
+    pub diversity: Option<Diversity>,
+    /// Where the error comes from.
+    pub error_budget: Vec<BudgetEntry>,
+    /// Size of the target as the robot sees it.
+    pub scale: Option<Scale>,
+    /// What to know.
+    pub warnings: Vec<Warning>,
+}
+
+impl Calibration {
+    /// Process exit code of the verdict: 0 accepted, 3 otherwise.
+    pub fn exit_code(&self) -> u8 {
+        if self.verdict == Verdict::Accepted { 0 } else { 3 }
+    }
+}
