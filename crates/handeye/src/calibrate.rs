@@ -76,9 +76,8 @@ const LEAST_AGREEING: f64 = 0.5;
 /// Wrong size of the target that is beyond any printer: the declared size or the focal length is
 /// wrong, and so is every distance.
 const MOST_SCALE_ERROR: f64 = 0.03;
-/// Twice the log-likelihood gained by another scale that makes it significant (chi-squared, one
-/// degree of freedom, 0.9998).
-const SIGNIFICANT: f64 = 13.8;
+/// Chance of a scale as far from one as it is below which it is called wrong.
+const IMPROBABLE_SCALE: f64 = 1e-3;
 /// Scale errors below this part are within what printers and lenses do.
 const LEAST_SCALE_ERROR: f64 = 0.005;
 
@@ -468,7 +467,7 @@ fn estimate(views: &Views, found: &Consensus, config: &Config, result: &mut Cali
         };
     result.undetermined = diagnose::undetermined(&fit, setup);
     result.error_budget = budget(&fit);
-    judge_scale(views, &fit, result);
+    judge_scale(views, &fit, config, result);
     let covariance = stated_covariance(&fit);
     let Some(volume) = volume(views, &fit) else { return };
     let paired = pair_touches(views, result);
@@ -943,14 +942,14 @@ fn budget(fit: &PoseFit) -> Vec<BudgetEntry> {
     fit.noise.sigmas.iter().map(entry).collect()
 }
 
-fn judge_scale(views: &Views, fit: &PoseFit, result: &mut Calibration) {
+fn judge_scale(views: &Views, fit: &PoseFit, config: &Config, result: &mut Calibration) {
     if views.views.len() < 5 {
         return;
     }
-    let found = diagnose::target_scale(&views.views, fit, views.session.setup);
-    let Some((value, sigma, gain)) = found else { return };
+    let found = diagnose::target_scale(&views.views, fit, &config.known, views.session.setup);
+    let Some(diagnose::TargetScale { value, sigma, p_value }) = found else { return };
     result.scale = Some(Scale { value, sigma });
-    if gain < SIGNIFICANT || (value - 1.0).abs() < LEAST_SCALE_ERROR {
+    if p_value > IMPROBABLE_SCALE || (value - 1.0).abs() < LEAST_SCALE_ERROR {
         return;
     }
     let size = views.session.target.as_ref().map_or(String::new(), |t| {

@@ -2,7 +2,7 @@
 
 use crate::{
     Pose, PosePair, Setup, Target, predict,
-    refine::{self, PoseFit, View},
+    refine::{self, PoseFit, View, noise::KnownNoise},
     solve::consensus::{self, Consensus, Readings},
 };
 
@@ -80,17 +80,44 @@ fn evidence(captures: &[Readings], found: &Consensus, convention: Convention) ->
     }
 }
 
+/// Size of the target as the robot's motions see it, over the declared one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TargetScale {
+    /// The factor on the measured distances that fits best.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// Chance of a factor as far from one when the declared size is right.
+    pub p_value: f64,
+}
+
+/// Finds the size of the target that fits best. The noise is estimated again at that size: a wrong
+/// size would otherwise pass for noise and hide itself.
+pub fn target_scale(
+    views: &[View],
+    at: &PoseFit,
+    known: &KnownNoise,
+    setup: Setup,
+) -> Option<TargetScale> {
+    use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+    let first = best_scale(views, at, setup)?.0;
+    let rescaled = rescaled(views, first);
+    let refitted = refine::fit_estimating_noise(&rescaled, &at.hand_eye, known, setup).ok()?;
+    let (more, curvature) = best_scale(&rescaled, &refitted, setup)?;
+    let (value, sigma) = (first * more, first * (2.0 / curvature).sqrt());
+    let dof = at.degrees_of_freedom - 1.0;
+    let p_value = FisherSnedecor::new(1.0, dof).ok()?.sf(((value - 1.0) / sigma).powi(2));
+    Some(TargetScale { value, sigma, p_value })
+}
+
 /// Steps of the search for the scale.
 const SCALE_STEPS: usize = 20;
 
-/// Size of the target as the robot's motions see it, over the declared one: the factor on the
-/// measured distances that fits best, its standard deviation, and by how much the fit improves
-/// (twice the log-likelihood).
-pub fn target_scale(views: &[View], at: &PoseFit, setup: Setup) -> Option<(f64, f64, f64)> {
+/// The scale of least cost and the cost's curvature there, by parabolas through three points.
+fn best_scale(views: &[View], at: &PoseFit, setup: Setup) -> Option<(f64, f64)> {
     let cost =
         |s: f64| refine::fit(&rescaled(views, s), &at.hand_eye, &at.noise, setup).chi_squared;
-    let (start, mut s, mut h) = (cost(1.0), 1.0, 0.02);
-    let mut curvature = 0.0;
+    let (mut s, mut h, mut curvature) = (1.0, 0.02, 0.0);
     for _ in 0..SCALE_STEPS {
         let (low, middle, high) = (cost(s - h), cost(s), cost(s + h));
         curvature = (low - 2.0 * middle + high) / (h * h);
@@ -99,12 +126,12 @@ pub fn target_scale(views: &[View], at: &PoseFit, setup: Setup) -> Option<(f64, 
         }
         let step = (0.5 * (low - high) / h / curvature).clamp(-0.3, 0.3);
         s = (s + step).clamp(0.2, 5.0);
-        if step.abs() < 1e-6 {
+        if step.abs() < 1e-5 {
             break;
         }
-        h = step.abs().clamp(1e-4, 0.02);
+        h = step.abs().clamp(5e-3, 0.02);
     }
-    Some((s, (2.0 / curvature).sqrt(), start - cost(s)))
+    Some((s, curvature))
 }
 
 /// Views as they would be with a target `s` times as large.

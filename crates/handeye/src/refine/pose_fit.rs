@@ -208,8 +208,9 @@ pub fn fit_estimating_noise(
     if views.len() < crate::solve::FEWEST_POSES {
         return Err(crate::solve::too_few(views.len()));
     }
-    let prior = levelled(views, start, first_noise(views, start, known), known, setup);
-    let mut at = fit(views, start, &prior, setup);
+    let start = fit_fixed_weights(views, start, FIRST_WEIGHT);
+    let prior = levelled(views, &start, first_noise(views, &start, known), known, setup);
+    let mut at = fit(views, &start, &prior, setup);
     for _ in 0..MOST_ROUNDS {
         let noise = updated_noise(views, &at, &prior, known, setup);
         let change = at.noise.largest_change(&noise);
@@ -221,6 +222,9 @@ pub fn fit_estimating_noise(
     Ok(at)
 }
 
+/// Weight of rotation against translation in the fit whose misfit gives the first noise level,
+/// m per rad.
+const FIRST_WEIGHT: f64 = 0.3;
 /// Captures' worth of prior belief in the first noise level.
 const PRIOR_VIEWS: f64 = 2.0;
 /// Prior share of the misfit in rotation that is the robot's: a robot reports its orientation
