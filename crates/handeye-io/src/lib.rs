@@ -1,1 +1,3 @@
-//! files
+//! Files in and out.
+
+pub mod report;

@@ -287,6 +287,8 @@ fn first_report(o: &Observation) -> CaptureResult {
         id: o.capture.clone(),
         used: reason.is_none(),
         reason,
+        base_from_flange: o.base_from_flange,
+        camera_from_target: o.candidates.first().map(|c| c.camera_from_target),
         corners: o.corners.len(),
         corners_3d: o.surface.len(),
         residual_px: None,
@@ -623,7 +625,7 @@ fn relabelled(o: &Observation, v: &View, views: &Views, target: &TargetModel) ->
 
 /// Which symmetry of the board the chosen pose stands for: the one that brings the corners of the
 /// picture's first reading onto those of the chosen one.
-fn relabelling(o: &Observation, pose: &Pose<Camera, Target>, target: &TargetModel) -> Vec<u32> {
+pub fn relabelling(o: &Observation, pose: &Pose<Camera, Target>, target: &TargetModel) -> Vec<u32> {
     let maps = target.symmetries();
     let Some(first) = o.candidates.first() else { return maps[0].clone() };
     let cost = |map: &Vec<u32>| -> f64 {
@@ -992,6 +994,8 @@ fn report_captures(views: &Views, used: &[usize], found: &Consensus, result: &mu
     for (k, &i) in used.iter().enumerate() {
         let (angle, distance) = evaluate::loop_misfit(&answer, &views.views[k].pair);
         let capture = &mut result.captures[i];
+        let pose = views.views[k].pair.camera_from_target * views.target_from_corner.inverse();
+        capture.camera_from_target = Some(pose);
         capture.residual_deg = Some(angle.to_degrees());
         capture.residual_mm = Some(distance * 1e3);
         capture.held_out_deg = held_out[k].map(|h| h.0.to_degrees());

@@ -3,7 +3,9 @@
 use nalgebra::{Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::{Anchor, Camera, Mount, Pose, Setup, Target, Warning, predict::PredictedTre};
+use crate::{
+    Anchor, Base, Camera, Flange, Mount, Pose, Setup, Target, Warning, predict::PredictedTre,
+};
 
 /// Whether the answer can be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -94,6 +96,10 @@ pub struct CaptureResult {
     pub used: bool,
     /// Why not, if not.
     pub reason: Option<String>,
+    /// What the robot reported.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// Where the camera saw the target, in the reading that was chosen.
+    pub camera_from_target: Option<Pose<Camera, Target>>,
     /// Corners found in its picture.
     pub corners: usize,
     /// Corners found in its scan.

@@ -1,0 +1,389 @@
+//! `report.html`: one self-contained page that tells a person what was found and how sure it is.
+//!
+//! Everything but the 3D view is plain HTML and SVG made here, so that the page reads and prints
+//! without a script; nothing is loaded from anywhere.
+
+mod picture;
+mod plot;
+mod scene;
+
+use std::fmt::Write;
+
+use handeye::{
+    Base, Calibration, Intrinsics, Point, Setup, TargetModel, Verdict,
+    calibration::{Candidate, CaptureResult},
+};
+
+pub use picture::{MarkedCorner, Picture};
+
+/// What the page shows.
+pub struct Report<'a> {
+    /// Name of the data set.
+    pub title: String,
+    /// The result.
+    pub calibration: &'a Calibration,
+    /// What the camera looked at.
+    pub target: Option<&'a TargetModel>,
+    /// The camera that was used.
+    pub camera: Option<&'a Intrinsics>,
+    /// Where the tip was.
+    pub touched: Vec<Point<Base>>,
+    /// The transform in notations the user knows: name and text.
+    pub notations: Vec<(String, String)>,
+    /// Pictures with their corners.
+    pub pictures: Vec<Picture>,
+}
+
+const STYLE: &str = include_str!("style.css");
+const VIEW: &str = include_str!("view.js");
+
+/// The whole page.
+pub fn html(report: &Report) -> String {
+    let c = report.calibration;
+    let mut body = verdict(report);
+    body += &transform(report);
+    body += &warnings(c);
+    body += &candidates(c);
+    body += &captures(c);
+    body += &touches(c);
+    body += &view(report);
+    body += &diversity(c);
+    body += &pictures(report);
+    format!(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
+         <title>{title} - hand-eye calibration</title><style>{STYLE}</style></head>\n<body><main>\
+         <h1>Hand-eye calibration &middot; {title}</h1>{body}\
+         <footer>handeye {version}. Lengths in mm, angles in degrees. A covariance is written in \
+         the camera's axes at the camera.</footer></main><script>{VIEW}</script></body></html>\n",
+        title = escape(&report.title),
+        version = env!("CARGO_PKG_VERSION"),
+    )
+}
+
+/// Text for HTML.
+pub(crate) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+fn section(title: &str, class: &str, content: &str) -> String {
+    format!("<section class=\"{class}\"><h2>{}</h2>{content}</section>\n", escape(title))
+}
+
+fn mm(value: Option<f64>) -> String {
+    value.map_or("&ndash;".into(), |v| format!("{v:.3}"))
+}
+
+fn deg(value: Option<f64>) -> String {
+    value.map_or("&ndash;".into(), |v| format!("{v:.3}"))
+}
+
+fn verdict(report: &Report) -> String {
+    let c = report.calibration;
+    let (class, word) = match c.verdict {
+        Verdict::Accepted => ("accepted", "Accepted"),
+        Verdict::Rejected => ("rejected", "Rejected"),
+        Verdict::Undetermined => ("undetermined", "Undetermined"),
+    };
+    let mut reasons = c.reasons.iter();
+    let first = reasons.next().map_or(String::new(), |r| capital(&escape(r)));
+    let more: String = reasons.map(|r| format!("<p>{}.</p>", capital(&escape(r)))).collect();
+    format!(
+        "<section class=\"verdict {class}\"><div class=\"word\">{word}</div>\
+         <div class=\"sentence\">{first}.</div>{more}<div class=\"facts\">{}</div></section>\n",
+        facts(c)
+    )
+}
+
+fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or(String::new(), |c| c.to_uppercase().chain(chars).collect())
+}
+
+fn facts(c: &Calibration) -> String {
+    let mut all = Vec::new();
+    if let Some(tre) = &c.predicted_tre_mm {
+        all.push((format!("{:.2} mm", tre.p95), "predicted error, 95 %".to_owned()));
+        all.push((format!("{:.2} mm", tre.rms), "predicted error, RMS".to_owned()));
+    }
+    if let Some(t) = c.held_out.translation_rms_mm {
+        let r = c.held_out.rotation_rms_deg.map_or(String::new(), |r| format!(" / {r:.2}&deg;"));
+        all.push((format!("{t:.2} mm{r}"), "misfit of captures left out, RMS".to_owned()));
+    }
+    if !c.captures.is_empty() {
+        let used = c.captures.iter().filter(|k| k.used).count();
+        all.push((format!("{used} of {}", c.captures.len()), "captures used".to_owned()));
+    }
+    if !c.touches.is_empty() {
+        all.push((c.touches.len().to_string(), "touched corners".to_owned()));
+    }
+    let fact = |(value, name): (String, String)| {
+        format!("<div class=\"fact\"><b>{value}</b><span>{name}</span></div>")
+    };
+    all.into_iter().map(fact).collect()
+}
+
+fn transform(report: &Report) -> String {
+    let c = report.calibration;
+    let words = match c.setup {
+        Setup::EyeInHand => "eye-in-hand: it takes points of the camera to the flange",
+        Setup::EyeToHand => "eye-to-hand: it takes points of the camera to the robot's base",
+    };
+    let Some(pose) = &c.hand_eye.mount_from_camera else {
+        let missing = escape(&c.undetermined.join(", "));
+        return section(
+            &c.name,
+            "",
+            &format!("<p>No transform is given. Not determined: {missing}.</p>"),
+        );
+    };
+    let m = pose.matrix();
+    let row = |i: usize| {
+        format!(
+            "{:12.8} {:12.8} {:12.8} {:12.4}\n",
+            m[(i, 0)],
+            m[(i, 1)],
+            m[(i, 2)],
+            m[(i, 3)] * 1e3
+        )
+    };
+    let matrix = format!("{}{}{}{:12} {:12} {:12} {:12}", row(0), row(1), row(2), 0, 0, 0, 1);
+    let mut content = format!("<p>Camera on the {}, {words}.</p>", c.setup.mount());
+    let _ = write!(
+        content,
+        "<div class=\"two\"><div><h3>4 x 4, translation in mm</h3><pre>{matrix}</pre>{}</div><div>",
+        sigmas(c)
+    );
+    for (name, text) in &report.notations {
+        let _ = write!(content, "<h3>{}</h3><pre>{}</pre>", escape(name), escape(text));
+    }
+    section(&c.name, "", &(content + "</div></div>"))
+}
+
+fn sigmas(c: &Calibration) -> String {
+    let Some(rows) = &c.hand_eye.covariance.mount_from_camera else {
+        return "<p class=\"note\">Too little data to say how sure it is.</p>".into();
+    };
+    let s = |k: usize| rows[k][k].max(0.0).sqrt();
+    format!(
+        "<h3>One standard deviation, in the camera's axes</h3><table><tr><th></th><th>x</th><th>y</th><th>z</th></tr>\
+         <tr><td>position, mm</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td></tr>\
+         <tr><td>rotation, degrees</td><td>{:.4}</td><td>{:.4}</td><td>{:.4}</td></tr></table>",
+        s(3) * 1e3,
+        s(4) * 1e3,
+        s(5) * 1e3,
+        s(0).to_degrees(),
+        s(1).to_degrees(),
+        s(2).to_degrees()
+    )
+}
+
+fn warnings(c: &Calibration) -> String {
+    if c.warnings.is_empty() {
+        return String::new();
+    }
+    let item = |w: &handeye::Warning| {
+        format!("<li>{} <code>{}</code></li>", capital(&escape(&w.message)), escape(&w.code))
+    };
+    let items: String = c.warnings.iter().map(item).collect();
+    section("What to look at", "", &format!("<ul class=\"warnings\">{items}</ul>"))
+}
+
+fn candidates(c: &Calibration) -> String {
+    if c.candidates.is_empty() {
+        return String::new();
+    }
+    let row = |k: &Candidate| {
+        let class = if c.chosen.as_deref() == Some(k.name.as_str()) { "chosen" } else { "" };
+        format!(
+            "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+            escape(&k.name),
+            mm(k.in_sample.translation_rms_mm),
+            deg(k.in_sample.rotation_rms_deg),
+            mm(k.held_out.translation_rms_mm),
+            mm(k.touch_rms_mm),
+            mm(k.held_out_mm),
+            mm(k.predicted_tre_mm),
+        )
+    };
+    let rows: String = c.candidates.iter().map(row).collect();
+    let notes: String = c
+        .candidates
+        .iter()
+        .filter_map(|k| {
+            Some(format!(
+                "<p class=\"note\">{}: {}.</p>",
+                escape(&k.name),
+                escape(k.note.as_ref()?)
+            ))
+        })
+        .collect();
+    let table = format!(
+        "<div class=\"scroll\"><table><tr><th>candidate</th><th>captures<br>in sample, mm</th><th>in sample,<br>degrees</th>\
+         <th>captures<br>left out, mm</th><th>touches,<br>mm</th><th>not seen<br>before, mm</th><th>predicted<br>at work, mm</th></tr>{rows}</table></div>\
+         {notes}<p>{}.</p><p class=\"note\">All figures are root mean squares. The residual of what an answer was made from never \
+         chooses: it falls whenever more is fitted, also when the answer gets worse.</p>",
+        capital(&escape(&c.why))
+    );
+    section("Candidates side by side", "", &table)
+}
+
+fn captures(c: &Calibration) -> String {
+    if c.captures.is_empty() {
+        return String::new();
+    }
+    let bars: Vec<plot::Bar> = c
+        .captures
+        .iter()
+        .filter(|k| k.used)
+        .map(|k| plot::Bar {
+            name: k.id.clone(),
+            value: k.residual_mm.unwrap_or(0.0),
+            second: k.held_out_mm,
+        })
+        .collect();
+    let px = |v: Option<f64>| v.map_or("&ndash;".into(), |v| format!("{v:.3}"));
+    let row = |k: &CaptureResult| {
+        let class = if k.used { "" } else { "out" };
+        let reason = k.reason.as_deref().map_or(String::new(), escape);
+        format!(
+            "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"words\">{reason}</td></tr>",
+            escape(&k.id),
+            k.corners,
+            px(k.residual_px),
+            px(k.reprojection_px),
+            mm(k.residual_mm),
+            deg(k.residual_deg),
+            mm(k.held_out_mm)
+        )
+    };
+    let rows: String = c.captures.iter().map(row).collect();
+    let content = format!(
+        "{}<div class=\"scroll\"><table><tr><th>capture</th><th>corners</th><th>own pose,<br>px</th><th>through the<br>robot, px</th><th>misfit,<br>mm</th><th>misfit,<br>degrees</th><th>left out,<br>mm</th><th class=\"words\">why not used</th></tr>{rows}</table></div>\
+         <p class=\"note\">Misfit: by how much robot and camera disagree on where the target's first corner is. Left out: the \
+         same with an answer that has not seen the capture.</p>",
+        plot::bars(&bars, "mm", ("misfit", "left out"))
+    );
+    section("Captures", "long", &content)
+}
+
+fn touches(c: &Calibration) -> String {
+    if c.touches.is_empty() {
+        return String::new();
+    }
+    let bars: Vec<plot::Bar> = c
+        .touches
+        .iter()
+        .map(|t| plot::Bar {
+            name: format!("{} {}", t.capture, t.corner),
+            value: t.residual_mm,
+            second: None,
+        })
+        .collect();
+    let row = |t: &handeye::calibration::TouchResult| {
+        let d = t.difference_mm;
+        format!(
+            "<tr><td>{}</td><td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td></tr>",
+            escape(&t.capture),
+            t.corner,
+            t.residual_mm,
+            d.x,
+            d.y,
+            d.z
+        )
+    };
+    let rows: String = c.touches.iter().map(row).collect();
+    let content = format!(
+        "{}<div class=\"scroll\"><table><tr><th>placement</th><th>corner</th><th>distance, mm</th><th>x, mm</th><th>y, mm</th><th>z, mm</th></tr>{rows}</table></div>\
+         <p class=\"note\">Tip minus corner as the answer predicts it, in the base frame{}.</p>",
+        plot::bars(&bars, "mm", ("distance", "")),
+        if c.touches.iter().any(|t| t.used) {
+            "; the answer was made with these touches"
+        } else {
+            "; the answer has not seen these touches"
+        }
+    );
+    section("Touches", "", &content)
+}
+
+fn view(report: &Report) -> String {
+    let c = report.calibration;
+    let Some(scene) = scene::scene(c, report.target, report.camera, &report.touched) else {
+        return String::new();
+    };
+    let Ok(json) = serde_json::to_string(&scene) else { return String::new() };
+    let entry = |colour: &str, name: &str| {
+        format!("<span><i style=\"background:{colour}\"></i>{name}</span>")
+    };
+    let mut legend =
+        entry(scene::CAMERA, "camera") + &entry(scene::SEEN, "target as each capture saw it");
+    legend += &entry(scene::BOARD, "target where the answer puts it");
+    legend += &entry(scene::FLANGE, "flange poses (small axes)");
+    if !report.touched.is_empty() {
+        legend += &entry(scene::TOUCH, "touched points");
+    }
+    let content = format!(
+        "<canvas class=\"scene\" data-scene=\"scene\" aria-label=\"robot base, flange poses, camera and targets\"></canvas>\
+         <script type=\"application/json\" id=\"scene\">{}</script><div class=\"legend\">{legend}</div>\
+         <p class=\"note\">Drag to turn, wheel to zoom, shift-drag to move, double-click to reset. Axes: x red, y green, z blue.</p>",
+        json.replace("</", "<\\/")
+    );
+    section("The cell", "", &content)
+}
+
+fn diversity(c: &Calibration) -> String {
+    let mut content = String::new();
+    if let Some(d) = &c.diversity {
+        let _ = write!(
+            content,
+            "<p>{} captures; the largest rotation between two is {:.0} degrees; the robot travelled {:.0} x {:.0} x {:.0} mm.</p>{}\
+             <p class=\"note\">Rotations about one axis only leave the position along it free. The second bar should be above 0.05.</p>",
+            d.captures,
+            d.largest_rotation_deg,
+            d.travel_mm[0],
+            d.travel_mm[1],
+            d.travel_mm[2],
+            plot::shares(&[
+                ("first axis", d.axis_spread[0]),
+                ("second axis", d.axis_spread[1]),
+                ("third axis", d.axis_spread[2])
+            ]),
+        );
+    }
+    if !c.error_budget.is_empty() {
+        let row = |b: &handeye::calibration::BudgetEntry| {
+            format!(
+                "<tr><td>{}</td><td class=\"words\">{}</td></tr>",
+                escape(&b.source),
+                escape(&b.sigma)
+            )
+        };
+        let rows: String = c.error_budget.iter().map(row).collect();
+        let _ = write!(
+            content,
+            "<h3>Where the misfit comes from (estimated)</h3><table><tr><th>source</th><th class=\"words\">one standard deviation</th></tr>{rows}</table>"
+        );
+    }
+    if let Some(s) = &c.scale {
+        let _ = write!(
+            content,
+            "<p class=\"note\">Size of the target as the robot's motions see it: {:.4} &plusmn; {:.4} of the declared one.</p>",
+            s.value, s.sigma
+        );
+    }
+    if content.is_empty() { content } else { section("Poses and noise", "", &content) }
+}
+
+fn pictures(report: &Report) -> String {
+    if report.pictures.is_empty() {
+        return String::new();
+    }
+    let magnified = picture::magnification(&report.pictures);
+    let figures: String = report.pictures.iter().map(|p| p.figure(magnified)).collect();
+    let content = format!(
+        "<p class=\"note\">Detected corners (blue) and residuals (red) against the target seen from its own best pose, \
+         magnified {magnified:.0} times: an arrow as long as the bar in the corner is {:.2} px.</p><div class=\"pictures\">{figures}</div>",
+        picture::BAR_PX / magnified
+    );
+    section("Pictures", "long", &content)
+}
