@@ -3,14 +3,20 @@
 //! Units and conventions convert here, once: inside all is metres, radians and `a_from_b`. What a
 //! file does not prove and the user did not declare is refused with the question to answer.
 
+mod camera;
 mod error;
 mod files;
+mod image;
 mod npy;
 pub mod robot;
+mod scan;
 mod table;
 mod tree;
 pub mod units;
 mod xml;
 
+pub use camera::read_intrinsics;
 pub use error::{Error, Place};
 pub use files::write_atomically;
+pub use image::{image_size, read_image};
+pub use scan::{ScanOptions, read_scan};

@@ -128,7 +128,7 @@ mod tests {
     fn a_rounded_matrix_becomes_the_nearest_rotation() {
         let turn = UnitQuaternion::new(Vector3::new(0.0, 3.0, 0.4));
         let m = turn.to_rotation_matrix();
-        let r = |i: usize, j: usize| (m[(i, j)] * 1e4).round() / 1e4;
+        let r = |i: usize, j: usize| (m.matrix()[(i, j)] * 1e4_f64).round() / 1e4;
         let mut n = [0.0; 16];
         for i in 0..3 {
             for j in 0..3 {
