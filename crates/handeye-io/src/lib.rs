@@ -4,6 +4,7 @@
 //! file does not prove and the user did not declare is refused with the question to answer.
 
 mod camera;
+mod dataset;
 mod error;
 mod files;
 mod image;
@@ -16,6 +17,10 @@ pub mod units;
 mod xml;
 
 pub use camera::read_intrinsics;
+pub use dataset::{
+    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource, WorkspaceBox,
+    WorkspaceFrame,
+};
 pub use error::{Error, Place};
 pub use files::write_atomically;
 pub use image::{image_size, read_image};

@@ -38,7 +38,9 @@ impl Tree {
     }
 
     fn from_yaml(text: &str, path: &Path) -> Result<Tree, Error> {
-        serde_saphyr::from_str(text).map_err(|e| {
+        // y is a key of points, not a truth value
+        let options = serde_saphyr::options! { strict_booleans: true };
+        serde_saphyr::from_str_with_options(text, options).map_err(|e| {
             let line = e.location().map(|l| l.line() as usize);
             let what = e.to_string().lines().next().unwrap_or_default().to_string();
             let place = Place { line, ..Place::file(path) };
@@ -81,7 +83,7 @@ impl Tree {
     /// something else stands between them.
     pub(crate) fn numbers(&self) -> Option<Vec<f64>> {
         match self {
-            Tree::Number(x) => Some(vec![*x]),
+            Tree::Number(_) | Tree::Text(_) => Some(vec![self.number()?]),
             Tree::List(items) => {
                 let mut all = Vec::new();
                 for item in items {
@@ -142,8 +144,7 @@ impl<'de> Visitor<'de> for Reader {
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Tree, A::Error> {
         let (mut entries, mut seen) = (Vec::new(), HashSet::new());
-        while let Some(key) = map.next_key::<Tree>()? {
-            let key = key_text(&key);
+        while let Some(key) = map.next_key::<String>()? {
             if !seen.insert(key.clone()) {
                 return Err(de::Error::custom(format!("the key \"{key}\" appears twice")));
             }
@@ -153,25 +154,17 @@ impl<'de> Visitor<'de> for Reader {
     }
 }
 
-fn key_text(key: &Tree) -> String {
-    match key {
-        Tree::Text(text) => text.clone(),
-        Tree::Number(x) => x.to_string(),
-        Tree::Bool(b) => b.to_string(),
-        _ => String::new(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn opencv_yaml_is_read_with_its_odd_directive_and_tags() {
-        let text = "%YAML:1.0\n---\nn: 2\nK: !!opencv-matrix\n   rows: 1\n   cols: 2\n   dt: d\n   data: [ 1., 2.5e-1 ]\n";
+        let text = "%YAML:1.0\n---\ny: 2\n7: 3\nK: !!opencv-matrix\n   rows: 1\n   cols: 2\n   dt: d\n   data: [ 1., 2.5e-1 ]\n";
         let tree = Tree::from_yaml(text, Path::new("a.yml")).unwrap();
-        assert_eq!(tree.get("K").unwrap().numbers(), Some(vec![1.0, 0.25]));
-        assert_eq!(tree.get("n").unwrap().number(), Some(2.0));
+        assert_eq!(tree.get("K").and_then(Tree::numbers), Some(vec![1.0, 0.25]), "{tree:?}");
+        assert_eq!(tree.get("y").and_then(Tree::number), Some(2.0), "a key, no truth value");
+        assert_eq!(tree.get("7").and_then(Tree::number), Some(3.0));
     }
 
     #[test]
@@ -184,8 +177,8 @@ mod tests {
     }
 
     #[test]
-    fn yaml_not_a_number_stays_not_a_number() {
-        let tree = Tree::from_yaml("[.nan, 1]", Path::new("a.yaml")).unwrap();
-        assert!(tree.numbers().unwrap()[0].is_nan());
+    fn what_is_not_a_number_is_refused_by_its_line() {
+        let error = Tree::from_yaml("- 1\n- .nan\n", Path::new("a.yaml")).unwrap_err();
+        assert!(error.to_string().starts_with("a.yaml:2: is not YAML: "), "{error}");
     }
 }
