@@ -1,3 +1,28 @@
-//! Files in and out.
+//! What cameras, robots and teach pendants write, as handeye's types; results and reports back.
+//!
+//! Units and conventions convert here, once: inside all is metres, radians and `a_from_b`. What a
+//! file does not prove and the user did not declare is refused with the question to answer.
 
+mod camera;
+mod dataset;
+mod error;
+mod files;
+mod image;
+mod npy;
 pub mod report;
+pub mod robot;
+mod scan;
+mod table;
+mod tree;
+pub mod units;
+mod xml;
+
+pub use camera::read_intrinsics;
+pub use dataset::{
+    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource, WorkspaceBox,
+    WorkspaceFrame,
+};
+pub use error::{Error, Place};
+pub use files::write_atomically;
+pub use image::{image_size, read_image};
+pub use scan::{ScanOptions, read_scan};

@@ -53,12 +53,12 @@ impl Picture {
             }
         }
         let mut jpeg = Vec::new();
-        image::codecs::jpeg::JpegEncoder::new_with_quality(&mut jpeg, 72)
+        ::image::codecs::jpeg::JpegEncoder::new_with_quality(&mut jpeg, 72)
             .encode(
                 &small,
                 u32::try_from(w).ok()?,
                 u32::try_from(h).ok()?,
-                image::ExtendedColorType::L8,
+                ::image::ExtendedColorType::L8,
             )
             .ok()?;
         let shrink = 1.0 / factor as f64;

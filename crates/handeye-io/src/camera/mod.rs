@@ -1,0 +1,199 @@
+//! Intrinsics as calibration tools write them.
+
+mod found;
+mod numpy;
+mod trees;
+mod visp;
+
+use std::path::Path;
+
+use handeye::{Distortion, Intrinsics};
+use serde::Deserialize;
+
+use crate::{
+    error::{Error, Place, malformed},
+    files,
+    tree::Tree,
+};
+use found::Found;
+
+/// The intrinsics of a manifest: a file, or the values themselves, or both.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CameraSpec {
+    pub(crate) file: Option<String>,
+    pub(crate) camera: Option<String>,
+    pub(crate) width: Option<u32>,
+    pub(crate) height: Option<u32>,
+    pub(crate) fx: Option<f64>,
+    pub(crate) fy: Option<f64>,
+    pub(crate) cx: Option<f64>,
+    pub(crate) cy: Option<f64>,
+    pub(crate) distortion_model: Option<String>,
+    pub(crate) distortion: Option<Vec<f64>>,
+    pub(crate) resized: Option<f64>,
+}
+
+/// Pictures may differ from the calibrated size by the rounding of a resize, px.
+const ROUNDING_PX: u32 = 1;
+
+/// The intrinsics for pictures of size `picture`, if that is known.
+pub(crate) fn read(
+    spec: &CameraSpec,
+    root: &Path,
+    place: &Place,
+    picture: Option<(u32, u32)>,
+) -> Result<Intrinsics, Error> {
+    let found = match &spec.file {
+        Some(file) => in_file(&root.join(file), spec.camera.as_deref())?.overridden_by(spec),
+        None => Found::default().overridden_by(spec),
+    };
+    let camera = resized(found.intrinsics(place, picture, spec.resized)?, spec, picture, place)?;
+    camera.check().map_err(|source| Error::Values { place: place.clone(), source })?;
+    Ok(camera)
+}
+
+/// Reads the intrinsics of a calibration file; `camera` names one of several in it, `picture` is
+/// the size of the pictures, for files that do not say it.
+///
+/// # Errors
+/// What is no calibration, holds several cameras, or leaves the distortion model or the size open.
+pub fn read_intrinsics(
+    path: &Path,
+    camera: Option<&str>,
+    picture: Option<(u32, u32)>,
+) -> Result<Intrinsics, Error> {
+    let camera = camera.map(String::from);
+    let file = Some(path.to_string_lossy().into_owned());
+    let spec = CameraSpec { file, camera, ..CameraSpec::default() };
+    read(&spec, Path::new(""), &Place::file(path), picture)
+}
+
+fn in_file(path: &Path, camera: Option<&str>) -> Result<Found, Error> {
+    if files::extension(path) == "npz" {
+        return numpy::intrinsics(path);
+    }
+    let tree = Tree::read(path)?;
+    match visp::intrinsics(&tree, path)? {
+        Some(found) => Ok(found),
+        None => trees::intrinsics(&tree, camera, path),
+    }
+}
+
+/// Scales to the pictures' size where the manifest says they were resized.
+fn resized(
+    camera: Intrinsics,
+    spec: &CameraSpec,
+    picture: Option<(u32, u32)>,
+    place: &Place,
+) -> Result<Intrinsics, Error> {
+    let factor = spec.resized.unwrap_or(1.0);
+    if !(0.01..=100.0).contains(&factor) {
+        return Err(malformed(
+            place.clone(),
+            format!("resized = {factor}"),
+            "give picture width / calibrated width",
+        ));
+    }
+    let camera = if factor == 1.0 { camera } else { camera.resized(factor) };
+    let Some((width, height)) = picture else { return Ok(camera) };
+    if camera.width.abs_diff(width) > ROUNDING_PX || camera.height.abs_diff(height) > ROUNDING_PX {
+        let ratio = f64::from(width) / f64::from(camera.width) * factor;
+        return Err(malformed(
+            place.clone(),
+            format!(
+                "the intrinsics are for {} x {} pixels, but the pictures have {width} x {height}",
+                camera.width, camera.height
+            ),
+            format!(
+                "if the pictures were resized, say resized = {ratio:.4}; if they were cropped, \
+                 calibrate again"
+            ),
+        ));
+    }
+    Ok(Intrinsics { width, height, ..camera })
+}
+
+/// Distortion of a model's usual name and its coefficients.
+pub(crate) fn distortion(
+    model: Option<&str>,
+    k: &[f64],
+    place: &Place,
+) -> Result<Distortion, Error> {
+    let wrong = |what: String, advice: &str| Err(malformed(place.clone(), what, advice));
+    if k.iter().all(|x| *x == 0.0) {
+        return Ok(Distortion::None);
+    }
+    match model.map(|m| m.to_lowercase().replace([' ', '-'], "_")).as_deref() {
+        Some("equidistant" | "fisheye" | "kannala_brandt" | "kannalabrandt" | "kb4") => match *k {
+            [a, b, c, d] => Ok(Distortion::KannalaBrandt([a, b, c, d])),
+            _ => wrong(format!("{} coefficients for the equidistant model", k.len()), "it has 4"),
+        },
+        Some("none") => {
+            wrong("distortion_model = \"none\" with coefficients".into(), "say the model")
+        }
+        Some(
+            "plumb_bob"
+            | "radtan"
+            | "brown_conrady"
+            | "rational_polynomial"
+            | "opencv_standard"
+            | "opencv"
+            | "thin_prism",
+        ) => brown_conrady(k, place),
+        Some(other) => wrong(
+            format!("the distortion model \"{other}\" is not known"),
+            "there are none, plumb_bob, rational_polynomial and equidistant; or calibrate again",
+        ),
+        None if k.len() == 4 => Err(Error::Undeclared {
+            place: place.clone(),
+            key: "distortion_model".into(),
+            question: "are the 4 coefficients k1 k2 p1 p2 (\"plumb_bob\") or those of a fisheye \
+                       lens (\"equidistant\")?"
+                .into(),
+        }),
+        None => brown_conrady(k, place),
+    }
+}
+
+/// OpenCV's order; a tilted sensor is not modelled.
+fn brown_conrady(k: &[f64], place: &Place) -> Result<Distortion, Error> {
+    let tilted = k.len() == 14 && k[12..].iter().any(|t| *t != 0.0);
+    if tilted || !matches!(k.len(), 1 | 2 | 4 | 5 | 8 | 12 | 14) {
+        let what = format!("{} distortion coefficients", k.len());
+        let advice = "4, 5, 8 or 12 in OpenCV's order are understood (a tilted sensor is not)";
+        return Err(malformed(place.clone(), what, advice));
+    }
+    let mut all = [0.0; 12];
+    all.iter_mut().zip(k).for_each(|(to, from)| *to = *from);
+    Ok(Distortion::BrownConrady(all))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_coefficients_without_a_model_are_a_question() {
+        let message = distortion(None, &[0.1, 0.0, 0.0, 0.0], &Place::default()).unwrap_err();
+        assert!(
+            message.to_string().contains("distortion_model is missing; are the 4 coefficients")
+        );
+    }
+
+    #[test]
+    fn zeros_are_no_distortion() {
+        assert_eq!(distortion(None, &[0.0; 4], &Place::default()).unwrap(), Distortion::None);
+    }
+
+    #[test]
+    fn pictures_of_another_size_are_refused_with_the_factor() {
+        let camera = Intrinsics::pinhole(1920, 1080, 1500.0, 1500.0, 960.0, 540.0);
+        let spec = CameraSpec::default();
+        let error = resized(camera, &spec, Some((1280, 720)), &Place::default()).unwrap_err();
+        assert!(error.to_string().contains("say resized = 0.6667"), "{error}");
+        let spec = CameraSpec { resized: Some(0.6667), ..spec };
+        let small = resized(camera, &spec, Some((1280, 720)), &Place::default()).unwrap();
+        assert_eq!((small.width, small.height), (1280, 720));
+    }
+}

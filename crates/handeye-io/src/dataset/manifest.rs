@@ -1,0 +1,381 @@
+//! The manifest `handeye.toml`, key by key, and where each key stands.
+
+use std::path::PathBuf;
+
+use handeye::{Setup, TargetModel};
+use serde::Deserialize;
+use toml::de::{DeTable, DeValue};
+
+use crate::{
+    camera::CameraSpec,
+    error::{Error, Place, malformed, nearest},
+    robot::DhSpec,
+    table::{Column, Layout},
+    units::{AngleUnit, LengthUnit},
+};
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Manifest {
+    pub(super) setup: Setup,
+    pub(super) target: Option<TargetModel>,
+    pub(super) camera: Option<CameraSpec>,
+    pub(super) robot: Option<RobotSpec>,
+    pub(super) images: Option<ImagesSpec>,
+    pub(super) scans: Option<ScansSpec>,
+    pub(super) board_poses: Option<BoardPosesSpec>,
+    pub(super) corners: Option<CornersSpec>,
+    pub(super) point_pairs: Option<PointPairsSpec>,
+    #[serde(default)]
+    pub(super) captures: CapturesSpec,
+    #[serde(default)]
+    pub(super) placements: Vec<PlacementSpec>,
+    pub(super) touches: Option<TouchesSpec>,
+    pub(super) workspace: Option<WorkspaceSpec>,
+    #[serde(default)]
+    pub(super) noise: NoiseSpec,
+    #[serde(default)]
+    pub(super) limits: LimitsSpec,
+}
+
+/// One name or several.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Fields {
+    One(String),
+    Several(Vec<String>),
+}
+
+/// A name of a file, or the content itself.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+pub(super) enum FileOr<T> {
+    File(String),
+    Inline(T),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum RobotDirection {
+    BaseFromFlange,
+    FlangeFromBase,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum BoardDirection {
+    CameraFromTarget,
+    TargetFromCamera,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum PoseFrame {
+    #[default]
+    Flange,
+    Tool,
+}
+
+/// A table of poses: the keys that [robot] and [board_poses] share.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PoseTable {
+    pub(super) poses: String,
+    pub(super) field: Option<Fields>,
+    pub(super) notation: Option<String>,
+    pub(super) length_unit: Option<LengthUnit>,
+    pub(super) angle_unit: Option<AngleUnit>,
+    pub(super) rows: Option<String>,
+    pub(super) columns: Vec<Column>,
+    pub(super) skip_header: usize,
+    pub(super) dh: Option<FileOr<DhSpec>>,
+}
+
+macro_rules! pose_table { ($Spec:ident { $($field:ident: $Kind:ty,)* }) => {
+    #[derive(Debug, Clone, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    pub(super) struct $Spec {
+        pub(super) poses: String,
+        field: Option<Fields>,
+        notation: Option<String>,
+        length_unit: Option<LengthUnit>,
+        angle_unit: Option<AngleUnit>,
+        rows: Option<String>,
+        #[serde(default)]
+        columns: Vec<Column>,
+        #[serde(default)]
+        skip_header: usize,
+        $(#[serde(default)] pub(super) $field: $Kind,)*
+    }
+    impl $Spec {
+        pub(super) fn table(&self) -> PoseTable {
+            PoseTable {
+                poses: self.poses.clone(),
+                field: self.field.clone(),
+                notation: self.notation.clone(),
+                length_unit: self.length_unit,
+                angle_unit: self.angle_unit,
+                rows: self.rows.clone(),
+                columns: self.columns.clone(),
+                skip_header: self.skip_header,
+                dh: None,
+            }
+        }
+    }
+} }
+
+pose_table!(RobotSpec {
+    direction: Option<RobotDirection>,
+    frame: PoseFrame,
+    tool: Option<ToolSpec>,
+    dh: Option<FileOr<DhSpec>>,
+});
+pose_table!(BoardPosesSpec {
+    direction: Option<BoardDirection>,
+});
+
+/// Where the tool sits on the flange.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ToolSpec {
+    pub(super) translation_mm: [f64; 3],
+    pub(super) rotation_xyzw: [f64; 4],
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ImagesSpec {
+    pub(super) files: String,
+    pub(super) bit_depth: Option<u32>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ScansSpec {
+    pub(super) files: String,
+    pub(super) length_unit: Option<LengthUnit>,
+    pub(super) depth_scale: Option<f64>,
+    pub(super) organised: Option<(usize, usize)>,
+    pub(super) camera: Option<CameraSpec>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum PixelOrigin {
+    Centre,
+    Corner,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CornersSpec {
+    pub(super) files: String,
+    pub(super) pixel_origin: Option<PixelOrigin>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PointPairsSpec {
+    pub(super) camera: PointsSpec,
+    pub(super) robot: PointsSpec,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PointsSpec {
+    pub(super) file: String,
+    pub(super) field: Option<Fields>,
+    pub(super) length_unit: Option<LengthUnit>,
+    #[serde(default)]
+    pub(super) columns: Vec<Column>,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Pairing {
+    #[default]
+    Order,
+    Number,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CapturesSpec {
+    #[serde(default)]
+    pub(super) pairing: Pairing,
+    #[serde(default)]
+    pub(super) exclude: Vec<String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlacementSpec {
+    pub(super) id: String,
+    pub(super) image: Option<String>,
+    pub(super) scan: Option<String>,
+    pub(super) corners: Option<String>,
+    pub(super) board_pose: Option<Vec<f64>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum TouchKind {
+    Tip,
+    FlangePose,
+    Joints,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TouchesSpec {
+    pub(super) file: Option<String>,
+    pub(super) field: Option<Fields>,
+    pub(super) kind: Option<TouchKind>,
+    pub(super) notation: Option<String>,
+    pub(super) length_unit: Option<LengthUnit>,
+    pub(super) angle_unit: Option<AngleUnit>,
+    pub(super) tip: Option<TipSpec>,
+    #[serde(default)]
+    pub(super) points: Vec<TouchPoint>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TipSpec {
+    pub(super) in_flange_mm: [f64; 3],
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TouchPoint {
+    pub(super) placement: Option<String>,
+    pub(super) corner: Option<u32>,
+    pub(super) row: Option<u32>,
+    pub(super) column: Option<u32>,
+    pub(super) values: Vec<f64>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WorkspaceSpec {
+    pub(super) frame: super::WorkspaceFrame,
+    pub(super) minimum_mm: [f64; 3],
+    pub(super) maximum_mm: [f64; 3],
+}
+
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct NoiseSpec {
+    pub(super) image_px: Option<f64>,
+    pub(super) robot_position_mm: Option<f64>,
+    pub(super) robot_rotation_deg: Option<f64>,
+    pub(super) depth_mm: Option<f64>,
+    pub(super) touch_mm: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LimitsSpec {
+    pub(super) max_error_mm: Option<f64>,
+}
+
+impl Manifest {
+    /// Reads the text of a manifest; every error has its line.
+    pub(super) fn parse(source: &Source) -> Result<Manifest, Error> {
+        toml::from_str(&source.text).map_err(|e| {
+            let line = e.span().map(|span| source.line_at(span.start));
+            let place = Place { line, ..Place::file(&source.path) };
+            let what = e.message().trim().replace('\n', " ");
+            malformed(place, what, advice(e.message()))
+        })
+    }
+}
+
+/// The key that was probably meant, out of a message that lists all of them.
+fn advice(message: &str) -> String {
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let near = match &quoted[..] {
+        [wrong, known @ ..] if message.starts_with("unknown") => {
+            nearest(wrong, known.iter().copied())
+        }
+        _ => None,
+    };
+    near.map_or("correct the manifest".into(), |key| format!("did you mean {key}?"))
+}
+
+/// A manifest's text, for finding its lines.
+pub(super) struct Source {
+    pub(super) path: PathBuf,
+    pub(super) text: String,
+}
+
+impl Source {
+    fn line_at(&self, byte: usize) -> usize {
+        1 + self.text.as_bytes()[..byte.min(self.text.len())]
+            .iter()
+            .filter(|b| **b == b'\n')
+            .count()
+    }
+
+    /// Where a key like `robot.length_unit` stands, or the nearest table around it.
+    pub(super) fn place(&self, key: &str) -> Place {
+        let byte = DeTable::parse(&self.text).ok().and_then(|table| position(table.get_ref(), key));
+        Place {
+            file: self.path.clone(),
+            line: byte.map(|b| self.line_at(b)),
+            field: Some(key.into()),
+        }
+    }
+
+    /// An error about a key that is missing.
+    pub(super) fn undeclared(&self, key: &str, question: &str) -> Error {
+        let place = Place { field: None, ..self.place(key) };
+        Error::Undeclared { place, key: key.into(), question: question.into() }
+    }
+}
+
+fn position(table: &DeTable, key: &str) -> Option<usize> {
+    let (first, rest) = key.split_once('.').unwrap_or((key, ""));
+    let (found, value) = table.iter().find(|(k, _)| k.get_ref() == first)?;
+    let inner = match value.get_ref() {
+        DeValue::Table(inner) if !rest.is_empty() => position(inner, rest),
+        _ => None,
+    };
+    inner.or(Some(found.span().start))
+}
+
+impl PoseTable {
+    /// Which records and values of the files are meant; `at` is the manifest's table.
+    pub(super) fn layout(
+        &self,
+        matrices: bool,
+        at: &str,
+        source: &Source,
+    ) -> Result<Layout, Error> {
+        let rows = self.rows.as_deref().map(|rows| row_range(rows, at, source)).transpose()?;
+        Ok(Layout {
+            fields: fields(&self.field),
+            rows,
+            columns: self.columns.clone(),
+            skip_lines: self.skip_header,
+            matrices,
+        })
+    }
+}
+
+pub(super) fn fields(field: &Option<Fields>) -> Vec<String> {
+    match field {
+        None => vec![],
+        Some(Fields::One(one)) => vec![one.clone()],
+        Some(Fields::Several(several)) => several.clone(),
+    }
+}
+
+fn row_range(rows: &str, at: &str, source: &Source) -> Result<(usize, usize), Error> {
+    let range = rows.split_once("..").and_then(|(first, last)| {
+        Some((first.trim().parse().ok()?, last.trim_start_matches('=').trim().parse().ok()?))
+    });
+    range.ok_or_else(|| {
+        let place = source.place(&format!("{at}.rows"));
+        malformed(place, format!("rows = \"{rows}\" is no range"), "write rows = \"1..52\"")
+    })
+}

@@ -1,0 +1,236 @@
+//! Poses of the robot and of the board, out of the tables that a manifest names.
+
+use std::path::Path;
+
+use handeye::{Base, Camera, Flange, Pose, Target, Tool, Warning};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+
+use super::manifest::{
+    BoardDirection, BoardPosesSpec, FileOr, PoseFrame, PoseTable, RobotDirection, RobotSpec, Source,
+};
+use crate::{
+    error::{Error, Place, malformed},
+    files,
+    robot::{DhModel, Notation, Rotation, Units, suspicious_values},
+    table::{self, Layout, Record},
+    units::AngleUnit,
+};
+
+/// A pose and the name and place it has in its file.
+#[derive(Debug, Clone)]
+pub(super) struct Named<T> {
+    pub(super) id: Option<String>,
+    pub(super) place: Place,
+    pub(super) value: T,
+}
+
+/// How the numbers of a table become a pose.
+pub(super) enum Reading {
+    Notation(Notation, Units),
+    Joints(DhModel, AngleUnit),
+}
+
+impl Reading {
+    /// From the keys `notation`, `length_unit`, `angle_unit` and `dh` of the table `at`.
+    pub(super) fn of(
+        table: &PoseTable,
+        at: &str,
+        source: &Source,
+        root: &Path,
+    ) -> Result<Reading, Error> {
+        let key = |name: &str| format!("{at}.{name}");
+        let name = table.notation.as_deref().ok_or_else(|| {
+            source.undeclared(
+                &key("notation"),
+                "how are the poses written? (ur, kuka, abb, matrix4x4, quaternion-xyzw, joints, ...)",
+            )
+        })?;
+        if name == "joints" {
+            return joints(table, at, source, root);
+        }
+        let notation = Notation::named(name).map_err(|known| {
+            malformed(
+                source.place(&key("notation")),
+                format!("the notation \"{name}\" is not known"),
+                known,
+            )
+        })?;
+        let length = table.length_unit.or(notation.length_unit).ok_or_else(|| {
+            let question = "are the positions in \"m\", \"mm\", \"cm\" or \"inch\"?";
+            source.undeclared(&key("length_unit"), question)
+        })?;
+        let units = Units { length, angle: table.angle_unit.unwrap_or(notation.angle_unit) };
+        Ok(Reading::Notation(notation, units))
+    }
+
+    fn is_matrix(&self) -> bool {
+        matches!(self, Reading::Notation(n, _) if n.rotation == Rotation::Matrix)
+    }
+
+    /// The raw numbers of a record, in order.
+    pub(super) fn numbers(&self, record: &Record) -> Result<Vec<f64>, Error> {
+        match self {
+            Reading::Notation(notation, _) => notation.numbers(record),
+            Reading::Joints(model, _) => model.values(record),
+        }
+    }
+
+    /// The pose of raw numbers; `a_from_b` is what the table's direction says.
+    pub(super) fn pose(&self, numbers: &[f64], place: &Place) -> Result<Isometry3<f64>, Error> {
+        match self {
+            Reading::Notation(notation, units) => notation.pose(numbers, *units).map_err(|what| {
+                let advice = "correct the file, the notation or its column order";
+                malformed(place.clone(), what, advice)
+            }),
+            Reading::Joints(model, unit) => Ok(*model.base_from_flange(numbers, *unit).iso()),
+        }
+    }
+}
+
+fn joints(table: &PoseTable, at: &str, source: &Source, root: &Path) -> Result<Reading, Error> {
+    let place = source.place(&format!("{at}.dh"));
+    let model = match &table.dh {
+        Some(FileOr::File(file)) => DhModel::read(&root.join(file))?,
+        Some(FileOr::Inline(spec)) => DhModel::from_spec(spec, &place)?,
+        None => {
+            let question =
+                "which Denavit-Hartenberg parameters has the robot? (a JSON file, or [robot.dh])";
+            return Err(source.undeclared(&format!("{at}.dh"), question));
+        }
+    };
+    let unit = table.angle_unit.ok_or_else(|| {
+        source.undeclared(
+            &format!("{at}.angle_unit"),
+            "are the joint angles in \"deg\" or in \"rad\"?",
+        )
+    })?;
+    Ok(Reading::Joints(model, unit))
+}
+
+/// The records of a file, or one record of each file of a pattern.
+pub(super) fn records(
+    pattern: &str,
+    layout: &Layout,
+    root: &Path,
+    place: &Place,
+) -> Result<Vec<Record>, Error> {
+    let paths = files::expand(root, pattern, place)?;
+    if files::is_pattern(pattern) {
+        return table::record_per_file(&paths, layout);
+    }
+    table::records(&paths[0], layout)
+}
+
+fn read(
+    table: &PoseTable,
+    at: &str,
+    source: &Source,
+    root: &Path,
+) -> Result<(Vec<Named<Isometry3<f64>>>, Vec<Warning>), Error> {
+    let reading = Reading::of(table, at, source, root)?;
+    let place = source.place(&format!("{at}.poses"));
+    let layout = table.layout(reading.is_matrix(), at, source)?;
+    let records = records(&table.poses, &layout, root, &place)?;
+    let numbers: Vec<Vec<f64>> =
+        records.iter().map(|r| reading.numbers(r)).collect::<Result<_, _>>()?;
+    let pose = |(record, numbers): (Record, &Vec<f64>)| {
+        let value = reading.pose(numbers, &record.place)?;
+        Ok(Named { id: record.id, place: record.place, value })
+    };
+    let poses = records.into_iter().zip(&numbers).map(pose).collect::<Result<_, Error>>()?;
+    let warnings = match &reading {
+        Reading::Notation(notation, units) => suspicious_values(&numbers, notation, *units, &place),
+        Reading::Joints(..) => vec![],
+    };
+    Ok((poses, warnings))
+}
+
+/// What the robot reported, one per record.
+pub(super) fn of_robot(
+    spec: &RobotSpec,
+    source: &Source,
+    root: &Path,
+) -> Result<(Vec<Named<Pose<Base, Flange>>>, Vec<Warning>), Error> {
+    let direction = spec.direction.ok_or_else(|| {
+        source.undeclared(
+            "robot.direction",
+            "do the poses take points of the flange into the base (\"base_from_flange\": where the \
+             flange is, what controllers show), or the other way (\"flange_from_base\")?",
+        )
+    })?;
+    let flange_from_tool = tool(spec, source)?;
+    let (poses, warnings) =
+        read(&PoseTable { dh: spec.dh.clone(), ..spec.table() }, "robot", source, root)?;
+    let convert = |named: Named<Isometry3<f64>>| {
+        let iso = match direction {
+            RobotDirection::BaseFromFlange => named.value,
+            RobotDirection::FlangeFromBase => named.value.inverse(),
+        };
+        let base_from_tool = Pose::<Base, Tool>::claim(iso);
+        Named {
+            value: base_from_tool * flange_from_tool.inverse(),
+            id: named.id,
+            place: named.place,
+        }
+    };
+    Ok((poses.into_iter().map(convert).collect(), warnings))
+}
+
+/// The tool whose poses are recorded; the flange itself unless the manifest says otherwise.
+fn tool(spec: &RobotSpec, source: &Source) -> Result<Pose<Flange, Tool>, Error> {
+    match (spec.frame, &spec.tool) {
+        (PoseFrame::Flange, None) => Ok(Pose::identity()),
+        (PoseFrame::Flange, Some(_)) => Err(source.undeclared(
+            "robot.frame",
+            "[robot.tool] is given: are the poses those of the \"flange\" or of the \"tool\"?",
+        )),
+        (PoseFrame::Tool, None) => Err(source.undeclared(
+            "robot.tool",
+            "where is the tool on the flange? (translation_mm and rotation_xyzw)",
+        )),
+        (PoseFrame::Tool, Some(tool)) => {
+            let [x, y, z, w] = tool.rotation_xyzw;
+            let q = Quaternion::new(w, x, y, z);
+            let finite = tool.translation_mm.iter().all(|t| t.is_finite());
+            if !finite || !((q.norm() - 1.0).abs() <= 1e-3) {
+                let what = format!(
+                    "the quaternion's length is {}, not 1, or a number is not finite",
+                    q.norm()
+                );
+                return Err(malformed(source.place("robot.tool"), what, "correct the tool"));
+            }
+            let translation = Translation3::from(tool.translation_mm.map(|t| t / 1000.0));
+            Ok(Pose::claim(Isometry3::from_parts(translation, UnitQuaternion::from_quaternion(q))))
+        }
+    }
+}
+
+/// Poses of the board that someone else's detector found.
+pub(super) fn of_board(
+    spec: &BoardPosesSpec,
+    source: &Source,
+    root: &Path,
+) -> Result<(Vec<Named<Pose<Camera, Target>>>, Vec<Warning>), Error> {
+    let (poses, warnings) = read(&spec.table(), "board_poses", source, root)?;
+    let convert = |n: Named<Isometry3<f64>>| {
+        Ok(Named { value: board_pose(n.value, spec, source)?, id: n.id, place: n.place })
+    };
+    Ok((poses.into_iter().map(convert).collect::<Result<_, Error>>()?, warnings))
+}
+
+/// A pose in the direction that [board_poses] declares.
+pub(super) fn board_pose(
+    iso: Isometry3<f64>,
+    spec: &BoardPosesSpec,
+    source: &Source,
+) -> Result<Pose<Camera, Target>, Error> {
+    match spec.direction {
+        Some(BoardDirection::CameraFromTarget) => Ok(Pose::claim(iso)),
+        Some(BoardDirection::TargetFromCamera) => Ok(Pose::claim(iso.inverse())),
+        None => Err(source.undeclared(
+            "board_poses.direction",
+            "do the poses take points of the board into the camera (\"camera_from_target\", what \
+             OpenCV's solvePnP gives), or the other way (\"target_from_camera\")?",
+        )),
+    }
+}

@@ -1,0 +1,194 @@
+//! Why a file cannot be used: where, what, and what to do next.
+
+use std::{
+    fmt, io,
+    path::{Path, PathBuf},
+};
+
+/// Where in the input something stands.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Place {
+    /// The file.
+    pub file: PathBuf,
+    /// Its line, counted from 1.
+    pub line: Option<usize>,
+    /// The key or the path of the value in a structured file.
+    pub field: Option<String>,
+}
+
+impl Place {
+    /// A whole file.
+    pub fn file(path: &Path) -> Self {
+        Self { file: path.into(), ..Self::default() }
+    }
+    /// A line of a file, counted from 1.
+    pub fn line(path: &Path, line: usize) -> Self {
+        Self { line: Some(line), ..Self::file(path) }
+    }
+    /// A value of a structured file.
+    pub fn field(path: &Path, field: impl Into<String>) -> Self {
+        Self { field: Some(field.into()), ..Self::file(path) }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}", self.file.display())?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        match &self.field {
+            Some(field) => write!(f, " [{field}]"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Why a file cannot be used or written. Every message says where, what, and what to do.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The operating system does not give the file.
+    #[error("{}: {}", path.display(), reading(source))]
+    Read {
+        /// Which file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The operating system does not take the file.
+    #[error("{}: cannot be written: {source}; check the folder, its permissions and the free space", path.display())]
+    Write {
+        /// Which file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The content is not what it should be.
+    #[error("{place}: {what}; {advice}")]
+    Malformed {
+        /// Where.
+        place: Place,
+        /// What was wrong.
+        what: String,
+        /// What to do.
+        advice: String,
+    },
+    /// Something that decides the numbers was not declared and cannot be proven.
+    #[error("{place}: {key} is missing; {question}")]
+    Undeclared {
+        /// Where it belongs.
+        place: Place,
+        /// The manifest's key.
+        key: String,
+        /// The question to answer.
+        question: String,
+    },
+    /// A size that is refused before any memory is taken.
+    #[error("{place}: {what} is {found}, more than the limit of {limit}; {advice}")]
+    TooLarge {
+        /// Where.
+        place: Place,
+        /// Which quantity.
+        what: String,
+        /// Its value.
+        found: u64,
+        /// What is accepted.
+        limit: u64,
+        /// What to do.
+        advice: String,
+    },
+    /// Two lists that belong together differ in length.
+    #[error("{place}: {left} {left_name} but {right} {right_name}; {advice}")]
+    CountMismatch {
+        /// Where they are named.
+        place: Place,
+        /// Length of the first.
+        left: usize,
+        /// What the first holds.
+        left_name: String,
+        /// Length of the second.
+        right: usize,
+        /// What the second holds.
+        right_name: String,
+        /// What to do.
+        advice: String,
+    },
+    /// A pattern that names no file.
+    #[error("{place}: no file matches \"{pattern}\" below {}; check the name and the folder", root.display())]
+    NoFiles {
+        /// Where the pattern stands.
+        place: Place,
+        /// The pattern.
+        pattern: String,
+        /// The folder it was looked for in.
+        root: PathBuf,
+    },
+    /// Values that the core refuses.
+    #[error("{place}: {source}")]
+    Values {
+        /// Where they come from.
+        place: Place,
+        /// What the core said.
+        source: handeye::Error,
+    },
+}
+
+fn reading(source: &io::Error) -> String {
+    match source.kind() {
+        io::ErrorKind::NotFound => "does not exist; check the name and the folder".into(),
+        io::ErrorKind::PermissionDenied => "may not be read; check its permissions".into(),
+        _ => format!("cannot be read: {source}; check the file"),
+    }
+}
+
+/// Shorthand for [`Error::Malformed`].
+pub(crate) fn malformed(place: Place, what: impl Into<String>, advice: impl Into<String>) -> Error {
+    Error::Malformed { place, what: what.into(), advice: advice.into() }
+}
+
+/// The candidate nearest to a misspelt word, if one is near.
+pub(crate) fn nearest<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    candidates
+        .into_iter()
+        .map(|c| (edit_distance(&word.to_lowercase(), &c.to_lowercase()), c))
+        .min_by_key(|(d, _)| *d)
+        .filter(|(d, c)| *d <= 1 + c.len().min(word.len()) / 3)
+        .map(|(_, c)| c)
+}
+
+/// Levenshtein distance of two short words.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().take(64).collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().take(64).enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let change = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = change.min(row[j] + 1).min(row[j + 1] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_reads_like_a_compiler_message() {
+        let place = Place { line: Some(3), ..Place::field(Path::new("a.csv"), "x") };
+        assert_eq!(place.to_string(), "a.csv:3 [x]");
+    }
+
+    #[test]
+    fn the_nearest_word_is_offered_only_when_it_is_near() {
+        assert_eq!(nearest("lenght_unit", ["length_unit", "angle_unit"]), Some("length_unit"));
+        assert_eq!(nearest("colour", ["length_unit", "angle_unit"]), None);
+    }
+}

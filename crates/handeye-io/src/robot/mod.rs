@@ -1,0 +1,270 @@
+//! How robots write a pose. A notation is data: its columns, its units, and how its last numbers
+//! make a rotation; a file per maker says them. Reading and writing use the same data.
+
+mod abb;
+mod denso;
+mod dh;
+mod doosan;
+mod euler;
+mod fanuc;
+mod generic;
+mod kawasaki;
+mod kuka;
+mod rotation;
+mod staubli;
+mod suspicion;
+mod universal_robots;
+mod yaskawa;
+
+use nalgebra::{Isometry3, Translation3};
+
+use crate::{
+    error::nearest,
+    table::Record,
+    units::{AngleUnit, LengthUnit},
+};
+pub(crate) use dh::{DhModel, DhSpec};
+pub use euler::{Axes, Sense};
+pub use rotation::Rotation;
+pub(crate) use suspicion::suspicious_values;
+
+/// What a number of a notation measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// A length.
+    Length,
+    /// An angle.
+    Angle,
+    /// A number without unit.
+    Plain,
+}
+
+/// One number of a notation: its usual names and what it measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Column {
+    /// Usual names; the first is the maker's.
+    pub names: &'static [&'static str],
+    /// What it measures.
+    pub quantity: Quantity,
+}
+
+/// How a robot writes a pose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Notation {
+    /// Its name in a manifest.
+    pub name: String,
+    /// Its numbers in order.
+    pub columns: &'static [Column],
+    /// The maker's unit; `None` where the data must say it.
+    pub length_unit: Option<LengthUnit>,
+    /// The maker's unit.
+    pub angle_unit: AngleUnit,
+    /// How the rotation is written.
+    pub rotation: Rotation,
+}
+
+const fn length(names: &'static [&'static str]) -> Column {
+    Column { names, quantity: Quantity::Length }
+}
+const fn angle(names: &'static [&'static str]) -> Column {
+    Column { names, quantity: Quantity::Angle }
+}
+const fn plain(names: &'static [&'static str]) -> Column {
+    Column { names, quantity: Quantity::Plain }
+}
+
+const X: Column = length(&["x", "tx", "t_x", "px", "pos_x", "position.x", "translation.x", "p_x"]);
+const Y: Column = length(&["y", "ty", "t_y", "py", "pos_y", "position.y", "translation.y", "p_y"]);
+const Z: Column = length(&["z", "tz", "t_z", "pz", "pos_z", "position.z", "translation.z", "p_z"]);
+
+/// Names of all notations, without the 24 Euler ones.
+pub const NAMES: [&str; 15] = [
+    "matrix4x4",
+    "quaternion-xyzw",
+    "quaternion-wxyz",
+    "rotation-vector",
+    "ur",
+    "ur-rpy",
+    "kuka",
+    "fanuc",
+    "abb",
+    "yaskawa",
+    "kawasaki",
+    "staubli",
+    "doosan",
+    "denso",
+    "joints",
+];
+
+impl Notation {
+    /// The notation of a name, such as `kuka` or `euler-zyx-intrinsic`; `Err` says which there are.
+    pub fn named(name: &str) -> Result<Notation, String> {
+        let found = match name {
+            "matrix4x4" => generic::matrix(),
+            "quaternion-xyzw" => generic::quaternion_xyzw(),
+            "quaternion-wxyz" => generic::quaternion_wxyz(),
+            "rotation-vector" => generic::rotation_vector(),
+            "ur" => universal_robots::pose(),
+            "ur-rpy" => universal_robots::rpy(),
+            "kuka" => kuka::notation(),
+            "fanuc" => fanuc::notation(),
+            "abb" => abb::notation(),
+            "yaskawa" => yaskawa::notation(),
+            "kawasaki" => kawasaki::notation(),
+            "staubli" => staubli::notation(),
+            "doosan" => doosan::notation(),
+            "denso" => denso::notation(),
+            other => return generic::euler(other).ok_or_else(|| unknown(other)),
+        };
+        Ok(found)
+    }
+
+    /// Values in the notation's order, in the given units, as a pose in metres and radians.
+    pub fn pose(&self, values: &[f64], units: Units) -> Result<Isometry3<f64>, String> {
+        let si: Vec<f64> =
+            self.columns.iter().zip(values).map(|(c, v)| units.to_si(c, *v)).collect();
+        if si.len() != values.len() || si.len() < self.columns.len() {
+            return Err(format!("{} values are not a {} pose", values.len(), self.name));
+        }
+        let (position, rotation) = self.rotation.split(&si);
+        Ok(Isometry3::from_parts(Translation3::from(position), self.rotation.read(&rotation)?))
+    }
+
+    /// A pose in the notation's numbers, in order and in the given units.
+    pub fn values(&self, pose: &Isometry3<f64>, units: Units) -> Vec<f64> {
+        let si = self.rotation.join(&pose.translation.vector, &self.rotation.write(&pose.rotation));
+        self.columns.iter().zip(si).map(|(c, v)| units.from_si(c, v)).collect()
+    }
+
+    /// The maker's units, metres where there are none.
+    pub fn own_units(&self) -> Units {
+        Units { length: self.length_unit.unwrap_or(LengthUnit::Metre), angle: self.angle_unit }
+    }
+
+    /// The numbers of a record, in the notation's order.
+    pub(crate) fn numbers(&self, record: &Record) -> Result<Vec<f64>, crate::Error> {
+        // a matrix without its last row
+        if matches!(self.rotation, Rotation::Matrix) && record.cells.len() == 12 {
+            let names: Vec<_> = self.columns[..12].iter().map(|c| c.names).collect();
+            let mut numbers = record.numbers(&names, &self.name)?;
+            numbers.extend([0.0, 0.0, 0.0, 1.0]);
+            return Ok(numbers);
+        }
+        let names: Vec<_> = self.columns.iter().map(|c| c.names).collect();
+        record.numbers(&names, &self.name)
+    }
+}
+
+fn unknown(name: &str) -> String {
+    let near = nearest(name, NAMES).map(|n| format!("did you mean {n}? ")).unwrap_or_default();
+    format!(
+        "{near}there are {}, and euler-<axes>-intrinsic or euler-<axes>-extrinsic",
+        NAMES.join(", ")
+    )
+}
+
+/// The units of a pose's numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Units {
+    /// Of its lengths.
+    pub length: LengthUnit,
+    /// Of its angles.
+    pub angle: AngleUnit,
+}
+
+impl Units {
+    /// A number in metres, radians or without unit.
+    fn to_si(self, column: &Column, value: f64) -> f64 {
+        match column.quantity {
+            Quantity::Length => self.length.to_metres(value),
+            Quantity::Angle => self.angle.to_radians(value),
+            Quantity::Plain => value,
+        }
+    }
+
+    fn from_si(self, column: &Column, value: f64) -> f64 {
+        match column.quantity {
+            Quantity::Length => value / self.length.metres(),
+            Quantity::Angle => self.angle.from_radians(value),
+            Quantity::Plain => value,
+        }
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+    use std::f64::consts::PI;
+
+    /// A notation reads hand-computed lines as these positions (m) and rotation matrices.
+    pub(crate) fn reads(notation: &Notation, cases: &[(&[f64], [f64; 3], [f64; 9])]) {
+        for (values, position, matrix) in cases {
+            let pose = notation.pose(values, notation.own_units()).unwrap();
+            let rotation = pose.rotation.to_rotation_matrix().into_inner();
+            let apart = (rotation - Matrix3::from_row_slice(matrix)).norm();
+            assert!(apart < 1e-12, "{}: {values:?} gives {rotation}", notation.name);
+            assert!((pose.translation.vector - Vector3::from(*position)).norm() < 1e-12);
+        }
+        round_trip(notation);
+    }
+
+    /// Poses, gimbal lock and half turns among them, survive writing and reading.
+    pub(crate) fn round_trip(notation: &Notation) {
+        let half = PI / 2.0;
+        let axes = [
+            [0.0, 0.0, 0.0],
+            [0.3, -0.2, 0.9],
+            [half, 0.0, 0.0],
+            [0.0, half, 0.0],
+            [0.0, -half, 0.0],
+            [0.0, 0.0, half],
+            [PI, 0.0, 0.0],
+            [0.0, PI, 0.0],
+            [0.0, 0.0, -PI],
+            [-2.0, 1.0, 0.5],
+            [1e-9, 0.0, -1e-9],
+        ];
+        for turn in axes {
+            for also in axes {
+                let (turn, also) = (
+                    UnitQuaternion::new(Vector3::from(turn)),
+                    UnitQuaternion::new(Vector3::from(also)),
+                );
+                let pose = Isometry3::from_parts(Translation3::new(0.1, -2.0, 0.3), turn * also);
+                let units = notation.own_units();
+                let again = notation.pose(&notation.values(&pose, units), units).unwrap();
+                let apart = pose.rotation.angle_to(&again.rotation);
+                assert!(apart < 5e-8, "{} {pose} {again} {apart}", notation.name);
+                assert!((pose.translation.vector - again.translation.vector).norm() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn every_name_has_its_notation_and_survives_a_round_trip() {
+        for name in NAMES.iter().filter(|n| **n != "joints") {
+            let notation = Notation::named(name).unwrap();
+            assert_eq!(notation.name, *name);
+            round_trip(&notation);
+        }
+    }
+
+    #[test]
+    fn all_24_euler_notations_survive_a_round_trip() {
+        for axes in
+            ["xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz"]
+        {
+            for sense in ["intrinsic", "extrinsic"] {
+                round_trip(&Notation::named(&format!("euler-{axes}-{sense}")).unwrap());
+            }
+        }
+    }
+
+    #[test]
+    fn a_misspelt_notation_is_corrected() {
+        let message = Notation::named("kukka").unwrap_err();
+        assert!(message.starts_with("did you mean kuka? there are matrix4x4,"), "{message}");
+        assert!(Notation::named("euler-xxy-intrinsic").is_err());
+    }
+}

@@ -1,0 +1,143 @@
+//! The ways to write a rotation in numbers, and back.
+
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+
+use super::euler::{self, Axes, Sense};
+
+/// How a notation writes its rotation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rotation {
+    /// The whole pose as a 4x4 matrix, row by row.
+    Matrix,
+    /// Unit quaternion, the scalar last.
+    QuaternionXyzw,
+    /// Unit quaternion, the scalar first.
+    QuaternionWxyz,
+    /// Axis times angle.
+    Vector,
+    /// Three angles about the axes, about the moving (intrinsic) or the fixed (extrinsic) frame.
+    Euler(Axes, Sense),
+}
+
+/// How far a matrix may be from a rotation, or a quaternion's length from one.
+const TOLERANCE: f64 = 1e-3;
+
+impl Rotation {
+    /// Position and rotation numbers of a notation's numbers.
+    pub(super) fn split(self, si: &[f64]) -> (Vector3<f64>, Vec<f64>) {
+        match self {
+            // the last row stays with the rotation, to be checked
+            Rotation::Matrix => (Vector3::new(si[3], si[7], si[11]), si.to_vec()),
+            _ => (Vector3::new(si[0], si[1], si[2]), si[3..].to_vec()),
+        }
+    }
+
+    /// The inverse of [`Rotation::split`].
+    pub(super) fn join(self, p: &Vector3<f64>, rotation: &[f64]) -> Vec<f64> {
+        match (self, rotation) {
+            (Rotation::Matrix, &[a, b, c, d, e, f, g, h, i]) => {
+                vec![a, b, c, p.x, d, e, f, p.y, g, h, i, p.z, 0.0, 0.0, 0.0, 1.0]
+            }
+            _ => p.iter().chain(rotation).copied().collect(),
+        }
+    }
+
+    /// Numbers (radians) as a rotation; `Err` says why they are none.
+    pub(super) fn read(self, n: &[f64]) -> Result<UnitQuaternion<f64>, String> {
+        match self {
+            Rotation::Matrix => from_matrix(n),
+            Rotation::QuaternionXyzw => unit(Quaternion::new(n[3], n[0], n[1], n[2])),
+            Rotation::QuaternionWxyz => unit(Quaternion::new(n[0], n[1], n[2], n[3])),
+            Rotation::Vector => Ok(UnitQuaternion::new(Vector3::new(n[0], n[1], n[2]))),
+            Rotation::Euler(axes, sense) => Ok(euler::rotation(axes, sense, [n[0], n[1], n[2]])),
+        }
+    }
+
+    /// A rotation as numbers (radians).
+    pub(super) fn write(self, rotation: &UnitQuaternion<f64>) -> Vec<f64> {
+        let q = rotation.coords;
+        match self {
+            Rotation::Matrix => {
+                rotation.to_rotation_matrix().matrix().transpose().iter().copied().collect()
+            }
+            Rotation::QuaternionXyzw => vec![q.x, q.y, q.z, q.w],
+            Rotation::QuaternionWxyz => vec![q.w, q.x, q.y, q.z],
+            Rotation::Vector => rotation.scaled_axis().iter().copied().collect(),
+            Rotation::Euler(axes, sense) => euler::angles(axes, sense, rotation).to_vec(),
+        }
+    }
+}
+
+fn unit(q: Quaternion<f64>) -> Result<UnitQuaternion<f64>, String> {
+    let length = q.norm();
+    if !((length - 1.0).abs() <= TOLERANCE) {
+        return Err(format!("the quaternion's length is {length:.6}, not 1"));
+    }
+    Ok(UnitQuaternion::from_quaternion(q))
+}
+
+fn from_matrix(n: &[f64]) -> Result<UnitQuaternion<f64>, String> {
+    if n[12..] != [0.0, 0.0, 0.0, 1.0] {
+        return Err(format!("the last row of the matrix is {:?}, not 0 0 0 1", &n[12..]));
+    }
+    let m = Matrix3::new(n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10]);
+    let apart = (m.transpose() * m - Matrix3::identity()).abs().max();
+    if !(apart <= TOLERANCE) {
+        return Err(format!(
+            "the matrix is no rotation: its columns are off unit and square by {apart:.1e}"
+        ));
+    }
+    if m.determinant() < 0.0 {
+        return Err("the matrix mirrors (its determinant is -1): an axis is turned round".into());
+    }
+    Ok(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(nearest_rotation(m))))
+}
+
+/// The orthonormal factor of `m`: Newton's iteration for the polar decomposition (Higham 1986).
+fn nearest_rotation(mut m: Matrix3<f64>) -> Matrix3<f64> {
+    for _ in 0..4 {
+        if let Some(inverse) = m.transpose().try_inverse() {
+            m = 0.5 * (m + inverse);
+        }
+    }
+    m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_rotation_is_refused() {
+        let zero = Rotation::QuaternionXyzw.read(&[0.0; 4]).unwrap_err();
+        assert_eq!(zero, "the quaternion's length is 0.000000, not 1");
+        let mut matrix =
+            [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+        matrix[0] = 1.1;
+        assert!(
+            Rotation::Matrix.read(&matrix).unwrap_err().starts_with("the matrix is no rotation")
+        );
+        matrix[0] = -1.0;
+        assert!(Rotation::Matrix.read(&matrix).unwrap_err().starts_with("the matrix mirrors"));
+        matrix[15] = 2.0;
+        assert!(Rotation::Matrix.read(&matrix).unwrap_err().starts_with("the last row"));
+        assert!(Rotation::QuaternionWxyz.read(&[f64::NAN, 0.0, 0.0, 0.0]).is_err());
+    }
+
+    #[test]
+    fn a_rounded_matrix_becomes_the_nearest_rotation() {
+        let turn = UnitQuaternion::new(Vector3::new(0.0, 3.0, 0.4));
+        let m = turn.to_rotation_matrix();
+        let r = |i: usize, j: usize| (m.matrix()[(i, j)] * 1e4_f64).round() / 1e4;
+        let mut n = [0.0; 16];
+        for i in 0..3 {
+            for j in 0..3 {
+                n[4 * i + j] = r(i, j);
+            }
+        }
+        n[15] = 1.0;
+        let read = Rotation::Matrix.read(&n).unwrap();
+        assert!(read.angle_to(&turn) < 1e-4);
+        assert!((read.norm() - 1.0).abs() < 1e-15);
+    }
+}

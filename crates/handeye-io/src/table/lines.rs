@@ -1,0 +1,195 @@
+//! Tables in text: one record per line, values apart by semicolons, commas, tabs or spaces, with or
+//! without a header, `#` before comments; and matrices that stretch over four lines.
+
+use std::path::Path;
+
+use super::{Cell, Layout, Record};
+use crate::{
+    error::{Error, Place, malformed},
+    files,
+};
+
+struct Line {
+    number: usize,
+    cells: Vec<(Option<String>, Cell)>,
+}
+
+pub(super) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error> {
+    let text = files::text(path)?;
+    let mut lines = Vec::new();
+    for (i, line) in text.lines().enumerate().skip(layout.skip_lines) {
+        let cells = cells(line, &Place::line(path, i + 1))?;
+        if !cells.is_empty() {
+            lines.push(Line { number: i + 1, cells });
+        }
+    }
+    let header = take_header(&mut lines);
+    let records: Vec<Record> =
+        lines.into_iter().map(|l| record(l, &header, path)).collect::<Result<_, _>>()?;
+    if records.is_empty() {
+        return Err(malformed(Place::file(path), "holds no numbers", "record it again"));
+    }
+    if layout.matrices { matrices(records, path) } else { Ok(records) }
+}
+
+/// The values of one line, each with the name before it if there is one (`X: 1.5`, `X 1.5`).
+fn cells(line: &str, place: &Place) -> Result<Vec<(Option<String>, Cell)>, Error> {
+    let line = line.split('#').next().unwrap_or_default().trim();
+    let line = line.strip_prefix("p[").unwrap_or(line);
+    let bare: String = line.chars().map(|c| if "[]{}()".contains(c) { ' ' } else { c }).collect();
+    let separator = [';', ','].into_iter().find(|s| bare.contains(*s));
+    let Some(separator) = separator else { return Ok(words(&bare)) };
+    if separator == ';' && bare.split(';').any(is_decimal_comma) {
+        return Err(malformed(
+            place.clone(),
+            "numbers with a decimal comma",
+            "write them with a decimal point",
+        ));
+    }
+    let parts = bare.trim().trim_end_matches(separator).split(separator);
+    Ok(parts.flat_map(part).collect())
+}
+
+fn is_decimal_comma(cell: &str) -> bool {
+    let digits = |s: &str| !s.is_empty() && s.bytes().all(|c| c.is_ascii_digit());
+    cell.trim().trim_start_matches(['-', '+']).split_once(',').is_some_and(|(whole, rest)| {
+        digits(whole) && digits(rest.split(['e', 'E']).next().unwrap_or_default())
+    })
+}
+
+/// What stands between two separators: numbers, a named number, or one text.
+fn part(part: &str) -> Vec<(Option<String>, Cell)> {
+    let part = part.trim().trim_matches('"');
+    let words = words(part);
+    if words.is_empty() || words.iter().any(|(_, cell)| cell.number().is_none()) {
+        if let [name, value] = part.split_whitespace().collect::<Vec<_>>()[..]
+            && let Ok(x) = value.parse()
+        {
+            return vec![(Some(name.into()), Cell::Number(x))];
+        }
+        return vec![(None, Cell::Text(part.into()))];
+    }
+    words
+}
+
+/// Values apart by spaces; `X:` and `X=` name the value that follows.
+fn words(text: &str) -> Vec<(Option<String>, Cell)> {
+    let spaced = text.replace('=', "= ").replace(':', ": ");
+    let (mut cells, mut name) = (Vec::new(), None);
+    for word in spaced.split_whitespace() {
+        match (word.strip_suffix([':', '=']), word.parse()) {
+            (Some(before), _) => name = Some(before.to_string()),
+            (None, Ok(x)) => cells.push((name.take(), Cell::Number(x))),
+            (None, Err(_)) => cells.push((name.take(), Cell::Text(word.into()))),
+        }
+    }
+    cells
+}
+
+/// A first line without any number names the columns.
+fn take_header(lines: &mut Vec<Line>) -> Vec<String> {
+    let is_header = lines.first().is_some_and(|line| {
+        line.cells.len() > 1 && line.cells.iter().all(|(_, c)| c.number().is_none())
+    });
+    if !is_header {
+        return vec![];
+    }
+    let text = |(_, cell): (Option<String>, Cell)| match cell {
+        Cell::Text(text) => text,
+        Cell::Number(x) => x.to_string(),
+    };
+    lines.remove(0).cells.into_iter().map(text).collect()
+}
+
+/// Usual names of the column that names a record.
+pub(super) const ID_NAMES: [&str; 9] =
+    ["id", "name", "capture", "capture_id", "image", "file", "pose_id", "record_id", "pose"];
+
+fn record(line: Line, header: &[String], path: &Path) -> Result<Record, Error> {
+    let place = Place::line(path, line.number);
+    if !header.is_empty() && header.len() != line.cells.len() {
+        return Err(malformed(
+            place,
+            format!("{} values, but the header names {}", line.cells.len(), header.len()),
+            "complete the line",
+        ));
+    }
+    let (own, cells): (Vec<_>, Vec<_>) = line.cells.into_iter().unzip();
+    let own: Option<Vec<String>> = own.into_iter().collect();
+    let names = if header.is_empty() { own.unwrap_or_default() } else { header.to_vec() };
+    let mut record = Record { cells, names, id: None, place };
+    record.id = record.text_named(&ID_NAMES).or_else(|| match record.cells.first() {
+        Some(Cell::Text(text)) => Some(text.clone()),
+        _ => None,
+    });
+    Ok(record)
+}
+
+/// Lines of four numbers put together to matrices; a count in front is checked.
+fn matrices(lines: Vec<Record>, path: &Path) -> Result<Vec<Record>, Error> {
+    let count = match lines[0].cells[..] {
+        [Cell::Number(n)] if lines.len() > 1 => Some(n),
+        _ => None,
+    };
+    let rows: Vec<Record> = lines.into_iter().skip(usize::from(count.is_some())).collect();
+    if rows.iter().any(|r| r.cells.len() != 4) {
+        return Ok(rows);
+    }
+    let last = [0.0, 0.0, 0.0, 1.0].map(Cell::Number);
+    let height = if rows.len() >= 4 && rows[3].cells == last { 4 } else { 3 };
+    let blocks = rows.len() / height;
+    if rows.len() % height != 0 || count.is_some_and(|n| n != blocks as f64) {
+        let counted = count.map(|n| format!(" after a count of {n}")).unwrap_or_default();
+        return Err(malformed(
+            Place::file(path),
+            format!(
+                "{} lines of a {height}x4 matrix{counted} are no whole number of poses",
+                rows.len()
+            ),
+            "complete the file",
+        ));
+    }
+    Ok(rows.chunks(height).map(|block| super::joined(block.to_vec())).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(line: &str) -> Vec<f64> {
+        let cells = cells(line, &Place::default()).unwrap();
+        cells.iter().map(|(_, c)| c.number().unwrap()).collect()
+    }
+
+    #[test]
+    fn every_usual_separator_is_understood() {
+        for line in [
+            "1,2,-3e1",
+            "1; 2; -3e1",
+            "1\t2\t-3e1",
+            " 1  2 -3e1 # note",
+            "p[1, 2, -30]",
+            "[1, 2], [-30]",
+        ] {
+            assert_eq!(numbers(line), [1.0, 2.0, -30.0], "{line}");
+        }
+    }
+
+    #[test]
+    fn names_beside_values_are_kept() {
+        for line in ["{X 1.5,Y 2,Z 3}", "X: 1.5 Y: 2 Z: 3", "X=1.5, Y=2, Z=3"] {
+            let cells = cells(line, &Place::default()).unwrap();
+            let names: Vec<_> = cells.iter().map(|(n, _)| n.as_deref().unwrap_or("")).collect();
+            assert_eq!(names, ["X", "Y", "Z"], "{line}");
+        }
+    }
+
+    #[test]
+    fn a_decimal_comma_is_refused() {
+        let error = cells("1,5;2,25;3", &Place::line(Path::new("a.csv"), 2)).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "a.csv:2: numbers with a decimal comma; write them with a decimal point"
+        );
+    }
+}
