@@ -1,12 +1,14 @@
 //! Hand-eye calibration.
 
 pub mod camera;
+pub mod detect;
 pub mod error;
 pub mod frame;
 pub mod image;
 pub mod lie;
 pub mod observation;
 pub mod scan;
+pub mod simulate;
 pub mod target;
 
 pub use camera::{Distortion, Intrinsics};
