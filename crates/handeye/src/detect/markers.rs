@@ -1,8 +1,8 @@
 //! ArUco and AprilTag markers: their bits, and how to read them.
 //!
 //! A marker of `n x n` bits has a border of one black bit around it. Bits are packed row by row
-//! from the top left, the first bit the highest; a set bit is black. The tables are those of
-//! OpenCV's predefined dictionaries.
+//! from the top left, the first bit the lowest; a set bit is black. The tables are those of OpenCV's
+//! predefined dictionaries.
 //!
 //! S. Garrido-Jurado et al., *Automatic generation and detection of highly reliable fiducial
 //! markers under occlusion*, Pattern Recognition 47(6), 2014; E. Olson, *AprilTag*, ICRA 2011.
@@ -56,7 +56,7 @@ impl Dictionary {
     /// Whether bit `(column, row)` of a marker is black; `false` for a marker that does not exist.
     pub fn is_black(&self, id: u32, column: usize, row: usize) -> bool {
         let code = self.codes.get(id as usize).copied().unwrap_or(0);
-        code >> (self.side * self.side - 1 - (row * self.side + column)) & 1 == 1
+        code >> (row * self.side + column) & 1 == 1
     }
 
     /// The nearest of the markers `ids`, with at most `most_errors` wrong bits.
@@ -85,14 +85,9 @@ impl Dictionary {
 
 /// The code after a quarter turn counter-clockwise.
 fn turned_back(code: u64, side: usize) -> u64 {
-    let bit = |column: usize, row: usize| code >> (side * side - 1 - (row * side + column)) & 1;
-    let mut out = 0;
-    for row in 0..side {
-        for column in 0..side {
-            out = out << 1 | bit(side - 1 - row, column);
-        }
-    }
-    out
+    let bit = |column: usize, row: usize| code >> (row * side + column) & 1;
+    let at = |k: usize| bit(side - 1 - k / side, k % side) << k;
+    (0..side * side).map(at).sum()
 }
 
 /// Which marker of a ChArUco board sits in square `(i, j)`; `None` in a black one.
@@ -140,13 +135,14 @@ pub fn read_cells(
         }
     }
     let threshold = two_means(&grey);
-    let (mut code, mut border_errors) = (0, 0);
+    let (mut code, mut border_errors, mut inner) = (0, 0, 0);
     for (i, &cell) in grey.iter().enumerate() {
         let (column, row, black) = (i % n, i / n, cell < threshold);
         if column == 0 || row == 0 || column == n - 1 || row == n - 1 {
             border_errors += u32::from(!black);
         } else {
-            code = code << 1 | u64::from(black);
+            code |= u64::from(black) << inner;
+            inner += 1;
         }
     }
     Some(Cells { code, border_errors, contrast: contrast(&grey, threshold) })
@@ -218,8 +214,12 @@ mod tests {
 
     #[test]
     fn the_published_marker_zero_of_4x4_is_the_one_we_read() {
-        // OpenCV's DICT_4X4_50, marker 0: 1 is white: 1011 0101 0011 0010
         let dictionary = Dictionary::named("DICT_4X4_50").unwrap();
-        assert_eq!(dictionary.codes[0], !0b1011_0101_0011_0010 & 0xffff);
+        let white = ["1011", "0101", "0011", "0010"];
+        for (row, bits) in white.iter().enumerate() {
+            for (column, bit) in bits.bytes().enumerate() {
+                assert_eq!(dictionary.is_black(0, column, row), bit == b'0');
+            }
+        }
     }
 }

@@ -1,4 +1,13 @@
 //! What the camera saw of the target.
+//!
+//! A picture goes through three steps: [`labelling`] finds grids of corners, [`board`] decides
+//! which corner of the target each one is, and [`subpixel`] measures where exactly they are.
 
+pub mod board;
+pub mod homography;
+mod labelling;
 pub mod markers;
+mod pyramid;
 pub mod subpixel;
+
+pub use board::{NotFound, detect};

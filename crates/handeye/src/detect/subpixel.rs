@@ -66,7 +66,7 @@ pub enum Unfit {
 /// The disc reaches this share of the way to the next parallel edge: the model knows only two edges.
 const REACH: f64 = 0.6;
 /// Largest disc radius, px: beyond it lens distortion bends the edges.
-const WIDEST_PX: f64 = 10.0;
+const WIDEST_PX: f64 = 14.0;
 /// The next parallel edge must stay this far outside the disc, px: about three blurs.
 const GUARD_PX: f64 = 2.5;
 /// Below this radius (px) a disc holds too few pixels for nine parameters.
