@@ -1,8 +1,9 @@
 //! Which corner of the board each corner in the picture is.
 //!
 //! A checkerboard is known by its extent, its sense of rotation and its colours: it is turned so
-//! that the square outside of corner 0 is black if that can be, and else so that corner 0 is the
-//! one nearest to the picture's top left. A ChArUco board is known by its markers: each one that
+//! that the square outside of corner 0 is black if that can be (OpenCV's findChessboardCorners does
+//! so, its findChessboardCornersSB the opposite), and else so that corner 0 is the one nearest to
+//! the picture's top left. A ChArUco board is known by its markers: each one that
 //! is read votes for a turn and a shift of the grid.
 
 use std::collections::BTreeMap;
@@ -236,32 +237,53 @@ fn checkerboard(image: &GrayImage, grid: &Grid, columns: i32, rows: i32) -> Outc
     let needed = (columns * rows) as usize;
     let fits = Fits { image, clean: 1.0, erf: Erf::new() };
     let grown = grow(grid, &fits, (columns, rows));
-    let (low, high) = grown.bounds().ok_or(NotFound::NoCorners)?;
-    let extent = (high.0 - low.0 + 1, high.1 - low.1 + 1);
-    let found = grown.corners.len();
-    if extent != (columns, rows) && extent != (rows, columns) {
-        return Err(if found > needed {
-            NotFound::OtherSize {
-                columns: extent.0 as u32,
-                rows: extent.1 as u32,
-                wanted_columns: columns as u32,
-                wanted_rows: rows as u32,
+    let fitted = fits.all(&grown);
+    let known = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };
+    let window = best_window(&known, (columns, rows))?;
+    let (i0, j0, width, height) = window;
+    let inside = |k: &(i32, i32)| (0..width).contains(&(k.0 - i0)) && (0..height).contains(&(k.1 - j0));
+    let origin = known.corners.iter().filter(|(k, _)| inside(k));
+    let board = Grid { corners: origin.map(|(k, p)| ((k.0 - i0, k.1 - j0), *p)).collect() };
+    let turns = turns_of_board(image, &board, (width, height), (columns, rows));
+    let turns = turns.ok_or(NotFound::NoCorners)?;
+    let corners = board.corners.keys().map(|&(i, j)| {
+        let (x, y) = turned((i, j), (width, height), turns);
+        corner((y * columns + x) as u32, &fitted[&(i + i0, j + j0)])
+    });
+    Ok(sorted(corners.collect()))
+}
+
+/// The part of a grid that is the board: first column and row, columns, rows. Larger grids arise
+/// where something beside the board looks like corners; the board is the fullest part.
+fn best_window(grid: &Grid, (columns, rows): (i32, i32)) -> Result<(i32, i32, i32, i32), NotFound> {
+    let needed = (columns * rows) as usize;
+    let (low, high) = grid.bounds().ok_or(NotFound::NoCorners)?;
+    let mut windows = vec![];
+    let mut sizes = vec![(columns, rows), (rows, columns)];
+    sizes.dedup();
+    for (width, height) in sizes {
+        for j in low.1..=high.1 - height + 1 {
+            for i in low.0..=high.0 - width + 1 {
+                let keys = (j..j + height).flat_map(|y| (i..i + width).map(move |x| (x, y)));
+                let count = keys.filter(|k| grid.corners.contains_key(k)).count();
+                windows.push((count, (i, j, width, height)));
             }
-        } else {
-            NotFound::TooFew { found, needed }
+        }
+    }
+    windows.sort_by_key(|w| std::cmp::Reverse(w.0));
+    let fullest = windows.first().map_or(0, |w| w.0);
+    if (fullest as f64) < FITTED_SHARE * needed as f64 {
+        return Err(NotFound::TooFew { found: grid.corners.len().min(needed), needed });
+    }
+    if windows.get(1).is_some_and(|second| second.0 >= fullest) {
+        return Err(NotFound::OtherSize {
+            columns: (high.0 - low.0 + 1) as u32,
+            rows: (high.1 - low.1 + 1) as u32,
+            wanted_columns: columns as u32,
+            wanted_rows: rows as u32,
         });
     }
-    let at_origin = grown.relabel(|(i, j)| (i - low.0, j - low.1));
-    let turned = oriented(image, &at_origin, columns, rows).ok_or(NotFound::NoCorners)?;
-    let fitted = fits.all(&turned);
-    let corners: Vec<ImageCorner> = fitted
-        .iter()
-        .map(|(&(i, j), fitted)| corner((j * columns + i) as u32, fitted))
-        .collect();
-    if (corners.len() as f64) < FITTED_SHARE * needed as f64 {
-        return Err(NotFound::TooFew { found: corners.len(), needed });
-    }
-    Ok(sorted(corners))
+    Ok(windows[0].1)
 }
 
 fn corner(id: u32, fitted: &FittedCorner) -> ImageCorner {
@@ -273,27 +295,32 @@ fn sorted(mut corners: Vec<ImageCorner>) -> Vec<ImageCorner> {
     corners
 }
 
-/// The grid turned as the board is: `columns x rows`, corner (0, 0) as the module says.
-fn oriented(image: &GrayImage, grid: &Grid, columns: i32, rows: i32) -> Option<Grid> {
-    let mut turns = vec![grid.clone()];
-    for _ in 0..3 {
-        turns.push(quarter_turn(turns.last()?));
-    }
-    turns.retain(|g| g.bounds() == Some(((0, 0), (columns - 1, rows - 1))));
-    let black_first: Vec<Grid> =
-        turns.iter().filter(|g| first_square_brightness(image, g) < 0.0).cloned().collect();
-    let allowed = if black_first.is_empty() { turns } else { black_first };
-    let from_top_left = |g: &Grid| {
-        let origin = g.corners.iter().next().map(|(_, p)| p.x + p.y);
-        origin.unwrap_or(f64::INFINITY)
+/// Clockwise quarter turns of the labels after which the grid lies as the board does.
+fn turns_of_board(
+    image: &GrayImage,
+    grid: &Grid,
+    size: (i32, i32),
+    board: (i32, i32),
+) -> Option<usize> {
+    let fits = |turns: &usize| if turns % 2 == 0 { size == board } else { (size.1, size.0) == board };
+    let relabelled = |turns: usize| grid.relabel(|k| turned(k, size, turns));
+    let all: Vec<usize> = (0..4).filter(fits).collect();
+    let is_black = |turns: &usize| first_square_brightness(image, &relabelled(*turns)) < 0.0;
+    let black: Vec<usize> = all.iter().copied().filter(is_black).collect();
+    let allowed = if black.is_empty() { all } else { black };
+    let from_top_left = |turns: usize| {
+        let near = relabelled(turns).corners.into_iter().min_by_key(|((i, j), _)| i + j);
+        near.map_or(f64::INFINITY, |(_, p)| p.x + p.y)
     };
-    allowed.into_iter().min_by(|a, b| from_top_left(a).total_cmp(&from_top_left(b)))
+    allowed.into_iter().min_by(|&a, &b| from_top_left(a).total_cmp(&from_top_left(b)))
 }
 
-/// The labels turned by a quarter, and moved back to start at (0, 0).
-fn quarter_turn(grid: &Grid) -> Grid {
-    let last_row = grid.corners.keys().map(|k| k.1).max().unwrap_or(0);
-    grid.relabel(|(i, j)| (last_row - j, i))
+/// A label of a grid of `size`, after quarter turns.
+fn turned(label: (i32, i32), size: (i32, i32), turns: usize) -> (i32, i32) {
+    let quarter = |((i, j), (width, height)): ((i32, i32), (i32, i32))| {
+        ((height - 1 - j, i), (height, width))
+    };
+    (0..turns).fold((label, size), |at, _| quarter(at)).0
 }
 
 /// Grey of the squares with the colour of the one outside of corner (0, 0), minus that of the

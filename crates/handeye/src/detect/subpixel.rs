@@ -71,6 +71,8 @@ const WIDEST_PX: f64 = 14.0;
 const GUARD_PX: f64 = 2.5;
 /// Below this radius (px) a disc holds too few pixels for nine parameters.
 const SMALLEST_PX: f64 = 2.2;
+/// The second disc's radius, as a share of the first's.
+const SMALLER: f64 = 0.65;
 /// A fit that moves farther than this share of a cell has found another corner.
 const FARTHEST: f64 = 0.3;
 /// Fewer pixels than this do not determine nine parameters.
@@ -94,8 +96,23 @@ type Parameters = SVector<f64, 9>;
 type Normal = SMatrix<f64, 9, 9>;
 
 /// Fits the corner model; `erf` is shared among corners.
+///
+/// Where a large disc sees more than the model knows (halos, glare, bent paper), a smaller one is
+/// tried.
 pub fn fit(image: &GrayImage, rough: &RoughCorner, erf: &Erf) -> Result<FittedCorner, Unfit> {
     let radius = radius(rough)?;
+    fit_disc(image, rough, radius, erf).or_else(|unfit| {
+        let smaller = SMALLER * radius;
+        if smaller < SMALLEST_PX { Err(unfit) } else { fit_disc(image, rough, smaller, erf) }
+    })
+}
+
+fn fit_disc(
+    image: &GrayImage,
+    rough: &RoughCorner,
+    radius: f64,
+    erf: &Erf,
+) -> Result<FittedCorner, Unfit> {
     let mut start = *rough;
     for _ in 0..3 {
         let disc = Disc::gather(image, &start, radius)?;
