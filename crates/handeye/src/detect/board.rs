@@ -234,7 +234,6 @@ fn marker_squares(squares_x: usize, squares_y: usize, white_first: bool) -> Vec<
 const FITTED_SHARE: f64 = 0.8;
 
 fn checkerboard(image: &GrayImage, grid: &Grid, columns: i32, rows: i32) -> Outcome {
-    let needed = (columns * rows) as usize;
     let fits = Fits { image, clean: 1.0, erf: Erf::new() };
     let grown = grow(grid, &fits, (columns, rows));
     let fitted = fits.all(&grown);

@@ -7,7 +7,9 @@ pub mod board;
 pub mod homography;
 mod labelling;
 pub mod markers;
+pub mod planar_pose;
 mod pyramid;
 pub mod subpixel;
 
 pub use board::{NotFound, detect};
+pub use planar_pose::{PosedTarget, relabelled, target_poses, with_symmetries};
