@@ -5,6 +5,7 @@ pub mod detect;
 pub mod error;
 pub mod frame;
 pub mod image;
+pub mod intrinsics;
 pub mod lie;
 pub mod observation;
 pub mod scan;
