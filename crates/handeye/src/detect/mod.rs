@@ -10,6 +10,7 @@ pub mod markers;
 pub mod planar_pose;
 mod pyramid;
 pub mod subpixel;
+pub mod surface;
 
 pub use board::{NotFound, detect};
 pub use planar_pose::{PosedTarget, relabelled, target_poses, with_symmetries};
