@@ -35,6 +35,8 @@ pub struct Manners {
 /// Commands.
 #[derive(Subcommand)]
 pub enum Command {
+    /// Calibrate from a folder of captures with a manifest `handeye.toml`.
+    Calibrate(CalibrateArgs),
     /// Solve for the transform from pairs of robot and target poses in a JSON file.
     Solve(SolveArgs),
     /// Write completions for a shell.
@@ -59,4 +61,32 @@ pub struct SolveArgs {
     /// Run one published method as published: shah, park-martin, daniilidis.
     #[arg(long)]
     pub method: Option<String>,
+}
+
+/// Arguments of `calibrate`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye calibrate cell/\n  handeye calibrate cell/ --out result --format ros2 --format kuka\n  handeye calibrate cell.toml --root /data/cell --json"
+)]
+pub struct CalibrateArgs {
+    /// Folder with `handeye.toml`, or a manifest.
+    pub dataset: PathBuf,
+    /// Where the manifest's names are relative to, if not to its own folder.
+    #[arg(long)]
+    pub root: Option<PathBuf>,
+    /// Folder for calibration.json, report.html and exports; it is made if need be.
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+    /// Run one published method as published: shah, park-martin, daniilidis.
+    #[arg(long)]
+    pub method: Option<String>,
+    /// Nearest-neighbour candidate of the two-step refinement: most iterations.
+    #[arg(long, default_value_t = 50)]
+    pub icp_max_iterations: usize,
+    /// The same: matches farther apart are dropped, mm.
+    #[arg(long, default_value_t = 10.0)]
+    pub icp_max_distance_mm: f64,
+    /// The same: it stops when a round changes less than this (rad, m).
+    #[arg(long, default_value_t = 1e-9)]
+    pub icp_epsilon: f64,
 }

@@ -39,3 +39,9 @@ impl From<handeye::Error> for Failure {
         Failure::Input(error.to_string())
     }
 }
+
+impl From<handeye_io::Error> for Failure {
+    fn from(error: handeye_io::Error) -> Self {
+        Failure::Input(error.to_string())
+    }
+}

@@ -1,8 +1,11 @@
 //! The `handeye` program: from a folder of captures to a camera-to-robot transform to trust.
 
 mod args;
+mod calibrate;
 mod failure;
 mod output;
+mod progress;
+mod report;
 mod solve;
 
 use std::process::ExitCode;
@@ -25,6 +28,7 @@ fn main() -> ExitCode {
 
 fn run(program: &Program) -> Result<u8, Failure> {
     match &program.command {
+        Command::Calibrate(args) => calibrate::run(args, &program.manners),
         Command::Solve(args) => solve::run(args, &program.manners),
         Command::Completions { shell } => {
             output::completions(*shell);

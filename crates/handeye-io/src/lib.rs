@@ -8,6 +8,7 @@ mod dataset;
 mod error;
 mod files;
 mod image;
+pub mod measure;
 mod npy;
 pub mod report;
 pub mod robot;

@@ -99,8 +99,8 @@ pub struct Placement {
     pub corners: Vec<ImageCorner>,
     /// Corners in its scan.
     pub surface: Vec<SurfaceCorner>,
-    /// The target's pose in its picture.
-    pub target_pose: Option<TargetPose>,
+    /// The target's possible poses in its picture, as in [`Observation::candidates`].
+    pub candidates: Vec<TargetPose>,
 }
 
 /// The tool tip on a corner of the target.

@@ -63,7 +63,7 @@ type Pair = (Correspondence, Pose<crate::Base, Mount>);
 fn to_hand(target: &TargetModel, placements: &[Placement], touch: &Touch) -> Vec<Pair> {
     let placement = placements.iter().filter(|p| p.id == touch.placement);
     let measured = placement.filter_map(|p| {
-        let pose = p.target_pose.as_ref().map(|t| t.camera_from_target);
+        let pose = p.candidates.first().map(|t| t.camera_from_target);
         camera_point(target, &p.surface, pose, touch.corner)
     });
     measured

@@ -1,0 +1,50 @@
+//! A progress bar for work of more than a second, only on a terminal.
+
+use std::{
+    io::{self, IsTerminal, Write},
+    sync::Mutex,
+    time::{Duration, Instant},
+};
+
+use crate::args::Manners;
+
+/// Work shorter than this shows no bar.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// Characters of a full bar.
+const WIDTH: usize = 30;
+
+/// Tells a person how far the work is.
+pub struct Progress {
+    what: &'static str,
+    start: Instant,
+    shown: Mutex<bool>,
+    wanted: bool,
+}
+
+impl Progress {
+    /// For work named `what`.
+    pub fn new(what: &'static str, manners: &Manners) -> Self {
+        let wanted = !manners.quiet && io::stderr().is_terminal();
+        Self { what, start: Instant::now(), shown: Mutex::new(false), wanted }
+    }
+
+    /// `done` of `all` are done.
+    pub fn tell(&self, done: usize, all: usize) {
+        if !self.wanted || self.start.elapsed() < PATIENCE {
+            return;
+        }
+        let full = WIDTH * done / all.max(1);
+        let Ok(mut shown) = self.shown.lock() else { return };
+        *shown = true;
+        eprint!("\r{} [{}{}] {done}/{all} ", self.what, "#".repeat(full), "-".repeat(WIDTH - full));
+        let _ = io::stderr().flush();
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if self.shown.lock().is_ok_and(|s| *s) {
+            eprintln!();
+        }
+    }
+}

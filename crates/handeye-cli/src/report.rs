@@ -1,0 +1,89 @@
+//! Gathers what the report shows.
+
+use handeye::{
+    Calibration, Observation, Session,
+    calibrate::{natural, relabelling},
+    calibration::CaptureResult,
+};
+use handeye_io::{
+    CaptureSource, Dataset,
+    report::{MarkedCorner, Picture, Report, html},
+};
+
+/// Most pictures in a report; of more captures, those left out come first, then the others evenly.
+const MOST_PICTURES: usize = 36;
+
+/// The whole page.
+pub fn page(dataset: &Dataset, calibration: &Calibration, session: &Session) -> String {
+    html(&Report {
+        title: title(dataset),
+        calibration,
+        target: session.target.as_ref(),
+        camera: session.camera.as_ref(),
+        touched: session.touches.iter().map(|t| t.in_base).collect(),
+        notations: vec![],
+        pictures: pictures(dataset, calibration, session),
+    })
+}
+
+fn title(dataset: &Dataset) -> String {
+    let folder = dataset.manifest.parent().and_then(|p| p.file_name());
+    let file = dataset.manifest.file_stem();
+    let name = if file.is_some_and(|f| f == "handeye") { folder.or(file) } else { file };
+    name.map_or("dataset".into(), |n| n.to_string_lossy().into_owned())
+}
+
+fn pictures(dataset: &Dataset, calibration: &Calibration, session: &Session) -> Vec<Picture> {
+    let mut chosen: Vec<&CaptureSource> =
+        dataset.captures.iter().filter(|c| c.image.is_some()).collect();
+    let used = |c: &CaptureSource| calibration.captures.iter().any(|k| k.id == c.id && k.used);
+    if chosen.len() > MOST_PICTURES {
+        let (good, bad): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|c| used(c));
+        let room = MOST_PICTURES.saturating_sub(bad.len()).max(1);
+        let step = good.len().div_ceil(room).max(1);
+        chosen =
+            bad.into_iter().take(MOST_PICTURES).chain(good.into_iter().step_by(step)).collect();
+        chosen.truncate(MOST_PICTURES);
+        chosen.sort_by(|a, b| natural(&a.id, &b.id));
+    }
+    chosen.into_iter().filter_map(|c| picture(dataset, calibration, session, c)).collect()
+}
+
+fn picture(
+    dataset: &Dataset,
+    calibration: &Calibration,
+    session: &Session,
+    source: &CaptureSource,
+) -> Option<Picture> {
+    let image = dataset.image(source.image.as_ref()?).ok()?;
+    let result = calibration.captures.iter().find(|c| c.id == source.id)?;
+    let observation = session.observations.iter().find(|o| o.capture == source.id)?;
+    let corners = marked(session, observation, result);
+    Picture::new(&source.id, caption(result), result.used, &image, corners)
+}
+
+fn caption(c: &CaptureResult) -> String {
+    match (&c.reason, c.residual_px) {
+        (Some(reason), _) => reason.clone(),
+        (None, Some(px)) => format!("{} corners, {px:.3} px", c.corners),
+        (None, None) => format!("{} corners", c.corners),
+    }
+}
+
+/// Corners with their residuals against the target seen from the picture's own pose.
+fn marked(session: &Session, o: &Observation, result: &CaptureResult) -> Vec<MarkedCorner> {
+    let predicted = |id: u32| {
+        let (target, camera) = (session.target.as_ref()?, session.camera.as_ref()?);
+        let pose = result.camera_from_target?;
+        let map = relabelling(o, &pose, target);
+        let corner = target.corner(*map.get(id as usize)?)?;
+        camera.project(&(pose * corner).vector())
+    };
+    o.corners
+        .iter()
+        .map(|c| {
+            let d = predicted(c.id).map_or(nalgebra::Vector2::zeros(), |p| c.pixel - p);
+            MarkedCorner { x: c.pixel.x, y: c.pixel.y, dx: d.x, dy: d.y }
+        })
+        .collect()
+}

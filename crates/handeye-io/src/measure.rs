@@ -1,0 +1,299 @@
+//! From a dataset's files to measurements: corners, their points in 3D, poses of the target.
+//!
+//! Captures are read, measured and dropped one by one on a few threads, so that memory holds no
+//! more than a handful of pictures however many there are.
+
+use std::{
+    path::PathBuf,
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
+};
+
+use handeye::{
+    Base, Camera, Flange, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
+    SurfaceCorner, Target, TargetPose, Warning,
+    detect::{self, surface},
+    intrinsics,
+};
+
+use crate::{CaptureSource, Dataset, Error, Place, PlacementSource, error::malformed};
+
+/// What was measured, and what is worth knowing of how.
+pub struct Measured {
+    /// Input of the calibration.
+    pub session: Session,
+    /// Calibration of the camera from the views, where the dataset gave none.
+    pub camera_rms_px: Option<f64>,
+    /// Why captures show no target, by name.
+    pub not_found: Vec<(String, String)>,
+    /// What to know.
+    pub warnings: Vec<Warning>,
+}
+
+/// One capture's files.
+struct Shot<'a> {
+    id: &'a str,
+    image: Option<&'a PathBuf>,
+    scan: Option<&'a PathBuf>,
+    corners: Option<&'a [ImageCorner]>,
+    pose: Option<Pose<Camera, Target>>,
+}
+
+impl<'a> From<&'a CaptureSource> for Shot<'a> {
+    fn from(c: &'a CaptureSource) -> Self {
+        let corners = c.corners.as_deref();
+        let pose = c.camera_from_target;
+        Shot { id: &c.id, image: c.image.as_ref(), scan: c.scan.as_ref(), corners, pose }
+    }
+}
+
+impl<'a> From<&'a PlacementSource> for Shot<'a> {
+    fn from(c: &'a PlacementSource) -> Self {
+        let corners = c.corners.as_deref();
+        let pose = c.camera_from_target;
+        Shot { id: &c.id, image: c.image.as_ref(), scan: c.scan.as_ref(), corners, pose }
+    }
+}
+
+/// What one capture shows.
+#[derive(Default)]
+struct Seen {
+    corners: Vec<ImageCorner>,
+    surface: Vec<SurfaceCorner>,
+    missing: Vec<surface::Missing>,
+    size: Option<(usize, usize)>,
+    not_found: Option<String>,
+}
+
+/// Measures every capture and placement; `progress` is told how many of how many are done.
+///
+/// # Errors
+/// A file that cannot be read or used. A picture without the target is not an error.
+pub fn measure(
+    dataset: &Dataset,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Measured, Error> {
+    let shots: Vec<Shot> = dataset
+        .captures
+        .iter()
+        .map(Shot::from)
+        .chain(dataset.placements.iter().map(Shot::from))
+        .collect();
+    let seen = look_at_all(dataset, &shots, progress)?;
+    let mut warnings = dataset.warnings.clone();
+    let (camera, camera_rms_px) = camera(dataset, &shots, &seen, &mut warnings)?;
+    let mut not_found = Vec::new();
+    for (shot, s) in shots.iter().zip(&seen) {
+        if let Some(reason) = &s.not_found {
+            not_found.push((shot.id.to_owned(), reason.clone()));
+        }
+        warn_missing(shot, s, &mut warnings);
+    }
+    let poses: Vec<Vec<TargetPose>> = shots
+        .iter()
+        .zip(&seen)
+        .map(|(shot, s)| target_poses(dataset, shot, s, camera.as_ref(), &mut not_found))
+        .collect();
+    let session = session(dataset, seen, poses, camera);
+    Ok(Measured { session, camera_rms_px, not_found, warnings })
+}
+
+/// Pictures larger than this (pixels) are worked on by two threads at most: each takes some
+/// twenty bytes a pixel.
+const LARGE_PICTURE: u64 = 6_000_000;
+/// More threads than this only fight for memory.
+const MOST_THREADS: usize = 8;
+
+fn threads(shots: &[Shot]) -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
+    let size = shots.iter().find_map(|s| crate::image_size(s.image?).ok());
+    let large = size.is_some_and(|(w, h)| u64::from(w) * u64::from(h) > LARGE_PICTURE);
+    if large { cores.min(2) } else { cores }
+}
+
+fn look_at_all(
+    dataset: &Dataset,
+    shots: &[Shot],
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Vec<Seen>, Error> {
+    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let slots: Vec<Mutex<Option<Result<Seen, Error>>>> =
+        shots.iter().map(|_| Mutex::new(None)).collect();
+    let work = || {
+        loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            let Some(shot) = shots.get(k) else { break };
+            let seen = look_at(dataset, shot);
+            if let Ok(mut slot) = slots[k].lock() {
+                *slot = Some(seen);
+            }
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1, shots.len());
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..threads(shots) {
+            scope.spawn(work);
+        }
+        work();
+    });
+    // results, and the first error, in the order of the captures
+    slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
+}
+
+fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
+    let Some(target) = &dataset.target else { return Ok(Seen::default()) };
+    let mut seen = Seen::default();
+    if let Some(corners) = shot.corners {
+        seen.corners = corners.to_vec();
+        seen.size = dataset.intrinsics.map(|k| (k.width as usize, k.height as usize));
+    } else if let Some(path) = shot.image {
+        let image = dataset.image(path)?;
+        seen.size = Some((image.width(), image.height()));
+        match detect::detect(&image, target) {
+            Ok(corners) => seen.corners = corners,
+            Err(reason) => seen.not_found = Some(reason.to_string()),
+        }
+    }
+    if let (Some(path), Some(size), false) = (shot.scan, seen.size, seen.corners.is_empty()) {
+        let scan = dataset.scan(path)?;
+        (seen.surface, seen.missing) =
+            surface::lift(&seen.corners, size, &scan, dataset.intrinsics.as_ref());
+    }
+    Ok(seen)
+}
+
+fn warn_missing(shot: &Shot, seen: &Seen, warnings: &mut Vec<Warning>) {
+    let Some(first) = seen.missing.first() else { return };
+    let (missing, all) = (seen.missing.len(), seen.corners.len());
+    warnings.push(Warning::new(
+        "corners-without-depth",
+        format!(
+            "capture {}: {missing} of {all} corners have no point in the scan (corner {}: {})",
+            shot.id, first.id, first.reason
+        ),
+    ));
+}
+
+/// The camera that the dataset gives, or one calibrated from its views.
+fn camera(
+    dataset: &Dataset,
+    shots: &[Shot],
+    seen: &[Seen],
+    warnings: &mut Vec<Warning>,
+) -> Result<(Option<Intrinsics>, Option<f64>), Error> {
+    if let Some(given) = dataset.intrinsics {
+        check_size(&given, shots, seen)?;
+        return Ok((Some(given), None));
+    }
+    let Some(target) = &dataset.target else { return Ok((None, None)) };
+    let views: Vec<Vec<ImageCorner>> =
+        seen.iter().map(|s| s.corners.clone()).filter(|c| !c.is_empty()).collect();
+    let Some((width, height)) = seen.iter().find_map(|s| s.size) else { return Ok((None, None)) };
+    if views.is_empty() {
+        return Ok((None, None));
+    }
+    let found = intrinsics::calibrate(&views, target, width as u32, height as u32)
+        .map_err(|e| uncalibrated(dataset, &e))?;
+    warnings.push(Warning::new(
+        "camera-calibrated-from-views",
+        format!(
+            "no [camera] given: calibrated from {} views, {:.3} px RMS, fx = {:.2} px, fy = {:.2} px; \
+             a camera calibrated beforehand, with the board all over the picture, is better",
+            views.len(), found.rms_px, found.intrinsics.fx, found.intrinsics.fy
+        ),
+    ));
+    warnings.extend(found.warnings);
+    Ok((Some(found.intrinsics), Some(found.rms_px)))
+}
+
+fn uncalibrated(dataset: &Dataset, error: &handeye::Error) -> Error {
+    let what = format!("no [camera] given, and the views do not give it either: {error}");
+    malformed(Place::file(&dataset.manifest), what, "add the camera's intrinsics to the manifest")
+}
+
+/// Pictures must have the size the camera was calibrated at.
+fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), Error> {
+    for (shot, s) in shots.iter().zip(seen) {
+        let (Some((w, h)), Some(path)) = (s.size, shot.image) else { continue };
+        if (w, h) != (camera.width as usize, camera.height as usize) && camera.width > 0 {
+            let what = format!(
+                "the picture is {w} x {h} pixels, the camera was calibrated at {} x {}",
+                camera.width, camera.height
+            );
+            let advice = "give `resized` in [camera], or intrinsics for this size";
+            return Err(malformed(Place::file(path), what, advice));
+        }
+    }
+    Ok(())
+}
+
+fn target_poses(
+    dataset: &Dataset,
+    shot: &Shot,
+    seen: &Seen,
+    camera: Option<&Intrinsics>,
+    not_found: &mut Vec<(String, String)>,
+) -> Vec<TargetPose> {
+    if let Some(camera_from_target) = shot.pose {
+        return vec![TargetPose { camera_from_target, covariance: None }];
+    }
+    let (Some(target), Some(camera), false) = (&dataset.target, camera, seen.corners.is_empty())
+    else {
+        return vec![];
+    };
+    match detect::target_poses(&seen.corners, &seen.surface, target, camera) {
+        Ok(poses) => detect::with_symmetries(&poses, target),
+        Err(error) => {
+            not_found.push((shot.id.to_owned(), error.to_string()));
+            vec![]
+        }
+    }
+}
+
+fn session(
+    dataset: &Dataset,
+    seen: Vec<Seen>,
+    poses: Vec<Vec<TargetPose>>,
+    camera: Option<Intrinsics>,
+) -> Session {
+    let mut all = seen.into_iter().zip(poses);
+    let observations = dataset
+        .captures
+        .iter()
+        .zip(all.by_ref())
+        .map(|(c, (s, candidates))| observation(&c.id, c.base_from_flange, s, candidates))
+        .collect();
+    let placements = dataset
+        .placements
+        .iter()
+        .zip(all)
+        .map(|(p, (s, candidates))| Placement {
+            id: p.id.clone(),
+            corners: s.corners,
+            surface: s.surface,
+            candidates,
+        })
+        .collect();
+    Session {
+        setup: dataset.setup,
+        target: dataset.target.clone(),
+        camera,
+        observations,
+        placements,
+        touches: dataset.touches.clone(),
+        correspondences: dataset.correspondences.clone(),
+        workspace: dataset.workspace.map(|w| w.corners),
+    }
+}
+
+fn observation(
+    id: &str,
+    base_from_flange: Pose<Base, Flange>,
+    seen: Seen,
+    candidates: Vec<TargetPose>,
+) -> Observation {
+    let Seen { corners, surface, .. } = seen;
+    Observation { capture: id.to_owned(), base_from_flange, corners, surface, candidates }
+}

@@ -1,0 +1,16 @@
+//! What the camera saw of the target.
+//!
+//! A picture goes through three steps: [`labelling`] finds grids of corners, [`board`] decides
+//! which corner of the target each one is, and [`subpixel`] measures where exactly they are.
+
+pub mod board;
+pub mod homography;
+mod labelling;
+pub mod markers;
+pub mod planar_pose;
+mod pyramid;
+pub mod subpixel;
+pub mod surface;
+
+pub use board::{NotFound, detect};
+pub use planar_pose::{PosedTarget, relabelled, target_poses, with_symmetries};
