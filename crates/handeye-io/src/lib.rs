@@ -6,8 +6,10 @@
 mod camera;
 mod dataset;
 mod error;
+pub mod export;
 mod files;
 mod image;
+mod init;
 mod npy;
 pub mod robot;
 mod scan;
@@ -24,4 +26,5 @@ pub use dataset::{
 pub use error::{Error, Place};
 pub use files::write_atomically;
 pub use image::{image_size, read_image};
+pub use init::handeye_init;
 pub use scan::{ScanOptions, read_scan};
