@@ -118,7 +118,7 @@ fn broken_manifests_are_refused_by_line() {
         (
             "wrong type",
             Manifest { setup: "setup = 3", ..WORKING },
-            "handeye.toml:1: invalid type: integer `3`, expected string only; correct the manifest",
+            "handeye.toml:1: wanted string or table; correct the manifest",
         ),
         (
             "unknown key",
@@ -300,10 +300,14 @@ fn broken_manifests_are_refused_by_line() {
             "does not say which corner was touched; add a column corner, or row and column",
         ),
     ];
+    let mut wrong = Vec::new();
     for (name, manifest, expected) in cases {
         let message = open(&manifest, POSES).err().unwrap_or_else(|| panic!("{name} was accepted"));
-        assert!(message.contains(expected), "{name}:\n  found    {message}\n  expected {expected}");
+        if !message.contains(expected) {
+            wrong.push(format!("{name}:\n  found    {message}\n  expected {expected}"));
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
