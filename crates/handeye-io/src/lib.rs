@@ -3,6 +3,8 @@
 //! Units and conventions convert here, once: inside all is metres, radians and `a_from_b`. What a
 //! file does not prove and the user did not declare is refused with the question to answer.
 
+#![allow(clippy::result_large_err, reason = "an error ends the reading: its size costs nothing")]
+
 mod camera;
 mod dataset;
 mod error;

@@ -1,5 +1,7 @@
 //! Broken inputs are refused with a message that says where, what, and what to do; nothing panics.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
+
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -617,6 +619,61 @@ fn a_file_cut_anywhere_never_panics() {
         for end in 0..whole.len() {
             let path = folder.write(name, &whole[..end]);
             let _ = (read_image(&path, None), read_scan(&path, &options));
+        }
+    }
+}
+
+/// Numbers that look random and are the same every time.
+fn scrambled(seed: u64) -> impl Iterator<Item = usize> {
+    let next = |s: &u64| {
+        Some(s.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407))
+    };
+    std::iter::successors(Some(seed), next).skip(1).map(|s| (s >> 33) as usize)
+}
+
+#[test]
+fn files_with_damaged_bytes_never_panic() {
+    let folder = Folder::new();
+    let npy =
+        b"\x93NUMPY\x01\x00\x3b\x00{'descr': '<f4', 'fortran_order': True, 'shape': (2, 2, 3)}\n"
+            .to_vec();
+    let pieces: Vec<(&str, Vec<u8>)> = vec![
+        ("a.png", png(32, 32)),
+        ("a.npy", [npy, vec![7; 48]].concat()),
+        ("a.ply", format!("{PLY}1 2 3\n4 5 6\n").into()),
+        (
+            "l.ply",
+            [PLY.replace("ascii", "binary_little_endian").into_bytes(), vec![9; 24]].concat(),
+        ),
+        (
+            "a.json",
+            b"{\"fx\": 1, \"fy\": 1, \"cx\": 1, \"cy\": 1, \"D\": [[1, 2, 3, 4, 5]]}".to_vec(),
+        ),
+        (
+            "a.yaml",
+            b"K: {rows: 3, data: [1, 0, 2, 0, 1, 2, 0, 0, 1]}\nD: [1, 2, 3, 4, 5]\n".to_vec(),
+        ),
+        (
+            "a.xml",
+            b"<r><camera><model><px>1</px><u0>1</u0><kud>0</kud></model></camera></r>".to_vec(),
+        ),
+        (
+            "handeye.toml",
+            format!("{}\n{}\n{}\n", WORKING.setup, WORKING.target, WORKING.robot).into(),
+        ),
+    ];
+    let options = ScanOptions { length_unit: Some(LengthUnit::Metre), ..ScanOptions::default() };
+    for (name, whole) in pieces {
+        let mut random = scrambled(whole.len() as u64);
+        for _ in 0..400 {
+            let mut bytes = whole.clone();
+            for (at, value) in random.by_ref().zip(scrambled(7)).take(3) {
+                let end = bytes.len();
+                bytes[at % end] = (at >> 8 ^ value) as u8;
+            }
+            let path = folder.write(name, bytes);
+            let _ = (read_image(&path, None), read_scan(&path, &options));
+            let _ = (read_intrinsics(&path, None, None), Dataset::open(&path));
         }
     }
 }

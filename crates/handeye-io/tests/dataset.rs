@@ -1,5 +1,7 @@
 //! Datasets with everything a manifest can say.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
+
 use std::{fs, path::PathBuf};
 
 use handeye::{Setup, Warning};

@@ -1,6 +1,8 @@
 //! Other programs read what we write: PyYAML, NumPy and OpenCV, where Python has them.
 //! `HANDEYE_TEST_PYTHON` names the interpreter (default `python3`).
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
+
 use std::{path::PathBuf, process::Command};
 
 use handeye::Setup;
@@ -88,6 +90,24 @@ fn opencv_reads_its_file_storage() {
                   print(*[repr(float(v)) for v in m.ravel()])";
     if let Some(values) = run("cv2", script, &written("opencv-yaml")) {
         assert_eq!(values, matrix());
+    }
+}
+
+#[test]
+fn archives_of_numpy_are_read_packed_or_not() {
+    for save in ["savez", "savez_compressed"] {
+        let path = std::env::temp_dir().join(format!("handeye-{save}-{}.npz", std::process::id()));
+        let script = format!(
+            "import sys, numpy; numpy.{save}(sys.argv[1], dist=numpy.array([[0.1, 0, 0, 0, 0.5]]), \
+             mtx=numpy.asfortranarray([[600., 0, 320], [0, 601, 240], [0, 0, 1]])); print(1)"
+        );
+        if run("numpy", &script, &path).is_none() {
+            return;
+        }
+        let camera = handeye_io::read_intrinsics(&path, None, Some((640, 480))).unwrap();
+        assert_eq!((camera.fx, camera.fy, camera.cx, camera.cy), (600.0, 601.0, 320.0, 240.0));
+        assert_eq!(camera.coefficients()[4], 0.5);
+        std::fs::remove_file(path).unwrap();
     }
 }
 

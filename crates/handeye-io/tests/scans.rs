@@ -1,5 +1,7 @@
 //! Every kind of scan file gives the same points.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
+
 use std::{
     fs::{self, File},
     path::PathBuf,

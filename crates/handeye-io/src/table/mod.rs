@@ -111,7 +111,7 @@ fn joined(parts: Vec<Record>) -> Record {
 pub(crate) fn distinct_names(paths: &[PathBuf]) -> Vec<String> {
     let stems: Vec<String> = paths.iter().map(|p| files::stem(p)).collect();
     let same = stems.len() > 1 && stems.iter().all(|s| *s == stems[0]);
-    let folder = |p: &PathBuf| p.parent().map(|f| files::stem(f)).unwrap_or_default();
+    let folder = |p: &PathBuf| p.parent().map(files::stem).unwrap_or_default();
     if same { paths.iter().map(folder).collect() } else { stems }
 }
 
