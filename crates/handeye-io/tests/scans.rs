@@ -4,7 +4,7 @@
 
 use std::{
     fs::{self, File},
-    path::PathBuf,
+    path::{Path, PathBuf},
 };
 
 use handeye::Intrinsics;
@@ -33,7 +33,7 @@ fn in_millimetres() -> ScanOptions {
 }
 
 /// The scan of a file is the six points, organised or not.
-fn holds_the_points(path: &PathBuf, options: &ScanOptions, organised: bool) {
+fn holds_the_points(path: &Path, options: &ScanOptions, organised: bool) {
     let scan = read_scan(path, options).unwrap();
     let size = if organised { (3, 2) } else { (6, 1) };
     assert_eq!((scan.width(), scan.height()), size, "{}", path.display());
