@@ -3,11 +3,15 @@
 //! Units and conventions convert here, once: inside all is metres, radians and `a_from_b`. What a
 //! file does not prove and the user did not declare is refused with the question to answer.
 
+#![allow(clippy::result_large_err, reason = "an error ends the reading: its size costs nothing")]
+
 mod camera;
 mod dataset;
 mod error;
+pub mod export;
 mod files;
 mod image;
+mod init;
 pub mod measure;
 mod npy;
 pub mod report;
@@ -26,4 +30,5 @@ pub use dataset::{
 pub use error::{Error, Place};
 pub use files::write_atomically;
 pub use image::{image_size, read_image};
+pub use init::handeye_init;
 pub use scan::{ScanOptions, read_scan};

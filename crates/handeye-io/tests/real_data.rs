@@ -3,6 +3,8 @@
 //! The data lie in `HANDEYE_TEST_DATA` (default: `shared/data` beside the repository); a set that
 //! is not there is skipped, and says so.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
+
 use std::path::{Path, PathBuf};
 
 use handeye::Setup;
@@ -108,6 +110,25 @@ fn points_of_the_flange_are_converted_to_metres() {
     let first = &dataset.correspondences[0];
     assert!((first.in_camera.xyz().z - 0.726_765_075_683_593_8).abs() < 1e-15);
     assert!((first.in_mount.xyz().x - 0.5280254928541637).abs() < 1e-15);
+}
+
+/// Robot and board turn by the same angle between two captures, wherever the camera sits.
+#[test]
+fn robot_and_board_turn_by_the_same_angles() {
+    for (set, most_deg) in
+        [("franka_charuco_poses", 0.5), ("camodocal_transpair", 1.5), ("moveit_samples", 1.5)]
+    {
+        let Some(dataset) = open(set) else { continue };
+        let mut apart: Vec<f64> = Vec::new();
+        for pair in dataset.captures.windows(2) {
+            let robot = pair[0].base_from_flange.angle_to(&pair[1].base_from_flange);
+            let [a, b] = [&pair[0], &pair[1]].map(|c| c.camera_from_target.unwrap());
+            apart.push((robot - a.angle_to(&b)).abs().to_degrees());
+        }
+        apart.sort_by(f64::total_cmp);
+        let median = apart[apart.len() / 2];
+        assert!(median < most_deg, "{set}: {median} deg");
+    }
 }
 
 #[test]

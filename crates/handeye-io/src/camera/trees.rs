@@ -170,7 +170,7 @@ fn pair(width: f64, height: f64) -> Tree {
 }
 
 fn size_of(tree: &Tree) -> Option<(u32, u32)> {
-    let whole = |x: f64| (x >= 1.0 && x <= 65_535.0 && x.fract() == 0.0).then_some(x as u32);
+    let whole = |x: f64| ((1.0..=65_535.0).contains(&x) && x.fract() == 0.0).then_some(x as u32);
     match tree.numbers()?[..] {
         [w, h] => Some((whole(w)?, whole(h)?)),
         _ => None,

@@ -24,6 +24,9 @@ pub(super) struct Named<T> {
     pub(super) value: T,
 }
 
+/// The poses of a table, and what looked suspicious about them.
+type Poses<T> = (Vec<Named<T>>, Vec<Warning>);
+
 /// How the numbers of a table become a pose.
 pub(super) enum Reading {
     Notation(Notation, Units),
@@ -126,7 +129,7 @@ fn read(
     at: &str,
     source: &Source,
     root: &Path,
-) -> Result<(Vec<Named<Isometry3<f64>>>, Vec<Warning>), Error> {
+) -> Result<Poses<Isometry3<f64>>, Error> {
     let reading = Reading::of(table, at, source, root)?;
     let place = source.place(&format!("{at}.poses"));
     let layout = table.layout(reading.is_matrix(), at, source)?;
@@ -150,7 +153,7 @@ pub(super) fn of_robot(
     spec: &RobotSpec,
     source: &Source,
     root: &Path,
-) -> Result<(Vec<Named<Pose<Base, Flange>>>, Vec<Warning>), Error> {
+) -> Result<Poses<Pose<Base, Flange>>, Error> {
     let direction = spec.direction.ok_or_else(|| {
         source.undeclared(
             "robot.direction",
@@ -192,7 +195,7 @@ fn tool(spec: &RobotSpec, source: &Source) -> Result<Pose<Flange, Tool>, Error> 
             let [x, y, z, w] = tool.rotation_xyzw;
             let q = Quaternion::new(w, x, y, z);
             let finite = tool.translation_mm.iter().all(|t| t.is_finite());
-            if !finite || !((q.norm() - 1.0).abs() <= 1e-3) {
+            if !finite || !(0.999..=1.001).contains(&q.norm()) {
                 let what = format!(
                     "the quaternion's length is {}, not 1, or a number is not finite",
                     q.norm()
@@ -210,7 +213,7 @@ pub(super) fn of_board(
     spec: &BoardPosesSpec,
     source: &Source,
     root: &Path,
-) -> Result<(Vec<Named<Pose<Camera, Target>>>, Vec<Warning>), Error> {
+) -> Result<Poses<Pose<Camera, Target>>, Error> {
     let (poses, warnings) = read(&spec.table(), "board_poses", source, root)?;
     let convert = |n: Named<Isometry3<f64>>| {
         Ok(Named { value: board_pose(n.value, spec, source)?, id: n.id, place: n.place })

@@ -126,6 +126,9 @@ impl Notation {
         if si.len() != values.len() || si.len() < self.columns.len() {
             return Err(format!("{} values are not a {} pose", values.len(), self.name));
         }
+        if si.iter().any(|x| !x.is_finite()) {
+            return Err(format!("a number of {values:?} is not finite"));
+        }
         let (position, rotation) = self.rotation.split(&si);
         Ok(Isometry3::from_parts(Translation3::from(position), self.rotation.read(&rotation)?))
     }
@@ -133,7 +136,7 @@ impl Notation {
     /// A pose in the notation's numbers, in order and in the given units.
     pub fn values(&self, pose: &Isometry3<f64>, units: Units) -> Vec<f64> {
         let si = self.rotation.join(&pose.translation.vector, &self.rotation.write(&pose.rotation));
-        self.columns.iter().zip(si).map(|(c, v)| units.from_si(c, v)).collect()
+        self.columns.iter().zip(si).map(|(c, v)| units.to_file(c, v)).collect()
     }
 
     /// The maker's units, metres where there are none.
@@ -182,7 +185,7 @@ impl Units {
         }
     }
 
-    fn from_si(self, column: &Column, value: f64) -> f64 {
+    fn to_file(self, column: &Column, value: f64) -> f64 {
         match column.quantity {
             Quantity::Length => value / self.length.metres(),
             Quantity::Angle => self.angle.from_radians(value),

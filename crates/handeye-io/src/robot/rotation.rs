@@ -70,7 +70,7 @@ impl Rotation {
 
 fn unit(q: Quaternion<f64>) -> Result<UnitQuaternion<f64>, String> {
     let length = q.norm();
-    if !((length - 1.0).abs() <= TOLERANCE) {
+    if !(1.0 - TOLERANCE..=1.0 + TOLERANCE).contains(&length) {
         return Err(format!("the quaternion's length is {length:.6}, not 1"));
     }
     Ok(UnitQuaternion::from_quaternion(q))
@@ -82,7 +82,7 @@ fn from_matrix(n: &[f64]) -> Result<UnitQuaternion<f64>, String> {
     }
     let m = Matrix3::new(n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10]);
     let apart = (m.transpose() * m - Matrix3::identity()).abs().max();
-    if !(apart <= TOLERANCE) {
+    if !(0.0..=TOLERANCE).contains(&apart) {
         return Err(format!(
             "the matrix is no rotation: its columns are off unit and square by {apart:.1e}"
         ));

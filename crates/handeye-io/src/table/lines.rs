@@ -138,7 +138,7 @@ fn matrices(lines: Vec<Record>, path: &Path) -> Result<Vec<Record>, Error> {
     let last = [0.0, 0.0, 0.0, 1.0].map(Cell::Number);
     let height = if rows.len() >= 4 && rows[3].cells == last { 4 } else { 3 };
     let blocks = rows.len() / height;
-    if rows.len() % height != 0 || count.is_some_and(|n| n != blocks as f64) {
+    if !rows.len().is_multiple_of(height) || count.is_some_and(|n| n != blocks as f64) {
         let counted = count.map(|n| format!(" after a count of {n}")).unwrap_or_default();
         return Err(malformed(
             Place::file(path),

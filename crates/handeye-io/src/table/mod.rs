@@ -84,13 +84,13 @@ pub(crate) fn record_per_file(paths: &[PathBuf], layout: &Layout) -> Result<Vec<
 }
 
 fn only_record(path: &Path, layout: &Layout) -> Result<Record, Error> {
-    let whole = Layout { rows: None, ..layout.clone() };
+    let whole = Layout { rows: None, columns: vec![], ..layout.clone() };
     let mut found = records(path, &whole)?;
     if found.len() > 1 && found.iter().all(|r| r.cells.len() < 6) {
-        return Ok(joined(found));
+        found = vec![joined(found)];
     }
     match (found.len(), found.pop()) {
-        (1, Some(record)) => Ok(record),
+        (1, Some(record)) => record.select_columns(&layout.columns),
         (count, _) => Err(malformed(
             Place::file(path),
             format!("holds {count} records, but a pattern of files means one in each"),
@@ -111,7 +111,7 @@ fn joined(parts: Vec<Record>) -> Record {
 pub(crate) fn distinct_names(paths: &[PathBuf]) -> Vec<String> {
     let stems: Vec<String> = paths.iter().map(|p| files::stem(p)).collect();
     let same = stems.len() > 1 && stems.iter().all(|s| *s == stems[0]);
-    let folder = |p: &PathBuf| p.parent().map(|f| files::stem(f)).unwrap_or_default();
+    let folder = |p: &PathBuf| p.parent().map(files::stem).unwrap_or_default();
     if same { paths.iter().map(folder).collect() } else { stems }
 }
 

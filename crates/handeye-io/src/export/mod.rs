@@ -1,0 +1,177 @@
+//! Results in the notations of other programs and of robots; conventions begin again here.
+
+mod middleware;
+mod text;
+mod vision;
+
+use handeye::Setup;
+use nalgebra::Isometry3;
+
+use crate::robot::{NAMES, Notation};
+
+/// Where the camera sits, in the words of the program that shall read it.
+#[derive(Debug, Clone)]
+pub struct CameraPose<'a> {
+    /// Name of the transform, such as `base_from_camera`.
+    pub name: &'a str,
+    /// `parent_from_child`, metres; the child is the camera.
+    pub parent_from_child: Isometry3<f64>,
+    /// Frame of the mount: the base or the flange.
+    pub parent: &'a str,
+    /// Frame of the camera.
+    pub child: &'a str,
+    /// Which of the two the mount is.
+    pub setup: Setup,
+}
+
+/// What a result is written as.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Format {
+    /// Four lines of four numbers, metres.
+    Matrix,
+    /// A robot's or a generic notation.
+    Robot(Notation),
+    /// ROS 2: a Python launch file with a static_transform_publisher.
+    Ros2Launch,
+    /// A fixed joint for URDF or xacro; rpy about the fixed axes x, y, z.
+    Urdf,
+    /// easy_handeye2's `.calib`.
+    EasyHandEye,
+    /// moveit_calibration's ROS 1 launch file.
+    MoveIt,
+    /// OpenCV's FileStorage in YAML, metres.
+    OpenCv,
+    /// Zivid's 4x4 YAML, millimetres.
+    Zivid,
+    /// HALCON's pose `.dat`: the camera is the parent, metres and degrees.
+    Halcon,
+    /// NumPy's `.npy`, a 4x4 matrix, metres.
+    Npy,
+}
+
+/// Names of the formats that are no robot notations.
+const PROGRAMS: [&str; 8] = [
+    "ros2-launch",
+    "urdf",
+    "easy-handeye2",
+    "moveit",
+    "opencv-yaml",
+    "zivid-yaml",
+    "halcon",
+    "npy",
+];
+
+impl Format {
+    /// Names of all formats.
+    pub fn names() -> Vec<&'static str> {
+        let robots = NAMES.into_iter().filter(|n| *n != "joints");
+        PROGRAMS.into_iter().chain(robots).collect()
+    }
+
+    /// The format of a name; `Err` says which there are.
+    pub fn named(name: &str) -> Result<Format, String> {
+        Ok(match name {
+            "matrix4x4" => Format::Matrix,
+            "ros2-launch" => Format::Ros2Launch,
+            "urdf" => Format::Urdf,
+            "easy-handeye2" => Format::EasyHandEye,
+            "moveit" => Format::MoveIt,
+            "opencv-yaml" => Format::OpenCv,
+            "zivid-yaml" => Format::Zivid,
+            "halcon" => Format::Halcon,
+            "npy" => Format::Npy,
+            robot => Format::Robot(
+                Notation::named(robot)
+                    .map_err(|_| format!("there are {}", Self::names().join(", ")))?,
+            ),
+        })
+    }
+
+    /// The usual name of a file with this content.
+    pub fn file_name(&self, pose: &str) -> String {
+        match self {
+            Format::Matrix => format!("{pose}.txt"),
+            Format::Robot(notation) => format!("{pose}_{}.txt", notation.name),
+            Format::Ros2Launch => format!("{pose}.launch.py"),
+            Format::Urdf => format!("{pose}.urdf.xacro"),
+            Format::EasyHandEye => format!("{pose}.calib"),
+            Format::MoveIt => format!("{pose}.launch"),
+            Format::OpenCv => format!("{pose}_opencv.yaml"),
+            Format::Zivid => format!("{pose}_zivid.yaml"),
+            Format::Halcon => format!("{pose}.dat"),
+            Format::Npy => format!("{pose}.npy"),
+        }
+    }
+}
+
+/// The content of a file of the given format.
+pub fn render(pose: &CameraPose, format: &Format) -> Vec<u8> {
+    match format {
+        Format::Matrix => text::matrix(pose).into_bytes(),
+        Format::Robot(notation) => text::robot(pose, notation).into_bytes(),
+        Format::Ros2Launch => middleware::ros2_launch(pose).into_bytes(),
+        Format::Urdf => middleware::urdf(pose).into_bytes(),
+        Format::EasyHandEye => middleware::easy_handeye(pose).into_bytes(),
+        Format::MoveIt => middleware::moveit(pose).into_bytes(),
+        Format::OpenCv => vision::opencv(pose).into_bytes(),
+        Format::Zivid => vision::zivid(pose).into_bytes(),
+        Format::Halcon => vision::halcon(pose).into_bytes(),
+        Format::Npy => crate::npy::encode(&[4, 4], &row_major(&pose.parent_from_child)),
+    }
+}
+
+/// The sixteen numbers of the homogeneous matrix.
+fn row_major(pose: &Isometry3<f64>) -> Vec<f64> {
+    pose.to_homogeneous().transpose().iter().copied().collect()
+}
+
+/// A number that every reader takes for the same double: `1.0e-7`, never `1e-7` (text in YAML 1.1).
+fn number(x: f64) -> String {
+    let text = format!("{:?}", x + 0.0);
+    let Some((mantissa, exponent)) = text.split_once('e') else { return text };
+    let point = if mantissa.contains('.') { "" } else { ".0" };
+    let sign = if exponent.starts_with('-') { "" } else { "+" };
+    format!("{mantissa}{point}e{sign}{exponent}")
+}
+
+fn numbers(values: &[f64], separator: &str) -> String {
+    values.iter().map(|v| number(*v)).collect::<Vec<_>>().join(separator)
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+    pub(crate) fn example() -> CameraPose<'static> {
+        CameraPose {
+            name: "base_from_camera",
+            parent_from_child: Isometry3::from_parts(
+                Translation3::new(0.5, -0.25, 1e-7),
+                UnitQuaternion::new(Vector3::new(0.1, -2.0, 0.7)),
+            ),
+            parent: "base_link",
+            child: "camera_optical_frame",
+            setup: Setup::EyeToHand,
+        }
+    }
+
+    #[test]
+    fn numbers_are_doubles_for_every_reader() {
+        for (x, text) in
+            [(1e-7, "1.0e-7"), (2.5e-9, "2.5e-9"), (1e20, "1.0e+20"), (-0.0, "0.0"), (1.0, "1.0")]
+        {
+            assert_eq!(number(x), text);
+        }
+    }
+
+    #[test]
+    fn every_format_has_a_name_and_content() {
+        for name in Format::names() {
+            let format = Format::named(name).unwrap();
+            assert!(!render(&example(), &format).is_empty(), "{name}");
+            assert!(format.file_name("x").starts_with('x'));
+        }
+        assert!(Format::named("word").unwrap_err().starts_with("there are ros2-launch,"));
+    }
+}

@@ -1,0 +1,82 @@
+//! Plain text: matrices, and the notations of robots as their programs write them.
+
+use super::{CameraPose, number, numbers, row_major};
+use crate::robot::Notation;
+
+/// Four lines of four numbers.
+pub(super) fn matrix(pose: &CameraPose) -> String {
+    let rows = row_major(&pose.parent_from_child);
+    rows.chunks(4).map(|row| numbers(row, " ") + "\n").collect()
+}
+
+/// One line in a robot's notation, below a comment that says what it is.
+pub(super) fn robot(pose: &CameraPose, notation: &Notation) -> String {
+    let units = notation.own_units();
+    let values = notation.values(&pose.parent_from_child, units);
+    let names: Vec<&str> = notation.columns.iter().map(|c| c.names[0]).collect();
+    format!(
+        "# {} ({} from {}), {}: {} in {}{}\n{}\n",
+        pose.name,
+        pose.parent,
+        pose.child,
+        notation.name,
+        names.join(" "),
+        units.length.name(),
+        angles(notation),
+        line(notation, &names, &values),
+    )
+}
+
+fn angles(notation: &Notation) -> &'static str {
+    use crate::{robot::Quantity, units::AngleUnit};
+    match notation.columns.iter().any(|c| c.quantity == Quantity::Angle) {
+        false => "",
+        true if notation.angle_unit == AngleUnit::Degree => " and deg",
+        true => " and rad",
+    }
+}
+
+/// As the maker's programs write it.
+fn line(notation: &Notation, names: &[&str], values: &[f64]) -> String {
+    match notation.name.as_str() {
+        "ur" => format!("p[{}]", numbers(values, ", ")),
+        "abb" => format!("[[{}], [{}]]", numbers(&values[..3], ", "), numbers(&values[3..], ", ")),
+        "kuka" => {
+            let named: Vec<String> =
+                names.iter().zip(values).map(|(n, v)| format!("{n} {}", number(*v))).collect();
+            format!("{{{}}}", named.join(", "))
+        }
+        _ => numbers(values, " "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        export::{Format, render, tests::example},
+        robot::NAMES,
+        table::{self, Layout},
+    };
+
+    #[test]
+    fn what_is_written_for_a_robot_is_read_back_as_the_same_pose() {
+        let folder = std::env::temp_dir().join(format!("handeye-export-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        for name in NAMES.iter().filter(|n| **n != "joints") {
+            let notation = Notation::named(name).unwrap();
+            let path = folder.join(format!("{name}.txt"));
+            std::fs::write(&path, render(&example(), &Format::named(name).unwrap())).unwrap();
+            let layout = Layout { matrices: *name == "matrix4x4", ..Layout::default() };
+            let records = table::records(&path, &layout).unwrap();
+            let values = notation.numbers(&records[0]).unwrap();
+            let again = notation.pose(&values, notation.own_units()).unwrap();
+            let apart = again.inverse() * example().parent_from_child;
+            assert!(
+                apart.translation.vector.norm() < 1e-12 && apart.rotation.angle() < 1e-7,
+                "{name}"
+            );
+        }
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+}

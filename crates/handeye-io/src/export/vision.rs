@@ -1,0 +1,75 @@
+//! Vision libraries: OpenCV, Zivid, HALCON.
+
+use super::{CameraPose, numbers, row_major};
+use crate::robot::Notation;
+
+pub(super) fn opencv(pose: &CameraPose) -> String {
+    format!(
+        "%YAML:1.0\n---\n{}: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [ {} ]\n",
+        pose.name,
+        numbers(&row_major(&pose.parent_from_child), ", ")
+    )
+}
+
+pub(super) fn zivid(pose: &CameraPose) -> String {
+    let mut matrix = row_major(&pose.parent_from_child);
+    for i in [3, 7, 11] {
+        matrix[i] *= 1000.0;
+    }
+    let rows: Vec<String> =
+        matrix.chunks(4).map(|r| format!("    - [{}]", numbers(r, ", "))).collect();
+    format!(
+        "__version__:\n  serializer: 1\n  data: 1\nFloatMatrix:\n  Data:\n{}\n",
+        rows.join("\n")
+    )
+}
+
+/// HALCON's results have the camera as the parent: `child_from_parent`, as Rp+T, gba, point.
+pub(super) fn halcon(pose: &CameraPose) -> String {
+    let inverse = pose.parent_from_child.inverse();
+    let values = Notation::named("euler-xyz-intrinsic")
+        .map(|n| n.values(&inverse, n.own_units()))
+        .unwrap_or_default();
+    format!(
+        "# 3D POSE PARAMETERS: rotation and translation\n\n\
+         # {}: {} in {}\n\n\
+         # Used representation type:\nf 0\n\n\
+         # Rotation angles [deg] or Rodriguez-vector:\nr {}\n\n\
+         # Translational vector (x y z [m]):\nt {}\n",
+        pose.name,
+        pose.parent,
+        pose.child,
+        numbers(&values[3..], " "),
+        numbers(&values[..3], " "),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{export::tests::example, tree::Tree};
+
+    #[test]
+    fn opencv_and_zivid_hold_the_matrix_in_their_units() {
+        let tree: Tree = serde_saphyr::from_str(&opencv(&example())).unwrap();
+        let matrix = tree.get("base_from_camera").and_then(Tree::numbers).unwrap();
+        assert_eq!(matrix, row_major(&example().parent_from_child));
+        let tree: Tree = serde_saphyr::from_str(&zivid(&example())).unwrap();
+        let matrix = tree.get("FloatMatrix").and_then(Tree::numbers).unwrap();
+        assert_eq!((matrix[3], matrix[7]), (500.0, -250.0));
+    }
+
+    #[test]
+    fn halcon_has_the_camera_as_parent() {
+        let text = halcon(&example());
+        let line = |key: &str| -> Vec<f64> {
+            let line = text.lines().find_map(|l| l.strip_prefix(key)).unwrap();
+            line.split(' ').map(|w| w.parse().unwrap()).collect()
+        };
+        let notation = Notation::named("euler-xyz-intrinsic").unwrap();
+        let values = [line("t "), line("r ")].concat();
+        let again = notation.pose(&values, notation.own_units()).unwrap();
+        let apart = again * example().parent_from_child;
+        assert!(apart.translation.vector.norm() < 1e-12 && apart.rotation.angle() < 1e-7);
+    }
+}
