@@ -17,9 +17,7 @@
 //! B. Triggs et al., *Bundle adjustment: a modern synthesis*, 2000; G. Schwarz, *Estimating the
 //! dimension of a model*, 1978.
 
-use nalgebra::{
-    DMatrix, Isometry3, Matrix3, Matrix6, SMatrix, SVector, Vector2, Vector3, Vector6,
-};
+use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix6, SMatrix, SVector, Vector2, Vector3, Vector6};
 
 use crate::detect::{homography, target_poses};
 use crate::lie::{self, hat};
@@ -323,7 +321,8 @@ impl Adjustment {
     /// What the model leaves beyond the corners' variances, px² per axis, by the median.
     fn excess(&self) -> f64 {
         let residuals = median(self.squares(|_| true)) / CHI2_2_MEDIAN;
-        let own = median(self.views.iter().flat_map(|v| v.corners.iter().map(|c| c.variance)).collect());
+        let own =
+            median(self.views.iter().flat_map(|v| v.corners.iter().map(|c| c.variance)).collect());
         (residuals - own).max(0.0)
     }
 
@@ -332,9 +331,7 @@ impl Adjustment {
         let of_view = |view: &View| -> Vec<f64> {
             let corners = view.corners.iter().filter(|c| chosen(c));
             corners
-                .map(|c| {
-                    residual(&self.camera, &view.pose, c).map_or(1e9, |r| r.norm_squared())
-                })
+                .map(|c| residual(&self.camera, &view.pose, c).map_or(1e9, |r| r.norm_squared()))
                 .collect()
         };
         self.views.iter().flat_map(of_view).collect()
@@ -608,8 +605,7 @@ mod tests {
     use crate::simulate::Random;
     use nalgebra::Matrix2;
 
-    const BROWN: [f64; 12] =
-        [-0.28, 0.11, 6e-4, -4e-4, -0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    const BROWN: [f64; 12] = [-0.28, 0.11, 6e-4, -4e-4, -0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
     fn board() -> TargetModel {
         TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 }
@@ -621,11 +617,18 @@ mod tests {
     }
 
     /// The board all over the picture, tilted by up to `tilt` rad.
-    fn views(n: usize, camera: &Intrinsics, tilt: f64, sigma: f64, seed: u64) -> Vec<Vec<ImageCorner>> {
+    fn views(
+        n: usize,
+        camera: &Intrinsics,
+        tilt: f64,
+        sigma: f64,
+        seed: u64,
+    ) -> Vec<Vec<ImageCorner>> {
         let mut random = Random::new(seed);
         let mut view = || loop {
             let z = random.between(0.35, 0.6);
-            let at = Vector3::new(random.between(-0.35, 0.2) * z, random.between(-0.3, 0.15) * z, z);
+            let at =
+                Vector3::new(random.between(-0.35, 0.2) * z, random.between(-0.3, 0.15) * z, z);
             let turn = Vector3::from_fn(|_, _| random.between(-tilt, tilt));
             let turn = lie::tangent(&turn, &Vector3::zeros());
             let pose = Pose::<Camera, Target>::from_parts(&Matrix3::identity(), at).retract(&turn);
@@ -636,7 +639,8 @@ mod tests {
                 let covariance = Matrix2::identity() * sigma.max(1e-4).powi(2);
                 inside.then(|| ImageCorner { id: id as u32, pixel: pixel + noise, covariance })
             };
-            let all: Vec<_> = board().corners().into_iter().enumerate().filter_map(&mut one).collect();
+            let all: Vec<_> =
+                board().corners().into_iter().enumerate().filter_map(&mut one).collect();
             if all.len() == 54 {
                 return all;
             }
@@ -657,7 +661,10 @@ mod tests {
     #[test]
     fn errors_stay_inside_the_covariance() {
         let truth = camera(BROWN);
-        let wanted = [truth.fx, truth.fy, truth.cx, truth.cy, BROWN[0], BROWN[1], BROWN[2], BROWN[3], BROWN[4]];
+        let wanted = [
+            truth.fx, truth.fy, truth.cx, truth.cy, BROWN[0], BROWN[1], BROWN[2], BROWN[3],
+            BROWN[4],
+        ];
         let (mut sum, mut count) = (0.0, 0.0);
         for seed in 0..12 {
             let found = calibrate(&views(12, &truth, 0.6, 0.1, seed), &board(), 1280, 960).unwrap();
@@ -713,7 +720,8 @@ mod tests {
         let camera = camera(BROWN);
         let pose = lie::exp(&Vector6::new(0.2, -0.3, 0.1, -0.1, 0.05, 0.5));
         let in_target = Vector3::new(0.12, 0.09, 0.0);
-        let corner = Corner { id: 0, in_target, pixel: Vector2::zeros(), variance: 1.0, weight: 1.0 };
+        let corner =
+            Corner { id: 0, in_target, pixel: Vector2::zeros(), variance: 1.0, weight: 1.0 };
         let (_, by_shared, by_pose) = linearised(&camera, &pose, &corner).unwrap();
         for k in 0..9 {
             let mut d = Shared::zeros();

@@ -105,7 +105,8 @@ mod tests {
 
     #[test]
     fn the_unit_square_goes_to_the_quadrilateral() {
-        let quad = [(1.0, 2.0), (7.0, 1.0), (8.0, 9.0), (0.0, 6.0)].map(|(x, y)| Vector2::new(x, y));
+        let quad =
+            [(1.0, 2.0), (7.0, 1.0), (8.0, 9.0), (0.0, 6.0)].map(|(x, y)| Vector2::new(x, y));
         let h = from_unit_square(&quad);
         for (corner, wanted) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].iter().zip(&quad) {
             let seen = apply(&h, &Vector2::new(corner.0, corner.1));

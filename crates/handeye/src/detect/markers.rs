@@ -174,10 +174,8 @@ fn means(grey: &[f64], threshold: f64) -> (f64, f64) {
 /// Grey value between pixels; `None` outside.
 pub fn bilinear(image: &GrayImage, at: &Vector2<f64>) -> Option<f64> {
     let (x, y) = (at.x.floor(), at.y.floor());
-    let inside = x >= 0.0
-        && y >= 0.0
-        && x + 1.0 < image.width() as f64
-        && y + 1.0 < image.height() as f64;
+    let inside =
+        x >= 0.0 && y >= 0.0 && x + 1.0 < image.width() as f64 && y + 1.0 < image.height() as f64;
     if !inside {
         return None;
     }

@@ -22,9 +22,7 @@ use nalgebra::{
 
 use super::homography;
 use crate::lie::{self, hat};
-use crate::{
-    Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel, TargetPose,
-};
+use crate::{Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel, TargetPose};
 
 /// A pose of the target and how well it explains the picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -168,7 +166,8 @@ impl<'a> Fit<'a> {
             Some(Seen { id, in_target, pixel, covariance, weight: 1.0 })
         };
         let felt = |c: &SurfaceCorner| {
-            let information = c.covariance.try_inverse().filter(|m| m.iter().all(|x| x.is_finite()))?;
+            let information =
+                c.covariance.try_inverse().filter(|m| m.iter().all(|x| x.is_finite()))?;
             let in_camera = c.in_camera.vector();
             Some(Felt { in_target: at(c.id)?, in_camera, information, weight: 1.0 })
         };
@@ -383,8 +382,7 @@ impl<'a> Fit<'a> {
     /// All corners in front of the camera, which sees the board's face.
     fn is_possible(&self, pose: &Isometry3<f64>) -> bool {
         let eye = pose.inverse().translation.vector;
-        let in_front =
-            |c: &Seen| (pose * nalgebra::Point3::from(c.in_target)).z > 0.0;
+        let in_front = |c: &Seen| (pose * nalgebra::Point3::from(c.in_target)).z > 0.0;
         eye.z < 0.0 && self.seen.iter().all(in_front)
     }
 }
@@ -482,12 +480,11 @@ fn bisect(mut low: f64, mut high: f64, is_low: impl Fn(f64) -> bool) -> f64 {
     high
 }
 
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Camera, Distortion};
     use crate::simulate::Random;
+    use crate::{Camera, Distortion};
 
     fn board() -> TargetModel {
         TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 }
@@ -500,7 +497,11 @@ mod tests {
     }
 
     fn pose(random: &mut Random) -> Pose<Camera, Target> {
-        let at = Vector3::new(random.between(-0.2, 0.0), random.between(-0.2, 0.0), random.between(0.6, 1.0));
+        let at = Vector3::new(
+            random.between(-0.2, 0.0),
+            random.between(-0.2, 0.0),
+            random.between(0.6, 1.0),
+        );
         let tilt = |random: &mut Random| random.between(-0.7, 0.7);
         let turn = Vector6::new(tilt(random), tilt(random), tilt(random), 0.0, 0.0, 0.0);
         Pose::from_parts(&Matrix3::identity(), at).retract(&turn)
@@ -575,8 +576,10 @@ mod tests {
     fn a_distant_flat_board_has_two_poses() {
         let mut random = Random::new(7);
         let turn = Vector6::new(0.25, 0.1, 0.0, 0.0, 0.0, 0.0);
-        let truth = Pose::from_parts(&Matrix3::identity(), Vector3::new(0.0, 0.0, 6.0)).retract(&turn);
-        let poses = target_poses(&corners(&truth, 0.1, &mut random), &[], &board(), &camera()).unwrap();
+        let truth =
+            Pose::from_parts(&Matrix3::identity(), Vector3::new(0.0, 0.0, 6.0)).retract(&turn);
+        let poses =
+            target_poses(&corners(&truth, 0.1, &mut random), &[], &board(), &camera()).unwrap();
         assert_eq!(poses.len(), 2);
         assert!(poses.iter().any(|p| p.pose.camera_from_target.angle_to(&truth) < 0.1));
     }
@@ -586,10 +589,15 @@ mod tests {
         let mut random = Random::new(8);
         let truth = pose(&mut random);
         let seen = corners(&truth, 0.1, &mut random);
-        let surface: Vec<SurfaceCorner> = board().corners().into_iter().enumerate()
+        let surface: Vec<SurfaceCorner> = board()
+            .corners()
+            .into_iter()
+            .enumerate()
             .map(|(id, p)| SurfaceCorner {
                 id: id as u32,
-                in_camera: crate::Point::from_vector((truth * p).vector() + random.normal3() * 1e-4),
+                in_camera: crate::Point::from_vector(
+                    (truth * p).vector() + random.normal3() * 1e-4,
+                ),
                 covariance: Matrix3::identity() * 1e-8,
             })
             .collect();
@@ -610,7 +618,8 @@ mod tests {
         for k in 0..6 {
             let mut step = Vector6::zeros();
             step[k] = 1e-6;
-            let at = |d: Vector6<f64>| fit.residual(truth.retract(&d).iso(), &fit.seen[30]).unwrap().0;
+            let at =
+                |d: Vector6<f64>| fit.residual(truth.retract(&d).iso(), &fit.seen[30]).unwrap().0;
             let numeric = (at(step) - at(-step)) / 2e-6;
             assert!((analytic.column(k) - numeric).norm() < 1e-4, "{k}");
         }

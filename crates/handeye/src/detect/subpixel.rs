@@ -16,7 +16,7 @@
 //! After L. Krüger and C. Wöhler, *Accurate chequerboard corner localisation for camera
 //! calibration*, Pattern Recognition Letters 32(10), 2011, who fit the same surface with one blur.
 
-use std::f64::consts::{FRAC_2_SQRT_PI, FRAC_1_SQRT_2};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI};
 
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
@@ -332,7 +332,11 @@ impl Erf {
             let node = (value, slope(x));
             let at = |s: f64| slope(x + s * step);
             value += step / 90.0
-                * (7.0 * at(0.0) + 32.0 * at(0.25) + 12.0 * at(0.5) + 32.0 * at(0.75) + 7.0 * at(1.0));
+                * (7.0 * at(0.0)
+                    + 32.0 * at(0.25)
+                    + 12.0 * at(0.5)
+                    + 32.0 * at(0.75)
+                    + 7.0 * at(1.0));
             node
         });
         Self { nodes: nodes.collect() }
@@ -379,7 +383,8 @@ mod tests {
     #[test]
     fn the_jacobian_matches_central_differences() {
         let erf = Erf::new();
-        let at = Parameters::from_column_slice(&[0.3, -0.2, 0.4, 1.8, 110.0, -60.0, 0.2, 0.01, -0.02]);
+        let at =
+            Parameters::from_column_slice(&[0.3, -0.2, 0.4, 1.8, 110.0, -60.0, 0.2, 0.01, -0.02]);
         for (x, y) in [(0.5, 0.1), (-3.0, 2.0), (1.0, -4.0)] {
             let (_, analytic) = Model::new(&at).at(x, y, &erf);
             for k in 0..9 {
@@ -453,6 +458,7 @@ mod tests {
 
     #[test]
     fn corners_are_found_to_a_few_hundredths_of_a_pixel() {
+        // cell px, blur px, noise, goal px
         let cases = [
             (60.0, 0.6, 1.5, 0.009),
             (45.0, 0.9, 2.5, 0.014),
@@ -461,14 +467,43 @@ mod tests {
             (45.0, 1.0, 8.0, 0.034),
         ];
         for (cell_px, blur_px, noise, goal) in cases {
-            let optics = Optics { blur_px, noise, ..Optics::default() };
-            let errors = errors(cell_px, &optics);
-            let rms = rms(&errors);
-            let expected = |(e, c): &(Vector2<f64>, Matrix2<f64>)| {
-                c.try_inverse().map_or(f64::NAN, |i| e.dot(&(i * e)) / 2.0)
-            };
-            let ratio = errors.iter().map(expected).sum::<f64>() / errors.len() as f64;
-            eprintln!("{cell_px} {blur_px} {noise}: n {} rms {rms:.4} goal {goal} nees {ratio:.3}", errors.len());
+            let errors = errors(cell_px, &Optics { blur_px, noise, ..Optics::default() });
+            assert!(errors.len() > 410, "{} corners", errors.len());
+            assert!(rms(&errors) < goal, "{cell_px} {blur_px} {noise}: {}", rms(&errors));
+            let ratio = expected_ratio(&errors);
+            assert!((0.9..1.15).contains(&ratio), "{cell_px} {blur_px} {noise}: {ratio}");
         }
+    }
+
+    /// Mean of the squared errors over their covariances; 1 is expected.
+    fn expected_ratio(errors: &[(Vector2<f64>, Matrix2<f64>)]) -> f64 {
+        let one = |(e, c): &(Vector2<f64>, Matrix2<f64>)| e.dot(&(c.try_inverse().unwrap() * e));
+        errors.iter().map(one).sum::<f64>() / (2.0 * errors.len() as f64)
+    }
+
+    #[test]
+    fn light_that_fades_does_not_move_corners() {
+        let optics = Optics { vignetting: 0.5, noise: 0.5, ..Optics::default() };
+        assert!(rms(&errors(45.0, &optics)) < 0.006);
+    }
+
+    #[test]
+    fn a_lens_out_of_focus_costs_little() {
+        let optics = Optics { blur_px: 0.5, defocus_px: 2.0, ..Optics::default() };
+        assert!(rms(&errors(45.0, &optics)) < 0.03);
+    }
+
+    #[test]
+    fn a_flat_picture_has_no_corner() {
+        let flat = GrayImage::new(60, 60, vec![90.0; 3600]).unwrap();
+        let rough = RoughCorner {
+            pixel: Vector2::new(30.0, 30.0),
+            along_x: Vector2::new(20.0, 0.0),
+            along_y: Vector2::new(0.0, 20.0),
+            clean: 1.0,
+        };
+        assert_eq!(fit(&flat, &rough, &Erf::new()), Err(Unfit::NoCorner));
+        let rough = RoughCorner { pixel: Vector2::new(3.0, 30.0), ..rough };
+        assert_eq!(fit(&flat, &rough, &Erf::new()), Err(Unfit::AtTheEdge));
     }
 }

@@ -235,8 +235,7 @@ fn cloud_samples(
     centre: &Vector2<f64>,
     radius: f64,
 ) -> Result<Vec<Sample>, Reason> {
-    let (low, high) =
-        (bucket(&centre.add_scalar(-radius)), bucket(&centre.add_scalar(radius)));
+    let (low, high) = (bucket(&centre.add_scalar(-radius)), bucket(&centre.add_scalar(radius)));
     let cells = (low.0..=high.0).flat_map(|i| (low.1..=high.1).map(move |j| (i, j)));
     let near = cells.filter_map(|cell| buckets.get(&cell)).flatten();
     let samples: Vec<Sample> = near
@@ -269,12 +268,8 @@ impl Plane {
         let (start, median) = least_median(samples, seed).ok_or(Reason::OneSided)?;
         let least = LEAST_SCATTER * start[0].abs();
         let mut scatter = (median / MAD).max(least);
-        let mut plane = Self {
-            coefficients: start,
-            weights: vec![],
-            scatter,
-            cofactor: Matrix3::zeros(),
-        };
+        let mut plane =
+            Self { coefficients: start, weights: vec![], scatter, cofactor: Matrix3::zeros() };
         for _ in 0..ROUNDS {
             let residuals = plane.residuals(samples);
             plane.weights = residuals.iter().map(|r| tukey(r / scatter)).collect();
@@ -300,7 +295,8 @@ impl Plane {
     /// From the points that carry weight.
     fn weighted_scatter(&self, samples: &[Sample]) -> f64 {
         let squares = self.residuals(samples).into_iter().zip(&self.weights);
-        let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), (r, w)| (sum + w * r * r, count + w));
+        let (sum, count) =
+            squares.fold((0.0, 0.0), |(sum, count), (r, w)| (sum + w * r * r, count + w));
         (sum / (count - 3.0 * TUKEY_MEAN).max(1.0) / TUKEY_SHRINK).sqrt()
     }
 
@@ -318,18 +314,14 @@ impl Plane {
         Ok(())
     }
 
-    fn corner(
-        &self,
-        id: u32,
-        rays: &Rays,
-        pixel: &Matrix2<f64>,
-        inflation: f64,
-    ) -> SurfaceCorner {
-        let [alpha, beta, gamma] = [self.coefficients[0], self.coefficients[1], self.coefficients[2]];
+    fn corner(&self, id: u32, rays: &Rays, pixel: &Matrix2<f64>, inflation: f64) -> SurfaceCorner {
+        let [alpha, beta, gamma] =
+            [self.coefficients[0], self.coefficients[1], self.coefficients[2]];
         let z = 1.0 / alpha;
         let ray = Vector3::new(rays.x[0], rays.y[0], 1.0);
         // ∂(r/ρ)/∂u = r_u/ρ - r ρ_u/ρ²
-        let along = |rx: f64, ry: f64, slope: f64| Vector3::new(rx, ry, 0.0) * z - ray * (slope * z * z);
+        let along =
+            |rx: f64, ry: f64, slope: f64| Vector3::new(rx, ry, 0.0) * z - ray * (slope * z * z);
         let by_pixel = Matrix3x2::from_columns(&[
             along(rays.x[1], rays.y[1], beta),
             along(rays.x[2], rays.y[2], gamma),
@@ -424,8 +416,11 @@ mod tests {
         let turn = Vector6::new(0.3, -0.4, 0.2, 0.0, 0.0, 0.0);
         Scene {
             target: TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 20.0 },
-            camera_from_target: Pose::from_parts(&Matrix3::identity(), Vector3::new(-0.08, -0.05, 0.6))
-                .retract(&turn),
+            camera_from_target: Pose::from_parts(
+                &Matrix3::identity(),
+                Vector3::new(-0.08, -0.05, 0.6),
+            )
+            .retract(&turn),
             intrinsics: Intrinsics::pinhole(640, 480, 600.0, 600.0, 319.5, 239.5),
         }
     }
@@ -515,7 +510,9 @@ mod tests {
         let scene = scene();
         let corners = seen(&scene, 0.0, &mut Random::new(3));
         let (hole, edge) = (corners[12].pixel, corners[40].pixel);
-        let near = |c: Vector2<f64>, x: usize, y: usize| (Vector2::new(x as f64, y as f64) - c).norm() < 9.0;
+        let near = |c: Vector2<f64>, x: usize, y: usize| {
+            (Vector2::new(x as f64, y as f64) - c).norm() < 9.0
+        };
         let scan = with_points(&scene.scan(&exact(), 3), |x, y, p| {
             let step = if near(edge, x, y) && (x as f64) < edge.x { 0.9 } else { 1.0 };
             if near(hole, x, y) { [f32::NAN; 3] } else { p.map(|v| v * step) }

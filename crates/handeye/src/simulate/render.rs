@@ -77,11 +77,9 @@ impl Default for DepthSensor {
 impl Scene {
     /// The exact pixels of the corners that the camera sees, with their ids.
     pub fn corners(&self) -> Vec<(u32, Vector2<f64>)> {
-        let (width, height) =
-            (f64::from(self.intrinsics.width), f64::from(self.intrinsics.height));
-        let inside = |p: &Vector2<f64>| {
-            p.x > -0.5 && p.y > -0.5 && p.x < width - 0.5 && p.y < height - 0.5
-        };
+        let (width, height) = (f64::from(self.intrinsics.width), f64::from(self.intrinsics.height));
+        let inside =
+            |p: &Vector2<f64>| p.x > -0.5 && p.y > -0.5 && p.x < width - 0.5 && p.y < height - 0.5;
         let corners = self.target.corners().into_iter().enumerate();
         corners
             .filter_map(|(id, in_target)| {
@@ -386,7 +384,8 @@ impl HalfPixels {
             return;
         }
         let reach = radius.ceil() as i64;
-        let share = |dx: i64, dy: i64| (radius + 0.5 - (dx as f64).hypot(dy as f64)).clamp(0.0, 1.0);
+        let share =
+            |dx: i64, dy: i64| (radius + 0.5 - (dx as f64).hypot(dy as f64)).clamp(0.0, 1.0);
         let all = || (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy)));
         let sum: f64 = all().map(|(dx, dy)| share(dx, dy)).sum();
         let (width, height) = (self.width as i64, self.height as i64);
@@ -397,7 +396,8 @@ impl HalfPixels {
             };
             all().map(one).sum()
         };
-        self.values = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)))
+        self.values = (0..height)
+            .flat_map(|y| (0..width).map(move |x| (x, y)))
             .map(|(x, y)| seen(x, y))
             .collect();
     }
@@ -454,7 +454,12 @@ impl Texture {
                 print: Print::Squares,
             }),
             TargetModel::Charuco {
-                squares_x, squares_y, square_mm, marker_mm, dictionary, legacy,
+                squares_x,
+                squares_y,
+                square_mm,
+                marker_mm,
+                dictionary,
+                legacy,
             } => Some(Self {
                 columns: f64::from(*squares_x),
                 rows: f64::from(*squares_y),
@@ -494,7 +499,8 @@ impl Texture {
         let (w, h) = (self.columns + 2.0 * m, self.rows + 2.0 * m);
         let side = (0..steps).map(|k| f64::from(k) / f64::from(steps));
         let cells = side.flat_map(|s| {
-            [(s * w, 0.0), (w, s * h), (w - s * w, h), (0.0, h - s * h)].map(|(x, y)| (x - m, y - m))
+            [(s * w, 0.0), (w, s * h), (w - s * w, h), (0.0, h - s * h)]
+                .map(|(x, y)| (x - m, y - m))
         });
         cells.map(|(x, y)| (Vector2::new(x, y) - self.origin) * self.cell_m).collect()
     }
@@ -533,9 +539,7 @@ impl Texture {
                 let inside = x >= 0.0 && y >= 0.0 && x < n && y < n;
                 let id = marker_of_square(i, j, *squares_x, *white_first);
                 inside
-                    && id.is_some_and(|id| {
-                        marker_is_black(dictionary, id, x as usize, y as usize)
-                    })
+                    && id.is_some_and(|id| marker_is_black(dictionary, id, x as usize, y as usize))
             }
         }
     }
