@@ -317,8 +317,9 @@ fn turns_of_board(
     size: (i32, i32),
     board: (i32, i32),
 ) -> Option<usize> {
-    let fits =
-        |turns: &usize| if turns % 2 == 0 { size == board } else { (size.1, size.0) == board };
+    let fits = |turns: &usize| {
+        if turns.is_multiple_of(2) { size == board } else { (size.1, size.0) == board }
+    };
     let relabelled = |turns: usize| grid.relabel(|k| turned(k, size, turns));
     let all: Vec<usize> = (0..4).filter(fits).collect();
     let is_black = |turns: &usize| first_square_brightness(image, &relabelled(*turns)) < 0.0;
