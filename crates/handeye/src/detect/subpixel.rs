@@ -233,22 +233,20 @@ impl Disc {
     /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
     fn linearise(&self, at: &Parameters, erf: &Erf) -> (Normal, Parameters, f64) {
         let model = Model::new(at);
-        let (mut normal, mut gradient, mut cost) = (Normal::zeros(), Parameters::zeros(), 0.0);
+        let (mut normal, mut gradient, mut cost) = ([[0.0; 9]; 9], [0.0; 9], 0.0);
         for &(x, y, grey) in &self.pixels {
             let (value, j) = model.at(x, y, erf);
             let r = grey - value;
             cost += r * r;
             // far from both edges only a, b and g matter
-            let first = if j[0] == 0.0 && j[1] == 0.0 { 4 } else { 0 };
-            for m in first..9 {
-                gradient[m] += j[m] * r;
-                let mut column = normal.column_mut(m);
-                for n in 0..9 {
-                    column[n] += j[m] * j[n];
-                }
+            if j[0] == 0.0 && j[1] == 0.0 {
+                accumulate::<4>(&mut normal, &mut gradient, &j, r);
+            } else {
+                accumulate::<0>(&mut normal, &mut gradient, &j, r);
             }
         }
-        (normal, gradient, cost)
+        let full = Normal::from_fn(|m, n| normal[m.min(n)][m.max(n)]);
+        (full, Parameters::from(gradient), cost)
     }
 
     fn judge(&self, at: &Parameters, normal: &Normal, cost: f64) -> Option<FittedCorner> {
@@ -267,6 +265,22 @@ impl Disc {
             blur_px,
             contrast: 2.0 * at[5].abs(),
         })
+    }
+}
+
+/// Adds one pixel to the upper triangle of `JᵀJ` and to `Jᵀr`, columns `FIRST` and later.
+#[inline]
+fn accumulate<const FIRST: usize>(
+    normal: &mut [[f64; 9]; 9],
+    gradient: &mut [f64; 9],
+    j: &[f64; 9],
+    r: f64,
+) {
+    for m in FIRST..9 {
+        gradient[m] += j[m] * r;
+        for n in m..9 {
+            normal[m][n] += j[m] * j[n];
+        }
     }
 }
 
