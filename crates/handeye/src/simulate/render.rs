@@ -295,8 +295,8 @@ struct HalfPixels {
 }
 
 /// Points of the Fibonacci lattice that integrates a half pixel crossed by an edge; an edge along
-/// the rows is then placed to 1/220 px at worst.
-const LATTICE: (usize, usize) = (55, 34);
+/// the rows is then placed to 1/356 px at worst.
+const LATTICE: (usize, usize) = (89, 55);
 
 impl HalfPixels {
     fn new(width: usize, height: usize, value: f32) -> Self {
