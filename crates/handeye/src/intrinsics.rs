@@ -473,7 +473,7 @@ impl Adjustment {
         let covariance = self.covariance().ok_or_else(undetermined)?;
         let unsure = (covariance[(0, 0)].sqrt() / self.camera.fx)
             .max(covariance[(1, 1)].sqrt() / self.camera.fy);
-        if !(unsure < FOCAL_UNSURE) {
+        if unsure.is_nan() || unsure >= FOCAL_UNSURE {
             return Err(undetermined());
         }
         let mut views: Vec<ViewFit> = given

@@ -90,6 +90,9 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     let family = Family::of(target)?;
     let mut best = Err(NotFound::NoCorners);
     for attempt in ATTEMPTS {
+        if matches!(attempt.scale, Scale::Double) && width * height > MOST_TO_DOUBLE {
+            continue;
+        }
         let found = attempt_to_detect(image, &family, &attempt);
         best = better(best, found);
         if best.as_ref().is_ok_and(|corners| corners.len() == target.len()) {
@@ -120,6 +123,9 @@ enum Scale {
 const CLEAR: f32 = 33.0;
 /// Response of a faint one.
 const FAINT: f32 = 8.0;
+
+/// Larger pictures (px) are not doubled: their squares are large enough, and memory is finite.
+const MOST_TO_DOUBLE: usize = 4_000_000;
 
 const ATTEMPTS: [Attempt; 6] = [
     Attempt { scale: Scale::Same, smooth: false, stretch: false, weakest: CLEAR, loose: false },
@@ -311,8 +317,9 @@ fn turns_of_board(
     size: (i32, i32),
     board: (i32, i32),
 ) -> Option<usize> {
-    let fits =
-        |turns: &usize| if turns % 2 == 0 { size == board } else { (size.1, size.0) == board };
+    let fits = |turns: &usize| {
+        if turns.is_multiple_of(2) { size == board } else { (size.1, size.0) == board }
+    };
     let relabelled = |turns: usize| grid.relabel(|k| turned(k, size, turns));
     let all: Vec<usize> = (0..4).filter(fits).collect();
     let is_black = |turns: &usize| first_square_brightness(image, &relabelled(*turns)) < 0.0;
@@ -522,3 +529,161 @@ impl Charuco {
 
 /// Fewer corners do not determine a pose.
 const FEWEST_CORNERS: usize = 4;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::{Optics, Random, Scene};
+    use crate::{Distortion, Intrinsics, Pose};
+    use nalgebra::{Matrix3, Vector3, Vector6};
+
+    fn charuco(squares_x: u32, squares_y: u32, legacy: bool) -> TargetModel {
+        TargetModel::Charuco {
+            squares_x,
+            squares_y,
+            square_mm: 20.0,
+            marker_mm: 14.0,
+            dictionary: "DICT_5X5_100".into(),
+            legacy,
+        }
+    }
+
+    fn checkerboard(columns: u32, rows: u32) -> TargetModel {
+        TargetModel::Checkerboard { columns, rows, square_mm: 20.0 }
+    }
+
+    /// The board in the middle of the picture, turned in its plane by `roll` and tilted a little.
+    fn scene(target: &TargetModel, roll: f64, depth: f64) -> Scene {
+        let corners = target.corners();
+        let centre =
+            corners.iter().map(|c| c.vector()).sum::<Vector3<f64>>() / corners.len() as f64;
+        let turn = Vector6::new(0.0, 0.0, roll, 0.0, 0.0, 0.0);
+        let tilt = Vector6::new(0.3, -0.2, 0.0, 0.0, 0.0, 0.0);
+        let away = Pose::from_parts(&Matrix3::identity(), Vector3::new(0.0, 0.0, depth));
+        let back = Vector6::new(0.0, 0.0, 0.0, -centre.x, -centre.y, 0.0);
+        let brown = [-0.15, 0.05, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let pinhole = Intrinsics::pinhole(800, 600, 900.0, 900.0, 399.5, 299.5);
+        Scene {
+            target: target.clone(),
+            camera_from_target: away.retract(&tilt).retract(&turn).retract(&back),
+            intrinsics: Intrinsics { distortion: Distortion::BrownConrady(brown), ..pinhole },
+        }
+    }
+
+    /// Largest distance between corners and truth, px.
+    fn farthest(scene: &Scene, found: &[ImageCorner]) -> f64 {
+        let truth: BTreeMap<u32, Vector2<f64>> = scene.corners().into_iter().collect();
+        found.iter().map(|c| (c.pixel - truth[&c.id]).norm()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn every_turn_of_an_unambiguous_checkerboard_keeps_its_ids() {
+        let target = checkerboard(9, 6);
+        for k in 0..8 {
+            let scene = scene(&target, 0.8 * f64::from(k), 0.45);
+            let found = detect(&scene.picture(&Optics::default(), k as u64), &target).unwrap();
+            assert_eq!(found.len(), 54);
+            assert!(farthest(&scene, &found) < 0.1, "turn {k}: {}", farthest(&scene, &found));
+        }
+    }
+
+    #[test]
+    fn a_symmetric_checkerboard_is_found_up_to_its_symmetry() {
+        for target in [checkerboard(8, 6), checkerboard(7, 7), checkerboard(6, 6)] {
+            for k in 0..4 {
+                let scene = scene(&target, 0.2 + 1.5 * f64::from(k), 0.45);
+                let found = detect(&scene.picture(&Optics::default(), 1), &target).unwrap();
+                let maps = target.symmetries();
+                let all = maps.iter().map(|map| super::super::relabelled(&found, map));
+                let least = all.map(|c| farthest(&scene, &c)).fold(f64::INFINITY, f64::min);
+                assert!(found.len() == target.len() && least < 0.1, "{target:?} {k}: {least}");
+            }
+        }
+    }
+
+    #[test]
+    fn both_charuco_layouts_are_found_in_every_turn() {
+        for target in
+            [charuco(7, 5, false), charuco(6, 8, false), charuco(6, 8, true), charuco(7, 6, true)]
+        {
+            for k in 0..4 {
+                let scene = scene(&target, 0.3 + 1.6 * f64::from(k), 0.4);
+                let found = detect(&scene.picture(&Optics::default(), 2), &target).unwrap();
+                assert_eq!(found.len(), target.len(), "{target:?} turn {k}");
+                assert!(farthest(&scene, &found) < 0.1, "{target:?} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_of_a_charuco_board_is_enough() {
+        let target = charuco(9, 7, false);
+        let mut scene = scene(&target, 0.1, 0.35);
+        let aside = Pose::from_parts(&Matrix3::identity(), Vector3::new(0.12, 0.05, 0.0));
+        scene.camera_from_target = aside * scene.camera_from_target;
+        let found = detect(&scene.picture(&Optics::default(), 3), &target).unwrap();
+        assert!(found.len() > 10 && found.len() < 48, "{}", found.len());
+        assert!(farthest(&scene, &found) < 0.15);
+    }
+
+    #[test]
+    fn the_wrong_layout_or_dictionary_is_named() {
+        let picture = scene(&charuco(6, 8, false), 0.1, 0.4).picture(&Optics::default(), 4);
+        let mut other = charuco(6, 8, false);
+        if let TargetModel::Charuco { dictionary, .. } = &mut other {
+            *dictionary = "DICT_7X7_100".into();
+        }
+        let error = detect(&picture, &other).unwrap_err();
+        assert!(error.to_string().contains("no marker of DICT_7X7_100"), "{error}");
+        if let TargetModel::Charuco { dictionary, .. } = &mut other {
+            *dictionary = "DICT_NONSENSE".into();
+        }
+        assert_eq!(
+            detect(&picture, &other),
+            Err(NotFound::UnknownDictionary("DICT_NONSENSE".into()))
+        );
+    }
+
+    #[test]
+    fn a_board_of_another_size_is_named() {
+        let picture = scene(&checkerboard(9, 6), 0.1, 0.45).picture(&Optics::default(), 5);
+        let error = detect(&picture, &checkerboard(7, 5)).unwrap_err();
+        assert!(error.to_string().contains("9 x 6"), "{error}");
+        let error = detect(&picture, &checkerboard(11, 8)).unwrap_err();
+        assert_eq!(error.to_string(), "54 of 88 corners found");
+    }
+
+    #[test]
+    fn a_hidden_corner_hides_no_board() {
+        let target = checkerboard(9, 6);
+        let scene = scene(&target, 0.1, 0.45);
+        let picture = scene.picture(&Optics::default(), 6);
+        let hidden = scene.corners()[22].1;
+        let (width, height) = (picture.width(), picture.height());
+        let values = picture.values().iter().enumerate().map(|(k, v)| {
+            let at = Vector2::new((k % width) as f64, (k / width) as f64);
+            if (at - hidden).norm() < 12.0 { 250.0 } else { *v }
+        });
+        let picture = GrayImage::new(width, height, values.collect()).unwrap();
+        let found = detect(&picture, &target).unwrap();
+        assert!(found.len() >= 53 - 4 && found.iter().all(|c| c.id != 22), "{}", found.len());
+        assert!(farthest(&scene, &found) < 0.2);
+    }
+
+    #[test]
+    fn pictures_without_a_board_say_so() {
+        let target = checkerboard(9, 6);
+        let dot = GrayImage::new(1, 1, vec![7.0]).unwrap();
+        let error = detect(&dot, &target).unwrap_err().to_string();
+        assert_eq!(error, "the image is 1 x 1 pixels, smaller than a board can be");
+        for (width, height) in [(24, 24), (25, 301), (640, 480)] {
+            let flat = GrayImage::new(width, height, vec![128.0; width * height]).unwrap();
+            assert_eq!(detect(&flat, &target), Err(NotFound::NoCorners));
+            let mut random = Random::new(9);
+            let noise = (0..width * height).map(|_| random.between(0.0, 255.0) as f32).collect();
+            assert!(detect(&GrayImage::new(width, height, noise).unwrap(), &target).is_err());
+        }
+        let broken = GrayImage::new(64, 64, vec![f32::NAN; 4096]).unwrap();
+        assert!(detect(&broken, &charuco(7, 5, false)).is_err());
+    }
+}

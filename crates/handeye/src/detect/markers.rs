@@ -93,11 +93,11 @@ fn turned_back(code: u64, side: usize) -> u64 {
 /// Which marker of a ChArUco board sits in square `(i, j)`; `None` in a black one.
 pub fn marker_of_square(i: usize, j: usize, squares_x: usize, white_first: bool) -> Option<u32> {
     let shift = usize::from(white_first);
-    if (i + j + shift) % 2 == 0 {
+    if (i + j + shift).is_multiple_of(2) {
         return None;
     }
     // white squares of a row start at column 0 or 1; odd widths alternate their number
-    let in_row = |row: usize| (squares_x + usize::from((row + 1 + shift) % 2 == 0)) / 2;
+    let in_row = |row: usize| (squares_x + usize::from((row + 1 + shift).is_multiple_of(2))) / 2;
     let before: usize = (0..j).map(in_row).sum();
     Some((before + i / 2) as u32)
 }

@@ -1,7 +1,8 @@
 //! What the camera saw of the target.
 //!
-//! A picture goes through three steps: [`labelling`] finds grids of corners, [`board`] decides
-//! which corner of the target each one is, and [`subpixel`] measures where exactly they are.
+//! A picture goes through three steps: `labelling` finds grids of corners, [`board`] decides
+//! which corner of the target each one is, and [`subpixel`] measures where exactly they are. From
+//! the corners, [`planar_pose`] has the target's pose, and [`surface`] their places on a scan.
 
 pub mod board;
 pub mod homography;
@@ -14,3 +15,4 @@ pub mod surface;
 
 pub use board::{NotFound, detect};
 pub use planar_pose::{PosedTarget, relabelled, target_poses, with_symmetries};
+pub use surface::{Missing, lift};

@@ -33,7 +33,7 @@ impl Scaled {
         let near = |k: usize, n: usize| {
             // the doubled pixel lies a quarter towards the neighbour on its side
             let own = k / 2;
-            (own, if k % 2 == 0 { own.saturating_sub(1) } else { (own + 1).min(n - 1) })
+            (own, if k.is_multiple_of(2) { own.saturating_sub(1) } else { (own + 1).min(n - 1) })
         };
         let linear = |(x, y): (usize, usize)| {
             let ((a, b), (c, d)) = (near(x, width), near(y, height));

@@ -19,6 +19,8 @@
 //! P. Rousseeuw, *Least median of squares regression*, JASA 79, 1984; J. Tukey's biweight after
 //! A. Beaton, Technometrics 16, 1974.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 
 use crate::simulate::Random;
@@ -75,6 +77,8 @@ const ONE_PLANE: f64 = 0.6;
 const ONE_SIDED: f64 = 0.4;
 /// Planes tried by least median of squares: with half the points good, one of eight is.
 const TRIES: usize = 40;
+/// At most this many samples judge a try.
+const JUDGES: usize = 150;
 /// Tukey's bound, standard deviations.
 const TUKEY: f64 = 4.685;
 /// Mean of Tukey's weight of unit normal deviates.
@@ -137,11 +141,14 @@ struct Sample {
     cell: (i64, i64),
 }
 
+/// Points with their pixels, in buckets.
+type Buckets = BTreeMap<(i64, i64), Vec<(Vector2<f64>, Vector3<f64>)>>;
+
 enum Source<'a> {
     /// One point per scan pixel; scan pixels per picture pixel.
     Grid(&'a Scan, f64),
     /// Points with their pixels, in buckets.
-    Cloud(std::collections::BTreeMap<(i64, i64), Vec<(Vector2<f64>, Vector3<f64>)>>),
+    Cloud(Buckets),
 }
 
 impl<'a> Source<'a> {
@@ -151,7 +158,7 @@ impl<'a> Source<'a> {
             return Some(Self::Grid(scan, x));
         }
         let camera = intrinsics?;
-        let mut buckets = std::collections::BTreeMap::<_, Vec<_>>::new();
+        let mut buckets = Buckets::new();
         for p in scan.points() {
             let point = Vector3::new(p[0].into(), p[1].into(), p[2].into());
             let finite = point.iter().all(|x: &f64| x.is_finite());
@@ -231,7 +238,7 @@ fn grid_samples(scan: &Scan, centre: &Vector2<f64>, radius: f64) -> Result<Vec<S
 }
 
 fn cloud_samples(
-    buckets: &std::collections::BTreeMap<(i64, i64), Vec<(Vector2<f64>, Vector3<f64>)>>,
+    buckets: &Buckets,
     centre: &Vector2<f64>,
     radius: f64,
 ) -> Result<Vec<Sample>, Reason> {
@@ -342,10 +349,11 @@ fn tukey(r: f64) -> f64 {
 
 /// The plane through three samples whose median absolute residual is least, and that residual.
 fn least_median(samples: &[Sample], seed: u64) -> Option<(Vector3<f64>, f64)> {
+    let samples: Vec<&Sample> = samples.iter().step_by(samples.len().div_ceil(JUDGES)).collect();
     let mut random = Random::new(seed);
     let mut best: Option<(Vector3<f64>, f64)> = None;
     for _ in 0..TRIES {
-        let mut pick = || &samples[(random.unit() * samples.len() as f64) as usize];
+        let mut pick = || samples[(random.unit() * samples.len() as f64) as usize];
         let three = [pick(), pick(), pick()];
         let a = Matrix3::from_rows(&three.map(|s| row(&s.at).transpose()));
         let b = Vector3::from_iterator(three.iter().map(|s| 1.0 / s.point.z));
@@ -385,7 +393,7 @@ impl Rays {
 fn correlation(samples: &[Sample], plane: &Plane, step: (i64, i64)) -> f64 {
     let residuals = plane.residuals(samples);
     let good = |k: usize| plane.weights[k] > 0.0;
-    let places: std::collections::BTreeMap<(i64, i64), usize> =
+    let places: BTreeMap<(i64, i64), usize> =
         samples.iter().enumerate().filter(|(k, _)| good(*k)).map(|(k, s)| (s.cell, k)).collect();
     let (mut product, mut square, mut pairs, mut count) = (0.0, 0.0, 0.0, 0.0);
     for (&(x, y), &k) in &places {

@@ -295,7 +295,7 @@ struct HalfPixels {
 }
 
 /// Points of the Fibonacci lattice that integrates a half pixel crossed by an edge; an edge along
-/// the rows is then placed to 1/178 px at worst.
+/// the rows is then placed to 1/356 px at worst.
 const LATTICE: (usize, usize) = (89, 55);
 
 impl HalfPixels {
@@ -316,12 +316,16 @@ impl HalfPixels {
         let at = |x: f64, y: f64| {
             a * ((1.0 - x) * (1.0 - y)) + b * (x * (1.0 - y)) + c * ((1.0 - x) * y) + d * (x * y)
         };
-        // half the diagonal of a half pixel, generously
-        let reach = 0.3 * ((d - a).norm().max((c - b).norm()));
+        let diagonal = (d - a).norm().max((c - b).norm());
+        let middle = at(0.5, 0.5);
+        if texture.clearance(&middle) > 0.6 * diagonal {
+            let grey = texture.grey(&middle, optics);
+            return (0..4).for_each(|k| self.set(i, j, k, grey));
+        }
         for (k, (x, y)) in [(0.0, 0.0), (0.5, 0.0), (0.0, 0.5), (0.5, 0.5)].into_iter().enumerate()
         {
             let centre = at(x + 0.25, y + 0.25);
-            let grey = if texture.clearance(&centre) > reach {
+            let grey = if texture.clearance(&centre) > 0.3 * diagonal {
                 texture.grey(&centre, optics)
             } else {
                 let (n, step) = LATTICE;
@@ -331,8 +335,13 @@ impl HalfPixels {
                 };
                 (0..n).map(sample).sum::<f64>() / n as f64
             };
-            self.values[(2 * j + k / 2) * self.width + 2 * i + k % 2] = grey as f32;
+            self.set(i, j, k, grey);
         }
+    }
+
+    /// Half `k` of pixel `(i, j)`.
+    fn set(&mut self, i: usize, j: usize, k: usize, grey: f64) {
+        self.values[(2 * j + k / 2) * self.width + 2 * i + k % 2] = grey as f32;
     }
 
     /// Gaussian, `sigma` in half pixels.
