@@ -94,6 +94,8 @@ const WORST_RESIDUAL: f64 = 0.25;
 const ROUNDING_VARIANCE: f64 = 1.0 / 12.0;
 /// Blurs outside of this range (px) are not a corner's.
 const BLUR_PX: (f64, f64) = (0.15, 6.0);
+/// A corner with a larger variance (px², both axes) was not measured.
+const UNKNOWN_PX2: f64 = 1.0;
 /// Edges that cross at a smaller angle (rad) do not fix a point.
 const SHALLOWEST_RAD: f64 = 0.15;
 
@@ -259,9 +261,11 @@ impl Disc {
             && blur_px < BLUR_PX.1
             && crossing > SHALLOWEST_RAD.sin();
         let inverse = normal.cholesky()?.inverse() * variance;
-        sound.then(|| FittedCorner {
+        let covariance: Matrix2<f64> = inverse.fixed_view::<2, 2>(0, 0).into_owned();
+        let known = covariance.determinant() > 0.0 && covariance.trace() < UNKNOWN_PX2;
+        (sound && known).then(|| FittedCorner {
             pixel: self.place(at),
-            covariance: inverse.fixed_view::<2, 2>(0, 0).into_owned(),
+            covariance,
             blur_px,
             contrast: 2.0 * at[5].abs(),
         })
