@@ -73,7 +73,8 @@ pub fn target_poses(
     let mut found: Vec<PosedTarget> = vec![];
     for start in fit.starts()? {
         let posed = fit.polish(start);
-        found.extend(posed.filter(|p| fit.is_possible(p.pose.camera_from_target.iso())));
+        let possible = |p: &PosedTarget| fit.is_possible(p.pose.camera_from_target.iso());
+        found.extend(posed.filter(|p| p.cost.is_finite()).filter(possible));
     }
     found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let best = found.first().map(|p| p.cost).ok_or_else(|| Error::NotDetermined {
@@ -161,7 +162,8 @@ impl<'a> Fit<'a> {
         let at = |id| target.corner(id).map(|p| p.vector());
         let seen = |c: &ImageCorner| {
             let finite = c.pixel.iter().chain(c.covariance.iter()).all(|x| x.is_finite());
-            let in_target = at(c.id).filter(|_| finite)?;
+            let sound = finite && c.covariance.cholesky().is_some();
+            let in_target = at(c.id).filter(|_| sound)?;
             let &ImageCorner { id, pixel, covariance } = c;
             Some(Seen { id, in_target, pixel, covariance, weight: 1.0 })
         };

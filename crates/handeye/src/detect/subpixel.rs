@@ -92,8 +92,11 @@ const NEAR_PX: f64 = 6.0;
 const WORST_RESIDUAL: f64 = 0.25;
 /// Rounding to 8 bits alone leaves this variance, grey values squared.
 const ROUNDING_VARIANCE: f64 = 1.0 / 12.0;
-/// Blurs outside of this range (px) are not a corner's.
-const BLUR_PX: (f64, f64) = (0.15, 6.0);
+/// Blurs stay in this range (px): a pixel's own square blurs by 0.29, more than the upper bound is
+/// not a corner's. Without the lower bound an edge between two pixels would have no place.
+const BLUR_PX: (f64, f64) = (0.29, 6.0);
+/// A corner with a larger variance (px², both axes) was not measured.
+const UNKNOWN_PX2: f64 = 1.0;
 /// Edges that cross at a smaller angle (rad) do not fix a point.
 const SHALLOWEST_RAD: f64 = 0.15;
 
@@ -195,9 +198,11 @@ impl Disc {
         let mut damping = 1e-3;
         for _ in 0..MOST_STEPS {
             let step = damped_step(&normal, &gradient, damping)?;
-            let (n, g, c) = self.linearise(&(at + step), erf);
+            let mut next = at + step;
+            next[6] = next[6].clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln());
+            let (n, g, c) = self.linearise(&next, erf);
             if c.is_finite() && c <= cost {
-                (at, normal, gradient, cost) = (at + step, n, g, c);
+                (at, normal, gradient, cost) = (next, n, g, c);
                 damping *= 0.1;
                 if step[0].hypot(step[1]) < step_px {
                     return Some((at, normal, cost));
@@ -255,13 +260,14 @@ impl Disc {
         let blur_px = at[6].exp();
         let crossing = (at[2] - at[3]).sin().abs();
         let sound = variance.sqrt() < WORST_RESIDUAL * at[5].abs()
-            && blur_px > BLUR_PX.0
-            && blur_px < BLUR_PX.1
+            && blur_px < 0.99 * BLUR_PX.1
             && crossing > SHALLOWEST_RAD.sin();
         let inverse = normal.cholesky()?.inverse() * variance;
-        sound.then(|| FittedCorner {
+        let covariance: Matrix2<f64> = inverse.fixed_view::<2, 2>(0, 0).into_owned();
+        let known = covariance.determinant() > 0.0 && covariance.trace() < UNKNOWN_PX2;
+        (sound && known).then(|| FittedCorner {
             pixel: self.place(at),
-            covariance: inverse.fixed_view::<2, 2>(0, 0).into_owned(),
+            covariance,
             blur_px,
             contrast: 2.0 * at[5].abs(),
         })
