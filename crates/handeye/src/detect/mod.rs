@@ -14,5 +14,5 @@ pub mod subpixel;
 pub mod surface;
 
 pub use board::{NotFound, detect};
-pub use planar_pose::{PosedTarget, relabelled, target_poses, with_symmetries};
+pub use planar_pose::{PosedTarget, relabelled, symmetry_turn, target_poses, with_symmetries};
 pub use surface::{Missing, lift};

@@ -94,7 +94,7 @@ pub fn target_poses(
 /// The poses under every labelling that looks the same, see [`TargetModel::symmetries`]: for each
 /// pose the given labelling first.
 pub fn with_symmetries(poses: &[PosedTarget], target: &TargetModel) -> Vec<TargetPose> {
-    let turns: Vec<_> = target.symmetries().iter().map(|map| turn(target, map)).collect();
+    let turns: Vec<_> = target.symmetries().iter().map(|map| symmetry_turn(target, map)).collect();
     let one = |posed: &PosedTarget, turn: &Pose<Target, Target>| TargetPose {
         camera_from_target: posed.pose.camera_from_target * *turn,
         covariance: posed.pose.covariance.map(|c| {
@@ -114,7 +114,7 @@ pub fn relabelled(corners: &[ImageCorner], map: &[u32]) -> Vec<ImageCorner> {
 }
 
 /// The turn of the board that takes corner `map[id]` to corner `id`.
-fn turn(target: &TargetModel, map: &[u32]) -> Pose<Target, Target> {
+pub fn symmetry_turn(target: &TargetModel, map: &[u32]) -> Pose<Target, Target> {
     let at = |id: usize| target.corner(map[id]).map_or(Vector3::zeros(), |p| p.vector());
     let here = target.corners();
     let columns = target.grid().0 as usize;

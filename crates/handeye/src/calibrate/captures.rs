@@ -1,0 +1,229 @@
+//! Misfit of every capture and touch, and which way round the target lies.
+
+use super::agreement::Views;
+use crate::{
+    Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
+    TargetPose, Touch, Warning,
+    calibration::{Calibration, TouchResult},
+    detect, evaluate, lie,
+    refine::{PoseFit, View},
+    touches::{self, TouchPairs},
+};
+
+/// Which symmetry of the board the chosen pose stands for: the one that brings the corners of the
+/// picture's first reading onto those of the chosen one.
+pub fn relabelling(o: &Observation, pose: &Pose<Camera, Target>, target: &TargetModel) -> Vec<u32> {
+    relabelling_of(&o.candidates, pose, target)
+}
+
+fn relabelling_of(
+    candidates: &[TargetPose],
+    pose: &Pose<Camera, Target>,
+    target: &TargetModel,
+) -> Vec<u32> {
+    let maps = target.symmetries();
+    let Some(first) = candidates.first() else { return maps[0].clone() };
+    let cost = |map: &Vec<u32>| -> f64 {
+        (0..target.len() as u32)
+            .filter_map(|id| {
+                let as_read = first.camera_from_target * target.corner(id)?;
+                let as_chosen = *pose * target.corner(map[id as usize])?;
+                Some((as_read.vector() - as_chosen.vector()).norm_squared())
+            })
+            .sum()
+    };
+    maps.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).cloned().unwrap_or_default()
+}
+
+/// Turns a symmetric target so that its corners lie where they were touched (eye-in-hand): views
+/// alone cannot tell the board from itself turned by half a turn, and need not.
+pub(super) fn orient_target(views: &mut Views, fit: &mut PoseFit) {
+    let Some(target) = &views.session.target else { return };
+    if views.session.setup != crate::Setup::EyeInHand || views.session.touches.is_empty() {
+        return;
+    }
+    let base_from_target: Pose<crate::Base, Target> =
+        fit.hand_eye.retarget(views.target_from_corner.inverse()).anchor_from_target.rename();
+    let cost = |map: &Vec<u32>| -> f64 {
+        let distance = |t: &Touch| {
+            let corner = target.corner(*map.get(t.corner as usize)?)?;
+            Some(((base_from_target * corner).vector() - t.in_base.vector()).norm())
+        };
+        views.session.touches.iter().filter_map(distance).sum()
+    };
+    let maps = target.symmetries();
+    let Some(map) = maps.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))) else { return };
+    if *map != maps[0] {
+        // old_from_new takes corner `id` to where corner `map[id]` was
+        let old_from_new = detect::symmetry_turn(target, map).inverse();
+        turn_all(views, fit, &old_from_new);
+    }
+}
+
+fn turn_all(views: &mut Views, fit: &mut PoseFit, old_from_new: &Pose<Target, Target>) {
+    let s = views.target_from_corner;
+    let turn = s.inverse() * *old_from_new * s;
+    let carry = lie::adjoint(turn.inverse().iso());
+    for view in &mut views.views {
+        view.pair.camera_from_target = view.pair.camera_from_target * turn;
+        view.covariance = view.covariance.map(|c| carry * c * carry.transpose());
+    }
+    fit.hand_eye = fit.hand_eye.retarget(turn);
+    let mut both = crate::refine::pose_fit::Matrix12::identity();
+    both.fixed_view_mut::<6, 6>(6, 6).copy_from(&carry);
+    fit.covariance = fit.covariance.map(|c| both * c * both.transpose());
+}
+
+/// A placement in the reading that puts its corners where they were touched.
+fn oriented(
+    placement: &Placement,
+    touches: &[Touch],
+    x: &Pose<Mount, Camera>,
+    target: &TargetModel,
+) -> Placement {
+    let cost = |pose: &TargetPose| -> f64 {
+        let touched = touches.iter().filter(|t| t.placement == placement.id);
+        let distance = |t: &Touch| {
+            let predicted: Point<Mount> =
+                *x * (pose.camera_from_target * target.corner(t.corner)?);
+            Some((predicted.vector() - t.in_base.vector()).norm())
+        };
+        touched.filter_map(distance).sum()
+    };
+    let best = placement.candidates.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
+    let Some(&best) = best else { return placement.clone() };
+    let map = relabelling_of(&placement.candidates, &best.camera_from_target, target);
+    let mut placement = placement.clone();
+    for corner in &mut placement.surface {
+        corner.id = map.get(corner.id as usize).copied().unwrap_or(corner.id);
+    }
+    placement.candidates = vec![best];
+    placement
+}
+
+/// Pairs touches with what the camera measured of their corners.
+pub(super) fn pair_touches(
+    views: &Views,
+    fit: &PoseFit,
+    result: &mut Calibration,
+) -> Vec<TouchPairs> {
+    let Some(target) = &views.session.target else { return vec![] };
+    let session = views.session;
+    let chosen: Vec<Observation> =
+        views.used.iter().zip(&views.views).map(|(o, v)| as_chosen(o, v, views, target)).collect();
+    let chosen: Vec<&Observation> = chosen.iter().collect();
+    let x = fit.hand_eye.mount_from_camera;
+    let placements: Vec<Placement> =
+        session.placements.iter().map(|p| oriented(p, &session.touches, &x, target)).collect();
+    let (paired, missing) =
+        touches::pair_touches(session.setup, target, &chosen, &placements, &session.touches);
+    for k in missing {
+        let touch = &session.touches[k];
+        result.warnings.push(Warning::new(
+            "touch-without-view",
+            format!(
+                "touch of corner {} of placement {:?} left out: the camera shows no such corner \
+                 there; give the placement a picture or scan",
+                touch.corner, touch.placement
+            ),
+        ));
+    }
+    paired
+}
+
+/// The observation with the reading that was chosen: its pose alone, its scan's corners renamed.
+fn as_chosen(o: &Observation, v: &View, views: &Views, target: &TargetModel) -> Observation {
+    let pose = own_pose(v, views);
+    let map = relabelling(o, &pose, target);
+    let mut o = o.clone();
+    for corner in &mut o.surface {
+        corner.id = map.get(corner.id as usize).copied().unwrap_or(corner.id);
+    }
+    o.candidates = vec![TargetPose { camera_from_target: pose, covariance: v.covariance }];
+    o
+}
+
+/// The chosen pose of a view, about the target's own origin.
+fn own_pose(v: &View, views: &Views) -> Pose<Camera, Target> {
+    v.pair.camera_from_target * views.target_from_corner.inverse()
+}
+
+/// Fills in the misfits of the captures that are used.
+pub(super) fn report_captures(views: &Views, result: &mut Calibration) {
+    let Some(answer) = answer(result, views) else { return };
+    for (v, &i) in views.views.iter().zip(&views.indices) {
+        let (angle, distance) = evaluate::loop_misfit(&answer, &v.pair);
+        let capture = &mut result.captures[i];
+        capture.camera_from_target = Some(own_pose(v, views));
+        capture.residual_deg = Some(angle.to_degrees());
+        capture.residual_mm = Some(distance * 1e3);
+    }
+    report_pixels(views, &answer, result);
+}
+
+/// The chosen answer about the target's first corner.
+fn answer(result: &Calibration, views: &Views) -> Option<HandEye> {
+    let stored = HandEye {
+        mount_from_camera: result.hand_eye.mount_from_camera?,
+        anchor_from_target: result.hand_eye.anchor_from_target?,
+    };
+    Some(stored.retarget(views.target_from_corner))
+}
+
+fn report_pixels(views: &Views, answer: &HandEye, result: &mut Calibration) {
+    let (Some(target), Some(camera)) = (&views.session.target, &views.session.camera) else {
+        return;
+    };
+    let own = answer.retarget(views.target_from_corner.inverse());
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (k, &i) in views.indices.iter().enumerate() {
+        let o = views.used[k];
+        let pose = own_pose(&views.views[k], views);
+        let map = relabelling(o, &pose, target);
+        let capture = &mut result.captures[i];
+        capture.reprojection_px =
+            evaluate::reprojection_px(&own, o, views.session.setup, target, &map, camera);
+        capture.residual_px = picture_residual(o, &pose, target, &map, camera);
+        if let Some(px) = capture.reprojection_px {
+            let n = o.corners.len() as f64;
+            (sum, count) = (sum + n * px * px, count + n);
+        }
+    }
+    result.residual.reprojection_rms_px = (count > 0.0).then(|| f64::sqrt(sum / count));
+}
+
+/// RMS distance (px) of corners to the target model seen from the picture's own best pose.
+fn picture_residual(
+    o: &Observation,
+    pose: &Pose<Camera, Target>,
+    target: &TargetModel,
+    relabel: &[u32],
+    camera: &Intrinsics,
+) -> Option<f64> {
+    let squares: Vec<f64> = o
+        .corners
+        .iter()
+        .filter_map(|c| {
+            let corner = target.corner(*relabel.get(c.id as usize)?)?;
+            Some((camera.project(&(*pose * corner).vector())? - c.pixel).norm_squared())
+        })
+        .collect();
+    (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+}
+
+/// Where the chosen answer puts each touched corner.
+pub(super) fn report_touches(views: &Views, paired: &[TouchPairs], result: &mut Calibration) {
+    let Some(x) = result.hand_eye.mount_from_camera else { return };
+    let used = result.chosen.as_deref().is_some_and(|n| n.starts_with("two-step"));
+    let one = |p: &TouchPairs| {
+        let difference_mm = touches::touch_error(p, &x) * 1e3;
+        TouchResult {
+            capture: p.placement.clone(),
+            corner: views.session.touches[p.touch].corner,
+            residual_mm: difference_mm.norm(),
+            difference_mm,
+            used,
+        }
+    };
+    result.touches = paired.iter().map(one).collect();
+}

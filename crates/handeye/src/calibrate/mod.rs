@@ -1,0 +1,165 @@
+//! From measurements to a calibration with a verdict: the flow of the whole core.
+//!
+//! [`agreement`] (which captures agree, and on which reading) → [`candidates`] (closed forms, least
+//! squares, maximum likelihood, registration of touches, each judged on what it has not seen; the
+//! choice by predicted error) → [`captures`] (misfit of every capture and touch) → [`verdict`].
+//! Point pairs alone take the short way through [`points`].
+
+mod agreement;
+mod candidates;
+mod captures;
+mod points;
+mod sources;
+mod verdict;
+
+use crate::{
+    Correspondence, Error, Intrinsics, Observation, Placement, Setup, TargetModel, Touch,
+    Workspace,
+    calibration::{Answer, Calibration, Misfit, Verdict},
+    refine::noise::KnownNoise,
+    register::IcpConfig,
+    solve::Method,
+};
+
+pub use captures::relabelling;
+
+/// Everything that was measured in one cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Session {
+    /// Who carries the camera.
+    pub setup: Setup,
+    /// What the camera looked at; `None` for bare poses or points.
+    pub target: Option<TargetModel>,
+    /// The camera, where pictures were used.
+    pub camera: Option<Intrinsics>,
+    /// Captures, in any order.
+    pub observations: Vec<Observation>,
+    /// Boards lying in the cell (eye-to-hand).
+    pub placements: Vec<Placement>,
+    /// Touched corners.
+    pub touches: Vec<Touch>,
+    /// Points known to camera and robot, where that is all there is.
+    pub correspondences: Vec<Correspondence>,
+    /// Where the answer will be used, in the base (eye-to-hand) or the camera (eye-in-hand).
+    pub workspace: Option<Workspace>,
+}
+
+/// What the user wants of a calibration.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Config {
+    /// A published method to run as published, instead of choosing among candidates.
+    pub method: Option<Method>,
+    /// Parameters of the nearest-neighbour candidate of the two-step refinement.
+    pub icp: IcpConfig,
+    /// Noise figures that are known.
+    pub known: KnownNoise,
+    /// Error (95 %, predicted) that the job tolerates, mm.
+    pub max_error_mm: Option<f64>,
+}
+
+/// Version of the result's format.
+const FORMAT: &str = "handeye-calibration-1";
+
+/// Runs the whole calibration. Bad data end in a verdict, not in an error.
+///
+/// # Errors
+/// [`Error::Invalid`] when the session holds nothing to calibrate from.
+pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Error> {
+    let session = in_order(session);
+    if session.observations.is_empty() && session.correspondences.is_empty() {
+        return Err(Error::Invalid(
+            "nothing to calibrate from: no captures with a robot pose and a picture of the target, \
+             and no point pairs"
+                .into(),
+        ));
+    }
+    if session.observations.is_empty() {
+        let mut result = empty(&session);
+        points::from_points(&session, &mut result);
+        verdict::conclude(config, &mut result);
+        return Ok(result);
+    }
+    Ok(sources::best_source(&session, |session| {
+        let mut result = empty(session);
+        from_views(session, config, &mut result);
+        verdict::conclude(config, &mut result);
+        result
+    }))
+}
+
+fn from_views(session: &Session, config: &Config, result: &mut Calibration) {
+    let Some((views, found)) = agreement::agree(session, config, result) else { return };
+    let Some(views) = candidates::estimate(views, &found, config, result) else { return };
+    captures::report_captures(&views, result);
+}
+
+/// Captures and touches in the order of their names, whatever order they came in.
+fn in_order(session: &Session) -> Session {
+    let mut session = session.clone();
+    session.observations.sort_by(|a, b| natural(&a.capture, &b.capture));
+    session.placements.sort_by(|a, b| natural(&a.id, &b.id));
+    let at = |t: &Touch| t.in_base.vector();
+    session.touches.sort_by(|a, b| {
+        natural(&a.placement, &b.placement).then(a.corner.cmp(&b.corner)).then_with(|| {
+            at(a).as_slice().partial_cmp(at(b).as_slice()).unwrap_or(std::cmp::Ordering::Equal)
+        })
+    });
+    let key = |c: &Correspondence| c.in_camera.vector();
+    session.correspondences.sort_by(|a, b| {
+        key(a).as_slice().partial_cmp(key(b).as_slice()).unwrap_or(std::cmp::Ordering::Equal)
+    });
+    session
+}
+
+/// Order of names in which `img_2` comes before `img_10`.
+pub fn natural(a: &str, b: &str) -> std::cmp::Ordering {
+    let (mut a, mut b) = (a.chars().peekable(), b.chars().peekable());
+    loop {
+        let order = match (a.peek(), b.peek()) {
+            (None, None) => return std::cmp::Ordering::Equal,
+            (None, _) => return std::cmp::Ordering::Less,
+            (_, None) => return std::cmp::Ordering::Greater,
+            (Some(x), Some(y)) if x.is_ascii_digit() && y.is_ascii_digit() => {
+                let number = |it: &mut std::iter::Peekable<std::str::Chars>| {
+                    let mut digits = String::new();
+                    while let Some(c) = it.next_if(char::is_ascii_digit) {
+                        digits.push(c);
+                    }
+                    let value = digits.trim_start_matches('0').to_owned();
+                    (value.len(), value, digits.len())
+                };
+                number(&mut a).cmp(&number(&mut b))
+            }
+            (Some(_), Some(_)) => a.next().cmp(&b.next()),
+        };
+        if order != std::cmp::Ordering::Equal {
+            return order;
+        }
+    }
+}
+
+fn empty(session: &Session) -> Calibration {
+    Calibration {
+        format: FORMAT.into(),
+        setup: session.setup,
+        verdict: Verdict::Undetermined,
+        reasons: vec![],
+        method: String::new(),
+        hand_eye: Answer::default(),
+        name: format!("{}_from_camera", session.setup.mount()),
+        chosen: None,
+        why: String::new(),
+        candidates: vec![],
+        predicted_tre_mm: None,
+        residual: Misfit::default(),
+        held_out: Misfit::default(),
+        captures: vec![],
+        touches: vec![],
+        rejected: vec![],
+        undetermined: vec![],
+        diversity: None,
+        error_budget: vec![],
+        scale: None,
+        warnings: vec![],
+    }
+}

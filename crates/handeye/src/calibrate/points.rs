@@ -1,0 +1,110 @@
+//! Point pairs alone: a registration and nothing else.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{Session, candidates::workspace_volume};
+use crate::{
+    Camera, Error, Mount, Pose, Warning,
+    calibration::{Answer, Calibration, Candidate, Misfit, PoseCovariance, Verdict, rows},
+    predict::{self, Volume},
+    touches::{self, Registration, TouchPairs},
+};
+
+pub(super) fn from_points(session: &Session, result: &mut Calibration) {
+    let touches: Vec<TouchPairs> = session
+        .correspondences
+        .iter()
+        .enumerate()
+        .map(|(k, pair)| TouchPairs {
+            touch: k,
+            placement: k.to_string(),
+            pairs: vec![*pair],
+            base_from_mount: vec![Pose::identity()],
+        })
+        .collect();
+    let all: Vec<&TouchPairs> = touches.iter().collect();
+    let found = match touches::fit_touches(&all, &Pose::identity(), Registration::Svd) {
+        Ok(found) => found,
+        Err(error) => {
+            result.reasons.push(error.to_string());
+            let what = match error {
+                Error::Collinear { .. } => "rotation about the line of the points",
+                _ => "the pose of the camera",
+            };
+            result.undetermined.push(what.into());
+            return;
+        }
+    };
+    let volume = point_volume(session, &touches, &found.mount_from_camera);
+    let tre = found.covariance.zip(volume).map(|(c, v)| predict::tre(&v, &c, |_| Vector3::zeros()));
+    let held_out =
+        touches::held_out(&touches, &Pose::identity(), Registration::Svd).map(|m| m * 1e3);
+    let misfit = |mm: Option<f64>| Misfit { translation_rms_mm: mm, ..Misfit::default() };
+    let candidate = Candidate {
+        name: "point-pairs-svd".into(),
+        hand_eye: Answer {
+            mount_from_camera: Some(found.mount_from_camera),
+            anchor_from_target: None,
+            covariance: PoseCovariance {
+                mount_from_camera: found.covariance.as_ref().map(rows),
+                anchor_from_target: None,
+            },
+        },
+        in_sample: misfit(Some(found.rms_m * 1e3)),
+        held_out: misfit(held_out),
+        touch_rms_mm: Some(found.rms_m * 1e3),
+        held_out_mm: held_out,
+        predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+        note: None,
+    };
+    weak_directions(&touches, result);
+    if held_out.is_none() && touches.len() > 3 {
+        let what = "without one of the points the others lie on a line or are too few: the rotation \
+                    rests on a single point that nothing checks; add points away from the line";
+        result.reasons.push(what.into());
+        result.verdict = Verdict::Rejected;
+    }
+    result.method = candidate.name.clone();
+    result.chosen = Some(candidate.name.clone());
+    result.why = "point pairs alone have one answer: their rigid registration".into();
+    result.hand_eye = candidate.hand_eye;
+    result.residual = candidate.in_sample;
+    result.held_out = candidate.held_out;
+    result.predicted_tre_mm = tre;
+    result.candidates = vec![candidate];
+}
+
+fn point_volume(
+    session: &Session,
+    touches: &[TouchPairs],
+    x: &Pose<Mount, Camera>,
+) -> Option<Volume> {
+    match &session.workspace {
+        Some(w) => Some(workspace_volume(session.setup, w, x)),
+        None => touches::touched_volume(touches)
+            .map(|v| Volume { name: "the box around the points".into(), ..v }),
+    }
+}
+
+/// Spread across a line of points, over the spread along it, below which the user is warned.
+const NEARLY_COLLINEAR: f64 = 0.05;
+
+fn weak_directions(touches: &[TouchPairs], result: &mut Calibration) {
+    let points: Vec<Vector3<f64>> = touches.iter().map(|t| t.pairs[0].in_camera.vector()).collect();
+    let mean = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
+    let scatter: Matrix3<f64> = points.iter().map(|p| (p - mean) * (p - mean).transpose()).sum();
+    let mut s: Vec<f64> =
+        scatter.symmetric_eigen().eigenvalues.iter().map(|e| e.max(0.0).sqrt()).collect();
+    s.sort_by(|a, b| b.total_cmp(a));
+    let ratio = s[1] / s[0];
+    if ratio < NEARLY_COLLINEAR.sqrt() {
+        result.warnings.push(Warning::new(
+            "points-nearly-collinear",
+            format!(
+                "the points lie nearly on a line (spread across it {:.0} % of that along it): the \
+                 rotation about that line is weak; add points away from it",
+                ratio * 100.0
+            ),
+        ));
+    }
+}

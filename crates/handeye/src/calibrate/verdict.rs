@@ -1,0 +1,154 @@
+//! Whether the answer can be used.
+
+use super::{Config, agreement::Views};
+use crate::{
+    Warning,
+    calibration::{Answer, BudgetEntry, Calibration, Scale, Verdict},
+    diagnose,
+    refine::{self, PoseFit, noise::Source},
+};
+
+/// Predicted error (95 %) beyond which an answer is rejected when the user named no limit, mm.
+const MOST_PREDICTED_MM: f64 = 10.0;
+
+/// Misfit of captures that were left out beyond which an answer is rejected: no robot and camera
+/// in working order are that far apart. mm and degrees.
+const MOST_HELD_OUT: (f64, f64) = (15.0, 2.5);
+
+/// Share of the captures that must agree.
+const LEAST_AGREEING: f64 = 0.5;
+
+/// Wrong size of the target that is beyond any printer: the declared size or the focal length is
+/// wrong, and so is every distance.
+const MOST_SCALE_ERROR: f64 = 0.03;
+
+/// Chance of a scale as far from one as it is below which it is called wrong.
+const IMPROBABLE_SCALE: f64 = 1e-3;
+
+/// Scale errors below this part are within what printers and lenses do.
+const LEAST_SCALE_ERROR: f64 = 0.005;
+
+/// The verdict: reasons against the answer first.
+pub(super) fn conclude(config: &Config, result: &mut Calibration) {
+    if result.verdict == Verdict::Rejected {
+        return;
+    }
+    let against = objections(config, result);
+    result.verdict =
+        if result.hand_eye.mount_from_camera.is_none() || !result.undetermined.is_empty() {
+            hide_undetermined(result);
+            Verdict::Undetermined
+        } else if against.is_empty() {
+            Verdict::Accepted
+        } else {
+            Verdict::Rejected
+        };
+    result.reasons.extend(against);
+    if result.verdict == Verdict::Accepted
+        && let Some(tre) = &result.predicted_tre_mm
+    {
+        result.reasons.push(format!(
+            "95 of 100 points in {} are predicted within {:.2} mm",
+            tre.r#where, tre.p95
+        ));
+    }
+}
+
+/// No invented number for what the data do not determine.
+fn hide_undetermined(result: &mut Calibration) {
+    if result.undetermined.is_empty() {
+        return;
+    }
+    if result.reasons.is_empty() {
+        result.reasons.push(format!(
+            "the data do not determine {}: tilt the robot by 30 degrees and more about two axes, \
+             or touch corners",
+            result.undetermined.join(", ")
+        ));
+    }
+    result.hand_eye = Answer::default();
+    result.predicted_tre_mm = None;
+}
+
+fn objections(config: &Config, result: &Calibration) -> Vec<String> {
+    let mut against = Vec::new();
+    let seen = result
+        .captures
+        .iter()
+        .filter(|c| c.used || !result.rejected.is_empty() && result.rejected.contains(&c.id))
+        .count();
+    let used = result.captures.iter().filter(|c| c.used).count();
+    if seen > 0 && (used as f64) < LEAST_AGREEING * seen as f64 {
+        against.push(format!(
+            "only {used} of {seen} captures agree: pictures and robot poses may be out of order, or \
+             a pose notation is read wrongly"
+        ));
+    }
+    let held_out = result.held_out;
+    if held_out.translation_rms_mm.is_some_and(|mm| mm > MOST_HELD_OUT.0)
+        || held_out.rotation_rms_deg.is_some_and(|deg| deg > MOST_HELD_OUT.1)
+    {
+        against.push(format!(
+            "captures left out are missed by {:.1} mm and {:.2} degrees (RMS): far beyond a robot \
+             and camera in order",
+            held_out.translation_rms_mm.unwrap_or(f64::NAN),
+            held_out.rotation_rms_deg.unwrap_or(f64::NAN)
+        ));
+    }
+    if let Some(tre) = &result.predicted_tre_mm {
+        let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
+        if !(tre.p95 <= limit) {
+            against.push(format!(
+                "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm",
+                tre.r#where, tre.p95
+            ));
+        }
+    } else if result.hand_eye.mount_from_camera.is_some() {
+        against.push("too little data to predict an error: add captures or touches".into());
+    }
+    against
+}
+
+pub(super) fn budget(fit: &PoseFit) -> Vec<BudgetEntry> {
+    let text = |s: &refine::Sigma| match s.source {
+        Source::Picture => format!("{:.2} times what the corners' scatter says", s.sigma),
+        k if k.is_rotation() => format!("{:.4} deg per axis", s.sigma.to_degrees()),
+        _ => format!("{:.3} mm per axis", s.sigma * 1e3),
+    };
+    let entry = |s: &refine::Sigma| BudgetEntry {
+        source: s.source.name().into(),
+        sigma: text(s),
+        sigma_mm: (!s.source.is_rotation() && s.source != Source::Picture).then_some(s.sigma * 1e3),
+        sigma_deg: s.source.is_rotation().then_some(s.sigma.to_degrees()),
+    };
+    fit.noise.sigmas.iter().map(entry).collect()
+}
+
+pub(super) fn judge_scale(views: &Views, fit: &PoseFit, config: &Config, result: &mut Calibration) {
+    if views.views.len() < 5 {
+        return;
+    }
+    let found = diagnose::target_scale(&views.views, fit, &config.known, views.session.setup);
+    let Some(diagnose::TargetScale { value, sigma, p_value }) = found else { return };
+    result.scale = Some(Scale { value, sigma });
+    if p_value > IMPROBABLE_SCALE || (value - 1.0).abs() < LEAST_SCALE_ERROR {
+        return;
+    }
+    let size = views.session.target.as_ref().map_or(String::new(), |t| {
+        let declared = t.pitch_m() * 1e3;
+        format!(" ({:.2} mm instead of {declared} mm)", declared * value)
+    });
+    let message = format!(
+        "the robot's motions say that the target is {:.1} +- {:.1} % {} than declared{size}: \
+         measure the print with a caliper; if it is right, the focal length or the robot's own \
+         scale is wrong",
+        (value - 1.0).abs() * 100.0,
+        sigma * 100.0,
+        if value > 1.0 { "larger" } else { "smaller" },
+    );
+    if (value - 1.0).abs() > MOST_SCALE_ERROR {
+        result.reasons.push(message.clone());
+        result.verdict = Verdict::Rejected;
+    }
+    result.warnings.push(Warning::new("target-scale", message));
+}
