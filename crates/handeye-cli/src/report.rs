@@ -7,6 +7,7 @@ use handeye::{
 };
 use handeye_io::{
     CaptureSource, Dataset,
+    export::{self, CameraPose, Format},
     report::{MarkedCorner, Picture, Report, html},
 };
 
@@ -21,9 +22,31 @@ pub fn page(dataset: &Dataset, calibration: &Calibration, session: &Session) -> 
         target: session.target.as_ref(),
         camera: session.camera.as_ref(),
         touched: session.touches.iter().map(|t| t.in_base).collect(),
-        notations: vec![],
+        notations: notations(dataset, calibration),
         pictures: pictures(dataset, calibration, session),
     })
+}
+
+/// The transform in the dataset's own notation and in those most programs read.
+fn notations(dataset: &Dataset, calibration: &Calibration) -> Vec<(String, String)> {
+    let Some(pose) = &calibration.hand_eye.mount_from_camera else { return vec![] };
+    let camera = CameraPose {
+        name: &calibration.name,
+        parent_from_child: *pose.iso(),
+        parent: calibration.setup.mount(),
+        child: "camera",
+        setup: calibration.setup,
+    };
+    let own = dataset.notation.as_deref().filter(|n| !["joints", "matrix4x4"].contains(n));
+    let mut names: Vec<&str> = own.into_iter().chain(["quaternion-xyzw", "urdf"]).collect();
+    names.dedup();
+    names
+        .into_iter()
+        .filter_map(|name| {
+            let text = export::render(&camera, &Format::named(name).ok()?);
+            Some((name.to_owned(), String::from_utf8(text).ok()?.trim_end().to_owned()))
+        })
+        .collect()
 }
 
 fn title(dataset: &Dataset) -> String {

@@ -56,6 +56,8 @@ pub struct Dataset {
     pub noise: Noise,
     /// What the job tolerates.
     pub limits: Limits,
+    /// The notation of the robot's poses, which the user knows best.
+    pub notation: Option<String>,
     /// What looked suspicious.
     pub warnings: Vec<Warning>,
     bit_depth: Option<u32>,
@@ -215,6 +217,7 @@ impl Opening {
             workspace: m.workspace.as_ref().map(|w| self.workspace(w)).transpose()?,
             noise: self.noise(&m.noise)?,
             limits: self.limits(&m.limits)?,
+            notation: m.robot.as_ref().and_then(|r| r.table().notation),
             warnings,
             bit_depth: m.images.as_ref().and_then(|i| i.bit_depth),
             scan_options: self.scan_options(intrinsics, &parts)?,

@@ -15,7 +15,7 @@
       var right = c * x + s * y, away = -s * x + c * y;
       var up = Math.cos(pitch) * z + Math.sin(pitch) * away;
       var depth = Math.cos(pitch) * away - Math.sin(pitch) * z;
-      var k = zoom * Math.min(w, h) * 1.05 / size / (1 + 0.35 * depth / size);
+      var k = zoom * Math.min(w, h) * 1.35 / size / (1 + 0.35 * depth / size);
       return [w / 2 + pan[0] + right * k, h / 2 + pan[1] - up * k, depth, k];
     }
 
