@@ -147,7 +147,7 @@ fn no_consensus(session: &Session, readings: &[Readings], error: &Error, result:
         return;
     }
     result.verdict = Verdict::Rejected;
-    suspect_conventions(readings, None, result);
+    suspect_conventions(readings, bare(session), None, result);
 }
 
 /// Names every capture that does not agree, with the likeliest reason.
@@ -157,28 +157,52 @@ fn name_rejected(
     found: &Consensus,
     result: &mut Calibration,
 ) {
+    let wrong: Vec<usize> = (0..readings.len())
+        .filter(|&i| !found.agrees[i] && !readings[i].camera_from_target.is_empty())
+        .collect();
+    // where most disagree, a chance fit to another capture explains nothing
+    let few = (wrong.len() as f64) < MOST_EXPLAINED * readings.len() as f64;
     let limit = typical(readings, found);
-    let exchanged = diagnose::exchanged(readings, found, limit);
-    let id = |i: usize| session.observations[i].capture.clone();
-    for i in 0..readings.len() {
-        if found.agrees[i] || readings[i].camera_from_target.is_empty() {
-            continue;
-        }
-        let other = exchanged.iter().find(|(picture, _)| *picture == i).map(|(_, robot)| *robot);
-        let mutual = other.is_some_and(|j| exchanged.contains(&(j, i)));
-        let reason = match other {
-            Some(j) if mutual => {
-                format!("its picture and that of capture {} look exchanged", id(j))
-            }
-            Some(j) => format!("its picture fits the robot pose of capture {}", id(j)),
-            None => disagreement(readings, found, i),
+    let exchanged = if few { diagnose::exchanged(readings, found, limit) } else { vec![] };
+    for &i in &wrong {
+        let (code, reason) = match explained(session, &exchanged, i) {
+            Some(reason) => ("captures-exchanged", reason),
+            None => ("capture-rejected", disagreement(readings, found, i)),
         };
         result.captures[i].used = false;
         result.captures[i].reason = Some(reason.clone());
-        result.rejected.push(id(i));
-        let code = if other.is_some() { "captures-exchanged" } else { "capture-rejected" };
-        result.warnings.push(Warning::new(code, format!("capture {} left out: {reason}", id(i))));
+        let id = &session.observations[i].capture;
+        result.rejected.push(id.clone());
+        if wrong.len() <= MOST_WARNINGS {
+            let message = format!("capture {id} left out: {reason}");
+            result.warnings.push(Warning::new(code, message));
+        }
     }
+    if wrong.len() > MOST_WARNINGS {
+        let message = format!(
+            "{} of {} captures disagree with the others and are left out: {}",
+            wrong.len(),
+            readings.len(),
+            result.rejected.join(", ")
+        );
+        result.warnings.push(Warning::new("captures-rejected", message));
+    }
+}
+
+/// Share of wrong captures up to which each is explained.
+const MOST_EXPLAINED: f64 = 0.4;
+/// More wrong captures than this are named in one sentence.
+const MOST_WARNINGS: usize = 8;
+
+/// The other capture whose robot pose a picture fits, in words.
+fn explained(session: &Session, exchanged: &[(usize, usize)], i: usize) -> Option<String> {
+    let (_, j) = *exchanged.iter().find(|(picture, _)| *picture == i)?;
+    let other = &session.observations[j].capture;
+    Some(if exchanged.contains(&(j, i)) {
+        format!("its picture and that of capture {other} look exchanged")
+    } else {
+        format!("its picture fits the robot pose of capture {other}")
+    })
 }
 
 fn disagreement(readings: &[Readings], found: &Consensus, i: usize) -> String {
@@ -212,8 +236,8 @@ fn typical(readings: &[Readings], found: &Consensus) -> (f64, f64) {
     (3.0 * consensus::median(angles).max(1e-3), 3.0 * consensus::median(distances).max(5e-4))
 }
 
-/// An inversion explains the data when most captures agree under it and both halves of the misfit
-/// fall to less than this part. Few captures can be fitted closely by chance.
+/// An inversion explains the data when most captures agree under it, the misfit in position falls
+/// to less than this part, and that in rotation does not rise (rotations alone often fit both ways).
 const EXPLAINS: f64 = 0.2;
 
 fn suspect_conventions(readings: &[Readings], found: Option<&Consensus>, result: &mut Calibration) {
@@ -221,29 +245,19 @@ fn suspect_conventions(readings: &[Readings], found: Option<&Consensus>, result:
     let declared = all.iter().find(|e| e.convention == Convention::AsDeclared).copied();
     let better = |e: &&diagnose::Evidence| {
         e.convention != Convention::AsDeclared
+            && (bare || e.convention != Convention::TargetInverted)
             && 2 * e.agree > readings.len()
             && declared.is_none_or(|d| {
-                e.median_m < EXPLAINS * d.median_m
-                    && e.median_rad < EXPLAINS * d.median_rad.max(1e-3)
+                e.median_m < EXPLAINS * d.median_m && e.median_rad < 1.2 * d.median_rad + 1e-3
             })
     };
-    let Some(best) = all.iter().filter(better).min_by(|a, b| a.median_m.total_cmp(&b.median_m))
-    else {
+    let explaining: Vec<&diagnose::Evidence> = all.iter().filter(better).collect();
+    let Some(best) = explaining.iter().min_by(|a, b| a.median_m.total_cmp(&b.median_m)) else {
         return;
     };
     let before =
         declared.map_or("no agreement at all".into(), |d| format!("{:.1} mm", d.median_m * 1e3));
-    let (code, what) = match best.convention {
-        Convention::TargetInverted => (
-            "target-poses-inverted",
-            "the target poses look inverted: they take camera points to the target",
-        ),
-        _ => (
-            "robot-poses-inverted",
-            "the robot poses look inverted (flange_from_base), or the camera is mounted the other \
-             way (eye-in-hand against eye-to-hand)",
-        ),
-    };
+    let (code, what) = inversion(&explaining, best, bare);
     let message = format!(
         "{what}: read so, the median misfit falls from {before} to {:.1} mm; check `direction` and \
          `setup`",
@@ -276,7 +290,7 @@ pub(super) fn agree<'a>(
     };
     let found = readmit(session, &readings, found, config, &target_from_corner);
     name_rejected(session, &readings, &found, result);
-    suspect_conventions(&readings, Some(&found), result);
+    suspect_conventions(&readings, bare(session), Some(&found), result);
     let indices: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();
     let of = |&i: &usize| {
         view(&session.observations[i], &readings[i], found.reading[i], &target_from_corner)

@@ -30,20 +30,25 @@ const LEAST_SCALE_ERROR: f64 = 0.005;
 
 /// The verdict: reasons against the answer first.
 pub(super) fn conclude(config: &Config, result: &mut Calibration) {
-    if result.verdict == Verdict::Rejected {
+    let contradictions = contradictions(result);
+    if result.verdict == Verdict::Rejected || !contradictions.is_empty() {
+        // data that contradict themselves leave nothing to determine
+        result.undetermined.clear();
+        result.reasons.extend(contradictions);
+        result.verdict = Verdict::Rejected;
         return;
     }
-    let against = objections(config, result);
+    let imprecise = imprecision(config, result);
     result.verdict =
         if result.hand_eye.mount_from_camera.is_none() || !result.undetermined.is_empty() {
             hide_undetermined(result);
             Verdict::Undetermined
-        } else if against.is_empty() {
+        } else if imprecise.is_empty() {
             Verdict::Accepted
         } else {
+            result.reasons.extend(imprecise);
             Verdict::Rejected
         };
-    result.reasons.extend(against);
     if result.verdict == Verdict::Accepted
         && let Some(tre) = &result.predicted_tre_mm
     {
@@ -70,43 +75,42 @@ fn hide_undetermined(result: &mut Calibration) {
     result.predicted_tre_mm = None;
 }
 
-fn objections(config: &Config, result: &Calibration) -> Vec<String> {
+/// What the data say against themselves.
+fn contradictions(result: &Calibration) -> Vec<String> {
     let mut against = Vec::new();
-    let seen = result
-        .captures
-        .iter()
-        .filter(|c| c.used || !result.rejected.is_empty() && result.rejected.contains(&c.id))
-        .count();
     let used = result.captures.iter().filter(|c| c.used).count();
-    if seen > 0 && (used as f64) < LEAST_AGREEING * seen as f64 {
+    let seen = used + result.rejected.len();
+    if seen > 0 && used > 0 && (used as f64) < LEAST_AGREEING * seen as f64 {
         against.push(format!(
             "only {used} of {seen} captures agree: pictures and robot poses may be out of order, or \
              a pose notation is read wrongly"
         ));
     }
-    let held_out = result.held_out;
-    if held_out.translation_rms_mm.is_some_and(|mm| mm > MOST_HELD_OUT.0)
-        || held_out.rotation_rms_deg.is_some_and(|deg| deg > MOST_HELD_OUT.1)
-    {
+    let (mm, deg) = (result.held_out.translation_rms_mm, result.held_out.rotation_rms_deg);
+    if mm.is_some_and(|mm| mm > MOST_HELD_OUT.0) || deg.is_some_and(|deg| deg > MOST_HELD_OUT.1) {
         against.push(format!(
             "captures left out are missed by {:.1} mm and {:.2} degrees (RMS): far beyond a robot \
-             and camera in order",
-            held_out.translation_rms_mm.unwrap_or(f64::NAN),
-            held_out.rotation_rms_deg.unwrap_or(f64::NAN)
+             and camera in order; check order, notation, direction and setup of the poses",
+            mm.unwrap_or(f64::NAN),
+            deg.unwrap_or(f64::NAN)
         ));
     }
-    if let Some(tre) = &result.predicted_tre_mm {
-        let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
-        if !(tre.p95 <= limit) {
-            against.push(format!(
-                "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm",
-                tre.r#where, tre.p95
-            ));
-        }
-    } else if result.hand_eye.mount_from_camera.is_some() {
-        against.push("too little data to predict an error: add captures or touches".into());
-    }
     against
+}
+
+/// Why the answer is not sure enough.
+fn imprecision(config: &Config, result: &Calibration) -> Vec<String> {
+    let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
+    match &result.predicted_tre_mm {
+        Some(tre) if tre.p95 <= limit => vec![],
+        Some(tre) => vec![format!(
+            "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm: add captures with \
+             more tilt, or touches",
+            tre.r#where, tre.p95
+        )],
+        None if result.hand_eye.mount_from_camera.is_none() => vec![],
+        None => vec!["too little data to predict an error: add captures or touches".into()],
+    }
 }
 
 pub(super) fn budget(fit: &PoseFit) -> Vec<BudgetEntry> {
@@ -125,7 +129,7 @@ pub(super) fn budget(fit: &PoseFit) -> Vec<BudgetEntry> {
 }
 
 pub(super) fn judge_scale(views: &Views, fit: &PoseFit, config: &Config, result: &mut Calibration) {
-    if views.views.len() < 5 {
+    if views.views.len() < 5 || result.verdict == Verdict::Rejected {
         return;
     }
     let found = diagnose::target_scale(&views.views, fit, &config.known, views.session.setup);
