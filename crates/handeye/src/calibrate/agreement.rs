@@ -240,7 +240,41 @@ fn typical(readings: &[Readings], found: &Consensus) -> (f64, f64) {
 /// to less than this part, and that in rotation does not rise (rotations alone often fit both ways).
 const EXPLAINS: f64 = 0.2;
 
-fn suspect_conventions(readings: &[Readings], found: Option<&Consensus>, result: &mut Calibration) {
+/// In words. Robot poses inverted, target poses inverted, and the other setup can explain the same
+/// data equally well; target poses from our own detection are not in doubt.
+fn inversion(
+    explaining: &[&diagnose::Evidence],
+    best: &diagnose::Evidence,
+    bare: bool,
+) -> (&'static str, &'static str) {
+    let alike = |c: Convention| {
+        explaining.iter().any(|e| e.convention == c && e.median_m < 2.0 * best.median_m)
+    };
+    match (alike(Convention::RobotInverted), bare && alike(Convention::TargetInverted)) {
+        (true, true) => (
+            "poses-inverted",
+            "either the robot poses look inverted (flange_from_base), or the target poses \
+             (target_from_camera), or the camera is mounted the other way (eye-in-hand against \
+             eye-to-hand); the data cannot tell between these",
+        ),
+        (false, true) => (
+            "target-poses-inverted",
+            "the target poses look inverted: they take camera points to the target",
+        ),
+        _ => (
+            "robot-poses-inverted",
+            "the robot poses look inverted (flange_from_base), or the camera is mounted the other \
+             way (eye-in-hand against eye-to-hand)",
+        ),
+    }
+}
+
+fn suspect_conventions(
+    readings: &[Readings],
+    bare: bool,
+    found: Option<&Consensus>,
+    result: &mut Calibration,
+) {
     let all = diagnose::conventions(readings, found);
     let declared = all.iter().find(|e| e.convention == Convention::AsDeclared).copied();
     let better = |e: &&diagnose::Evidence| {
@@ -303,6 +337,11 @@ pub(super) fn agree<'a>(
         indices,
     };
     Some((views, found))
+}
+
+/// Whether the target poses came from elsewhere.
+fn bare(session: &Session) -> bool {
+    session.observations.iter().all(|o| o.corners.is_empty())
 }
 
 fn readings(
