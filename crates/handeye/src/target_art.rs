@@ -64,14 +64,7 @@ pub fn art(target: &TargetModel) -> Result<Art, Error> {
         &TargetModel::Checkerboard { columns, rows, square_mm } => {
             Ok(checkerboard(columns + 1, rows + 1, square_mm, false, (1.0, 1.0)))
         }
-        TargetModel::Charuco {
-            squares_x,
-            squares_y,
-            square_mm,
-            marker_mm,
-            dictionary,
-            legacy,
-        } => {
+        TargetModel::Charuco { squares_x, squares_y, square_mm, marker_mm, dictionary, legacy } => {
             let size = (*squares_x, *squares_y);
             let white_first = *legacy && squares_y % 2 == 0;
             let mut art = checkerboard(size.0, size.1, *square_mm, white_first, (0.0, 0.0));
@@ -102,13 +95,7 @@ pub fn art(target: &TargetModel) -> Result<Art, Error> {
 }
 
 /// Squares of a board; `origin` counts squares from the top left of the pattern.
-fn checkerboard(
-    across: u32,
-    down: u32,
-    side: f64,
-    white_first: bool,
-    origin: (f64, f64),
-) -> Art {
+fn checkerboard(across: u32, down: u32, side: f64, white_first: bool, origin: (f64, f64)) -> Art {
     let is_black = |i: u32, j: u32| (i + j + u32::from(white_first)).is_multiple_of(2);
     let squares = (0..down).flat_map(|j| (0..across).map(move |i| (i, j)));
     let shapes = squares
@@ -237,10 +224,7 @@ mod tests {
         let art = art(&board).unwrap();
         assert_eq!((art.width, art.height), (100.0, 80.0));
         assert_eq!(art.shapes.len(), 10);
-        assert_eq!(
-            art.shapes[0],
-            Shape::Rectangle { x: 0.0, y: 0.0, width: 20.0, height: 20.0 }
-        );
+        assert_eq!(art.shapes[0], Shape::Rectangle { x: 0.0, y: 0.0, width: 20.0, height: 20.0 });
         assert_eq!(art.target_origin, (20.0, 20.0));
     }
 
