@@ -103,11 +103,7 @@ fn in_parallel<T: Send>(
     slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
 }
 
-fn look_at(
-    path: &Path,
-    target: &TargetModel,
-    drawing: Option<&PathBuf>,
-) -> Result<Found, Failure> {
+fn look_at(path: &Path, target: &TargetModel, drawing: Option<&PathBuf>) -> Result<Found, Failure> {
     let image = read_image(path, None)?;
     let (corners, reason) = match detect::detect(&image, target) {
         Ok(corners) => (corners, None),

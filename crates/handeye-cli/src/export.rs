@@ -127,8 +127,9 @@ fn pose<'a>(
             [] => "the data do not determine it".into(),
             free => format!("not determined: {}", free.join(", ")),
         };
-        let what =
-            format!("there is no transform to export; {free}; record more poses and calibrate again");
+        let what = format!(
+            "there is no transform to export; {free}; record more poses and calibrate again"
+        );
         Failure::input(place.display(), what)
     })?;
     Ok(CameraPose {

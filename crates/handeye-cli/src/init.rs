@@ -23,7 +23,8 @@ pub fn run(args: &InitArgs, manners: &Manners) -> Result<u8, Failure> {
         .filter_map(|(k, line)| Some((k + 1, line.split_once("QUESTION: ")?.1)))
         .collect();
     if manners.json {
-        let entry = |&(line, question): &(usize, &str)| json!({ "line": line, "question": question });
+        let entry =
+            |&(line, question): &(usize, &str)| json!({ "line": line, "question": question });
         let questions: Vec<_> = questions.iter().map(entry).collect();
         output::json(&json!({ "manifest": path, "questions": questions }));
     } else {

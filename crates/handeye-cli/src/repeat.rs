@@ -74,7 +74,8 @@ struct Answer {
 }
 
 pub fn run(args: &RepeatArgs, manners: &Manners) -> Result<u8, Failure> {
-    let results = args.results.iter().map(|p| read_calibration(p)).collect::<Result<Vec<_>, _>>()?;
+    let results =
+        args.results.iter().map(|p| read_calibration(p)).collect::<Result<Vec<_>, _>>()?;
     check_twice(&args.results)?;
     check_setups(&args.results, &results)?;
     let answers = args.results.iter().zip(&results).map(|(path, c)| repetition(path, c));
@@ -165,11 +166,7 @@ fn answer(
     }
 }
 
-fn difference(
-    results: &[PathBuf],
-    a: &Pose<Mount, Camera>,
-    b: &Pose<Mount, Camera>,
-) -> Difference {
+fn difference(results: &[PathBuf], a: &Pose<Mount, Camera>, b: &Pose<Mount, Camera>) -> Difference {
     let at = |pose: &Pose<Mount, Camera>| pose.rotation() * far() + pose.translation();
     Difference {
         results: results.to_vec(),

@@ -75,7 +75,8 @@ fn refused(args: &TargetArgs, error: DrawingError) -> Failure {
 fn describe(out: &Path, target: &TargetModel) -> Result<PathBuf, Failure> {
     let path = out.with_extension("toml");
     if path.exists() && !read_target(&path).is_ok_and(|there| there == *target) {
-        let what = "is there already and describes another target; remove it, or choose another --out";
+        let what =
+            "is there already and describes another target; remove it, or choose another --out";
         return Err(Failure::input(path.display(), what));
     }
     if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {
