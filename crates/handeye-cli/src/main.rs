@@ -23,6 +23,7 @@ use failure::Failure;
 fn main() -> ExitCode {
     let program = Program::parse();
     match run(&program) {
+        Ok(_) if output::lost() => ExitCode::FAILURE,
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
             eprintln!("error: {failure}");
