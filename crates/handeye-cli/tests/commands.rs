@@ -56,6 +56,36 @@ fn solved(folder: &Folder, name: &str, shift: f64) -> Value {
     run.json()
 }
 
+#[test]
+fn broken_pairs_are_refused() {
+    let folder = Folder::new();
+    let pose = r#"{"translation_m": [0, 0, 1], "rotation_xyzw": [0, 0, 0, 1]}"#;
+    let with = |id: &str, robot: &str| {
+        format!(r#"{{"id": "{id}", "base_from_flange": {robot}, "camera_from_target": {pose}}}"#)
+    };
+    let good = with("01", pose);
+    let file =
+        |pairs: &[&str]| format!(r#"{{"setup": "eye-in-hand", "pairs": [{}]}}"#, pairs.join(", "));
+    let swapped = with("02", &pose.replace("0, 0, 0, 1", "1, 0, 0, 1"));
+    let zero = with("02", &pose.replace("0, 0, 0, 1", "0, 0, 0, 0"));
+    let inverse = with("02", &pose.replace('{', r#"{"to": "flange", "from": "base", "#));
+    for (content, message) in [
+        (file(&[&good, &good]), r#"p.json: pair 2: the id "01" is there twice"#),
+        (file(&[&good, &zero]), "p.json: rotation_xyzw has length 0, not 1: is it a quaternion?"),
+        (file(&[&good, &swapped]), "p.json: rotation_xyzw has length 1.414"),
+        (file(&[&good, &inverse]), "p.json: expected base_from_flange, found flange_from_base"),
+        (file(&[&good]).replace("in-hand", "on-hand"), "p.json: unknown variant `eye-on-hand`"),
+        (file(&[&good]).replace("1]", "NaN]"), "p.json: expected value"),
+        ("{".into(), "p.json: EOF while parsing"),
+        ("[]".into(), "p.json: invalid length 0"),
+    ] {
+        folder.put("p.json", &content);
+        let run = handeye(&folder, &["solve", "p.json", "--json"]);
+        assert_eq!(run.code, 1, "{content}: {}", run.stderr);
+        assert!(run.stdout.is_empty() && run.error().starts_with(message), "{}", run.stderr);
+    }
+}
+
 const COMMANDS: [&str; 8] =
     ["calibrate", "solve", "export", "init", "target", "repeat", "detect", "completions"];
 
