@@ -39,6 +39,16 @@ pub enum Command {
     Calibrate(CalibrateArgs),
     /// Solve for the transform from pairs of robot and target poses in a JSON file.
     Solve(SolveArgs),
+    /// Write a result as a robot, ROS, OpenCV or another program reads it.
+    Export(ExportArgs),
+    /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
+    Init(InitArgs),
+    /// Draw a board to print, in true scale.
+    Target(TargetArgs),
+    /// Compare several results of one cell: do they agree?
+    Repeat(RepeatArgs),
+    /// Find the target's corners in pictures.
+    Detect(DetectArgs),
     /// Write completions for a shell.
     #[command(
         after_help = "Example:\n  handeye completions bash > ~/.local/share/bash-completion/completions/handeye"
@@ -89,4 +99,117 @@ pub struct CalibrateArgs {
     /// The same: it stops when a round changes less than this (rad, m).
     #[arg(long, default_value_t = 1e-9)]
     pub icp_epsilon: f64,
+}
+
+/// Arguments of `export`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye export result/calibration.json --format kuka\n  handeye export result/calibration.json --format urdf,ros2-launch,npy --out exports\n  handeye export --format list"
+)]
+pub struct ExportArgs {
+    /// The calibration.json of a result.
+    pub calibration: Option<PathBuf>,
+    /// What to write, one or several; `list` shows all.
+    #[arg(long, short, required = true, value_delimiter = ',')]
+    pub format: Vec<String>,
+    /// Folder, or file for a single format; without it the text goes to standard output.
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+    /// Name of the parent frame [default: base or flange].
+    #[arg(long)]
+    pub parent: Option<String>,
+    /// Name of the camera's frame.
+    #[arg(long, default_value = "camera")]
+    pub child: String,
+    /// Export a result that was not accepted, too.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `init`.
+#[derive(Args)]
+#[command(after_help = "Example:\n  handeye init cell/")]
+pub struct InitArgs {
+    /// Folder with pictures, scans and robot poses.
+    pub folder: PathBuf,
+    /// Write over a manifest that is there.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `target`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye target --checkerboard 11x8 --square-mm 20 --out board.pdf\n  handeye target --charuco 7x5 --square-mm 35 --marker-mm 26 --dictionary DICT_5X5_100 --out board.svg --paper a3\n  handeye target cell/handeye.toml --out board.pdf --paper 600x500"
+)]
+pub struct TargetArgs {
+    /// A manifest or another TOML file with a [target].
+    #[arg(conflicts_with_all = ["checkerboard", "charuco", "tag", "circle_grid"])]
+    pub target: Option<PathBuf>,
+    /// Checkerboard of so many INNER corners: columns x rows.
+    #[arg(long, value_name = "CxR", conflicts_with_all = ["charuco", "tag", "circle_grid"])]
+    pub checkerboard: Option<String>,
+    /// ChArUco board of so many squares: columns x rows.
+    #[arg(long, value_name = "XxY", conflicts_with_all = ["tag", "circle_grid"])]
+    pub charuco: Option<String>,
+    /// One ArUco or AprilTag marker with this id.
+    #[arg(long, value_name = "ID", conflicts_with = "circle_grid")]
+    pub tag: Option<u32>,
+    /// Grid of so many circles: columns x rows.
+    #[arg(long, value_name = "CxR")]
+    pub circle_grid: Option<String>,
+    /// Side of a square.
+    #[arg(long)]
+    pub square_mm: Option<f64>,
+    /// Side of a ChArUco board's markers.
+    #[arg(long)]
+    pub marker_mm: Option<f64>,
+    /// OpenCV's name of the markers, such as DICT_6X6_250.
+    #[arg(long)]
+    pub dictionary: Option<String>,
+    /// ChArUco layout of OpenCV before 4.6.
+    #[arg(long)]
+    pub legacy: bool,
+    /// Side of the single marker's black square.
+    #[arg(long)]
+    pub size_mm: Option<f64>,
+    /// Distance between the centres of neighbouring circles.
+    #[arg(long)]
+    pub pitch_mm: Option<f64>,
+    /// The drawing, .pdf or .svg; a .toml with the [target] is written beside it.
+    #[arg(long, short)]
+    pub out: PathBuf,
+    /// a4, a3, a2, a1, a0, letter, or a size in mm such as 300x400.
+    #[arg(long, default_value = "a4")]
+    pub paper: String,
+}
+
+/// Arguments of `repeat`.
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  handeye repeat monday/calibration.json tuesday/calibration.json\n\n\
+Exit code 0: they agree within what they say of their errors (p >= 0.01); 3: they do not, or cannot\n\
+be tested because one states no covariance."
+)]
+pub struct RepeatArgs {
+    /// The calibration.json of two or more results.
+    #[arg(required = true, num_args = 2..)]
+    pub results: Vec<PathBuf>,
+}
+
+/// Arguments of `detect`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye detect images/*.png --target handeye.toml\n  handeye detect 01.png --target board.toml --draw found --json"
+)]
+pub struct DetectArgs {
+    /// PNG, JPEG, TIFF or BMP pictures.
+    #[arg(required = true)]
+    pub images: Vec<PathBuf>,
+    /// A manifest or another TOML file with a [target].
+    #[arg(long, short)]
+    pub target: PathBuf,
+    /// Folder for pictures with the corners and their ids drawn in.
+    #[arg(long)]
+    pub draw: Option<PathBuf>,
 }

@@ -2,11 +2,16 @@
 
 mod args;
 mod calibrate;
+mod detect;
+mod export;
 mod failure;
+mod init;
 mod output;
 mod progress;
+mod repeat;
 mod report;
 mod solve;
+mod target;
 
 use std::process::ExitCode;
 
@@ -18,6 +23,7 @@ use failure::Failure;
 fn main() -> ExitCode {
     let program = Program::parse();
     match run(&program) {
+        Ok(_) if output::lost() => ExitCode::FAILURE,
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
             eprintln!("error: {failure}");
@@ -30,6 +36,11 @@ fn run(program: &Program) -> Result<u8, Failure> {
     match &program.command {
         Command::Calibrate(args) => calibrate::run(args, &program.manners),
         Command::Solve(args) => solve::run(args, &program.manners),
+        Command::Export(args) => export::run(args, &program.manners),
+        Command::Init(args) => init::run(args, &program.manners),
+        Command::Target(args) => target::run(args, &program.manners),
+        Command::Repeat(args) => repeat::run(args, &program.manners),
+        Command::Detect(args) => detect::run(args, &program.manners),
         Command::Completions { shell } => {
             output::completions(*shell);
             Ok(0)

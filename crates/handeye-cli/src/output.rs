@@ -1,6 +1,9 @@
 //! What the terminal shows.
 
-use std::io::{self, IsTerminal, Write};
+use std::{
+    io::{self, ErrorKind, IsTerminal, Write},
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 use clap::CommandFactory;
 use clap_complete::Shell;
@@ -9,9 +12,24 @@ use serde::Serialize;
 
 use crate::args::{Manners, Program};
 
+/// Whether something could not be written to standard output.
+static LOST: AtomicBool = AtomicBool::new(false);
+
 /// Writes to standard output; a reader that went away (`| head`) is no error.
 pub fn print(text: &str) {
-    let _ = io::stdout().lock().write_all(text.as_bytes());
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            eprintln!("error: standard output: {error}; the output is not complete");
+            LOST.store(true, Ordering::Relaxed);
+        }
+        _ => {}
+    }
+}
+
+/// Whether something that was printed got lost, such as on a full disk.
+pub fn lost() -> bool {
+    LOST.load(Ordering::Relaxed)
 }
 
 /// One JSON document on standard output.
@@ -24,7 +42,9 @@ pub fn json(value: &impl Serialize) {
 
 /// Completions for a shell.
 pub fn completions(shell: Shell) {
-    clap_complete::generate(shell, &mut Program::command(), "handeye", &mut io::stdout());
+    let mut script = Vec::new(); // clap_complete panics where it cannot write
+    clap_complete::generate(shell, &mut Program::command(), "handeye", &mut script);
+    print(&String::from_utf8_lossy(&script));
 }
 
 /// Warnings, to standard error.

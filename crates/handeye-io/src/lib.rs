@@ -7,6 +7,7 @@
 
 mod camera;
 mod dataset;
+pub mod drawing;
 mod error;
 pub mod export;
 mod files;
@@ -18,6 +19,7 @@ pub mod report;
 pub mod robot;
 mod scan;
 mod table;
+mod target_file;
 mod tree;
 pub mod units;
 mod xml;
@@ -32,3 +34,4 @@ pub use files::write_atomically;
 pub use image::{image_size, read_image};
 pub use init::handeye_init;
 pub use scan::{ScanOptions, read_scan};
+pub use target_file::{read_target, target_toml};

@@ -16,10 +16,12 @@ pub mod observation;
 pub mod predict;
 pub mod refine;
 pub mod register;
+pub mod repeat;
 pub mod scan;
 pub mod simulate;
 pub mod solve;
 pub mod target;
+pub mod target_art;
 pub mod touches;
 
 pub use calibrate::{Config, Session, calibrate};

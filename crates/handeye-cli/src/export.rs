@@ -1,0 +1,216 @@
+//! `handeye export`: a result in the notations of other programs and of robots.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use handeye::{Calibration, Verdict};
+use handeye_io::{
+    export::{CameraPose, Format, render},
+    write_atomically,
+};
+use serde_json::json;
+
+use crate::{
+    args::{ExportArgs, Manners},
+    failure::Failure,
+    output,
+};
+
+pub fn run(args: &ExportArgs, manners: &Manners) -> Result<u8, Failure> {
+    if args.format.iter().any(|f| f == "list") {
+        list(manners);
+        return Ok(0);
+    }
+    let formats = formats(&args.format)?;
+    let path = args.calibration.as_ref().ok_or_else(|| {
+        Failure::Usage("which calibration? Name the calibration.json of a result".into())
+    })?;
+    let calibration = read_calibration(path)?;
+    check_verdict(path, &calibration, args.force, manners)?;
+    let frames = Frames { parent: args.parent.as_deref(), child: &args.child };
+    match &args.out {
+        None => show(path, &calibration, &formats, frames, manners)?,
+        Some(out) => {
+            let written = match single_file(out, &formats) {
+                true => vec![write_one(path, &calibration, &formats[0], frames, out)?],
+                false => write_all(path, &calibration, &formats, frames, out)?,
+            };
+            tell(&written, manners);
+        }
+    }
+    Ok(0)
+}
+
+/// Writes a calibration in the given formats into a folder, which is made if need be; says which
+/// files there are now.
+#[allow(dead_code, reason = "for `calibrate --format`")]
+pub fn exports(
+    calibration: &Calibration,
+    formats: &[Format],
+    out_dir: &Path,
+) -> Result<Vec<PathBuf>, Failure> {
+    write_all(out_dir, calibration, formats, Frames { parent: None, child: CAMERA }, out_dir)
+}
+
+/// The camera's frame, where nobody says another name.
+const CAMERA: &str = "camera";
+
+/// Names of frames in the exported file.
+#[derive(Clone, Copy)]
+struct Frames<'a> {
+    parent: Option<&'a str>,
+    child: &'a str,
+}
+
+/// The formats of their names.
+pub fn formats(names: &[String]) -> Result<Vec<Format>, Failure> {
+    let named = |name: &String| {
+        Format::named(name).map_err(|e| Failure::Usage(format!("no format {name:?}; {e}")))
+    };
+    names.iter().map(named).collect()
+}
+
+/// Reads a calibration.json.
+pub fn read_calibration(path: &Path) -> Result<Calibration, Failure> {
+    let text = fs::read_to_string(path).map_err(|e| {
+        Failure::input(path.display(), format!("cannot be read: {e}; check the name"))
+    })?;
+    serde_json::from_str(&text).map_err(|e| {
+        let what = format!("is no result of handeye: {e}; name a calibration.json");
+        Failure::input(path.display(), what)
+    })
+}
+
+fn list(manners: &Manners) {
+    let names = Format::names();
+    if manners.json {
+        output::json(&json!({ "formats": names }));
+    } else {
+        output::print(&(names.join("\n") + "\neuler-AXES-intrinsic, euler-AXES-extrinsic\n"));
+    }
+}
+
+/// A result that is not accepted leaves the house only by force.
+fn check_verdict(
+    path: &Path,
+    calibration: &Calibration,
+    force: bool,
+    manners: &Manners,
+) -> Result<(), Failure> {
+    if calibration.verdict == Verdict::Accepted {
+        return Ok(());
+    }
+    let verdict = match calibration.verdict {
+        Verdict::Undetermined => "undetermined",
+        _ => "rejected",
+    };
+    let why = calibration.reasons.first().map_or(String::new(), |r| format!(" ({r})"));
+    let what = format!("the verdict is {verdict}{why}");
+    if !force {
+        return Err(Failure::input(path.display(), what + "; to export it all the same: --force"));
+    }
+    if !manners.quiet {
+        eprintln!("warning [not-accepted]: {}: {what}; do not move a robot by it", path.display());
+    }
+    Ok(())
+}
+
+fn pose<'a>(
+    place: &Path,
+    calibration: &'a Calibration,
+    frames: Frames<'a>,
+) -> Result<CameraPose<'a>, Failure> {
+    let found = calibration.hand_eye.mount_from_camera.ok_or_else(|| {
+        let free = match &calibration.undetermined[..] {
+            [] => "the data do not determine it".into(),
+            free => format!("not determined: {}", free.join(", ")),
+        };
+        let what = format!(
+            "there is no transform to export; {free}; record more poses and calibrate again"
+        );
+        Failure::input(place.display(), what)
+    })?;
+    Ok(CameraPose {
+        name: &calibration.name,
+        parent_from_child: *found.iso(),
+        parent: frames.parent.unwrap_or(calibration.setup.mount()),
+        child: frames.child,
+        setup: calibration.setup,
+    })
+}
+
+/// One format, and a name that is no folder.
+fn single_file(out: &Path, formats: &[Format]) -> bool {
+    formats.len() == 1 && !out.is_dir() && out.extension().is_some()
+}
+
+fn write_one(
+    place: &Path,
+    calibration: &Calibration,
+    format: &Format,
+    frames: Frames,
+    file: &Path,
+) -> Result<PathBuf, Failure> {
+    write_atomically(file, &render(&pose(place, calibration, frames)?, format))?;
+    Ok(file.to_path_buf())
+}
+
+fn write_all(
+    place: &Path,
+    calibration: &Calibration,
+    formats: &[Format],
+    frames: Frames,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, Failure> {
+    let pose = pose(place, calibration, frames)?;
+    fs::create_dir_all(folder)
+        .map_err(|e| Failure::input(folder.display(), format!("cannot be made: {e}")))?;
+    let write = |format: &Format| {
+        let file = folder.join(format.file_name(pose.name));
+        write_atomically(&file, &render(&pose, format))?;
+        Ok(file)
+    };
+    formats.iter().map(write).collect()
+}
+
+/// Without `--out`: to standard output, as far as it is text.
+fn show(
+    path: &Path,
+    calibration: &Calibration,
+    formats: &[Format],
+    frames: Frames,
+    manners: &Manners,
+) -> Result<(), Failure> {
+    let pose = pose(path, calibration, frames)?;
+    let mut texts = vec![];
+    for format in formats {
+        let name = format.file_name(pose.name);
+        let text = String::from_utf8(render(&pose, format)).ok().filter(|_| *format != Format::Npy);
+        let text = text.ok_or_else(|| {
+            Failure::Usage(format!("{name} is no text: say where it goes with --out"))
+        })?;
+        texts.push((name, text));
+    }
+    if manners.json {
+        let entry = |(name, text): &(String, String)| json!({ "file": name, "content": text });
+        output::json(&json!({ "exports": texts.iter().map(entry).collect::<Vec<_>>() }));
+    } else if let [(_, only)] = &texts[..] {
+        output::print(only);
+    } else {
+        let with_name = |(name, text): &(String, String)| format!("==> {name} <==\n{text}");
+        output::print(&texts.iter().map(with_name).collect::<Vec<_>>().join("\n"));
+    }
+    Ok(())
+}
+
+fn tell(written: &[PathBuf], manners: &Manners) {
+    if manners.json {
+        output::json(&json!({ "files": written }));
+    } else if !manners.quiet {
+        for path in written {
+            output::print(&format!("{}\n", path.display()));
+        }
+    }
+}

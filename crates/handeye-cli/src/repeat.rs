@@ -1,0 +1,249 @@
+//! `handeye repeat`: do several calibrations of one cell agree?
+
+use std::path::{Path, PathBuf};
+
+use handeye::{
+    Calibration, Camera, Mount, Pose, Setup, calibration,
+    repeat::{Agreement, Repeat, Repetition, Scatter, repeat, scatter_at, scatter_of_rotation},
+};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::{
+    args::{Manners, RepeatArgs},
+    export::read_calibration,
+    failure::Failure,
+    output,
+};
+
+/// Results that agree differ by chance alone; below this chance they do not agree.
+const LEAST_CHANCE: f64 = 0.01;
+/// Where a part may lie, m before the camera.
+const BEFORE_CAMERA: f64 = 0.5;
+/// With more results than this, pairs are too many to read.
+const MOST_IN_TABLE: usize = 6;
+
+/// Scatter with its unit in the name.
+#[derive(Serialize)]
+struct InUnits {
+    rms: f64,
+    max: f64,
+    axes: [f64; 3],
+}
+
+impl InUnits {
+    fn of(scatter: Scatter, unit: f64) -> Self {
+        let axes = scatter.axes.map(|a| a * unit);
+        Self { rms: scatter.rms * unit, max: scatter.max * unit, axes }
+    }
+}
+
+/// How the answers differ.
+#[derive(Serialize)]
+struct Spread {
+    camera_origin_mm: InUnits,
+    half_a_metre_before_camera_mm: InUnits,
+    rotation_deg: InUnits,
+}
+
+/// One answer against the mean, or against another.
+#[derive(Serialize)]
+struct Difference {
+    results: Vec<PathBuf>,
+    camera_origin_mm: f64,
+    half_a_metre_before_camera_mm: f64,
+    rotation_deg: f64,
+}
+
+#[derive(Serialize)]
+struct Combined {
+    mount_from_camera: Pose<Mount, Camera>,
+    covariance: Option<calibration::Rows>,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    agree: Option<bool>,
+    test: Option<Agreement>,
+    setup: Setup,
+    name: String,
+    combined: Combined,
+    spread: Spread,
+    from_mean: Vec<Difference>,
+    pairs: Vec<Difference>,
+}
+
+pub fn run(args: &RepeatArgs, manners: &Manners) -> Result<u8, Failure> {
+    let results =
+        args.results.iter().map(|p| read_calibration(p)).collect::<Result<Vec<_>, _>>()?;
+    check_twice(&args.results)?;
+    check_setups(&args.results, &results)?;
+    let answers = args.results.iter().zip(&results).map(|(path, c)| repetition(path, c));
+    let answers = answers.collect::<Result<Vec<_>, _>>()?;
+    let found = repeat(&answers)?;
+    let answer = answer(&args.results, &results[0], &answers, &found);
+    if manners.json {
+        output::json(&answer);
+    } else {
+        output::print(&table(&answer, args.results.len()));
+    }
+    Ok(if answer.agree == Some(true) { 0 } else { 3 })
+}
+
+fn check_twice(paths: &[PathBuf]) -> Result<(), Failure> {
+    let real: Vec<PathBuf> =
+        paths.iter().map(|p| p.canonicalize().unwrap_or_else(|_| p.clone())).collect();
+    match (1..real.len()).find(|&k| real[..k].contains(&real[k])) {
+        None => Ok(()),
+        Some(k) => {
+            let what = "is named twice; a result agrees with itself, which tells nothing";
+            Err(Failure::input(paths[k].display(), what))
+        }
+    }
+}
+
+fn check_setups(paths: &[PathBuf], results: &[Calibration]) -> Result<(), Failure> {
+    let first = &results[0];
+    match results.iter().zip(paths).find(|(r, _)| r.setup != first.setup) {
+        None => Ok(()),
+        Some((other, path)) => {
+            let what = format!(
+                "is {}, but {} is {}; compare results of one cell",
+                other.name,
+                paths[0].display(),
+                first.name
+            );
+            Err(Failure::input(path.display(), what))
+        }
+    }
+}
+
+fn repetition(path: &Path, result: &Calibration) -> Result<Repetition, Failure> {
+    let mount_from_camera = result.hand_eye.mount_from_camera.ok_or_else(|| {
+        let what = "holds no transform (the data did not determine it); leave it out";
+        Failure::input(path.display(), what)
+    })?;
+    let covariance = result.hand_eye.covariance.mount_from_camera.as_ref().map(calibration::matrix);
+    Ok(Repetition { mount_from_camera, covariance })
+}
+
+fn far() -> Vector3<f64> {
+    Vector3::new(0.0, 0.0, BEFORE_CAMERA)
+}
+
+fn answer(
+    paths: &[PathBuf],
+    first: &Calibration,
+    answers: &[Repetition],
+    found: &Repeat,
+) -> Answer {
+    let pose = |k: usize| &answers[k].mount_from_camera;
+    let all = 0..answers.len();
+    let pairs = all.clone().flat_map(|a| (a + 1..answers.len()).map(move |b| (a, b)));
+    let mm = |p: &Vector3<f64>| InUnits::of(scatter_at(p, answers, &found.mean), 1e3);
+    let rotation = scatter_of_rotation(answers, &found.mean);
+    Answer {
+        agree: found.agreement.map(|a| a.p_value >= LEAST_CHANCE),
+        test: found.agreement,
+        setup: first.setup,
+        name: first.name.clone(),
+        combined: Combined {
+            mount_from_camera: found.mean,
+            covariance: found.covariance.as_ref().map(calibration::rows),
+        },
+        spread: Spread {
+            camera_origin_mm: mm(&Vector3::zeros()),
+            half_a_metre_before_camera_mm: mm(&far()),
+            rotation_deg: InUnits::of(rotation, 1_f64.to_degrees()),
+        },
+        from_mean: all.map(|k| difference(&paths[k..=k], &found.mean, pose(k))).collect(),
+        pairs: pairs
+            .map(|(a, b)| Difference {
+                results: vec![paths[a].clone(), paths[b].clone()],
+                ..difference(&[], pose(a), pose(b))
+            })
+            .collect(),
+    }
+}
+
+fn difference(results: &[PathBuf], a: &Pose<Mount, Camera>, b: &Pose<Mount, Camera>) -> Difference {
+    let at = |pose: &Pose<Mount, Camera>| pose.rotation() * far() + pose.translation();
+    Difference {
+        results: results.to_vec(),
+        camera_origin_mm: 1e3 * a.distance_to(b),
+        half_a_metre_before_camera_mm: 1e3 * (at(a) - at(b)).norm(),
+        rotation_deg: a.angle_to(b).to_degrees(),
+    }
+}
+
+/// For people, in 80 columns.
+fn table(a: &Answer, count: usize) -> String {
+    let mut text = format!("\n{}\n\n", sentence(a));
+    let (t, q) = (
+        a.combined.mount_from_camera.translation() * 1e3,
+        a.combined.mount_from_camera.iso().rotation.coords,
+    );
+    text += &format!("{}, combined of {count} results\n", a.name);
+    text += &format!("  translation  {:11.3} {:11.3} {:11.3}   mm\n", t.x, t.y, t.z);
+    text +=
+        &format!("  quaternion   {:11.7} {:11.7} {:11.7} {:11.7}   x y z w\n", q.x, q.y, q.z, q.w);
+    text += &format!(
+        "\n  {:<31}{:>8}{:>8}  {:>9}{:>9}{:>9}\n",
+        "spread about the combined", "rms", "max", "x", "y", "z"
+    );
+    text += &line("camera origin, mm", &a.spread.camera_origin_mm, 3);
+    text += &line("0.5 m before the camera, mm", &a.spread.half_a_metre_before_camera_mm, 3);
+    text += &line("rotation, degrees", &a.spread.rotation_deg, 4);
+    text += &format!("\n  {:<31}{:>12}{:>14}{:>14}\n", "", "origin", "0.5 m before", "rotation");
+    let numbered = |k: usize| format!("{}  {}", k + 1, shortened(&a.from_mean[k].results[0]));
+    for (k, d) in a.from_mean.iter().enumerate() {
+        text += &row(&numbered(k), d);
+    }
+    if count <= MOST_IN_TABLE {
+        let index = |p: &PathBuf| 1 + a.from_mean.iter().take_while(|d| d.results[0] != *p).count();
+        for d in &a.pairs {
+            text += &row(&format!("{} - {}", index(&d.results[0]), index(&d.results[1])), d);
+        }
+    }
+    text
+}
+
+fn sentence(a: &Answer) -> String {
+    let Some(test) = &a.test else {
+        return "NOT TESTED  a result states no covariance, so nothing says how far they may differ"
+            .into();
+    };
+    let verdict = match a.agree {
+        Some(true) => "AGREE  they differ no more than they say",
+        _ => "DISAGREE  they differ by more than they say",
+    };
+    format!(
+        "{verdict}\n       chi-square {:.1} at {} degrees of freedom, p = {:.2e}",
+        test.chi_square, test.degrees_of_freedom, test.p_value
+    )
+}
+
+fn line(name: &str, s: &InUnits, digits: usize) -> String {
+    let [x, y, z] = s.axes;
+    format!(
+        "  {name:<31}{:>8.digits$}{:>8.digits$}  {x:>9.digits$}{y:>9.digits$}{z:>9.digits$}\n",
+        s.rms, s.max
+    )
+}
+
+fn row(name: &str, d: &Difference) -> String {
+    format!(
+        "  {name:<31}{:>9.3} mm{:>11.3} mm{:>10.4} deg\n",
+        d.camera_origin_mm, d.half_a_metre_before_camera_mm, d.rotation_deg
+    )
+}
+
+/// The end of a path that fits into its column.
+fn shortened(path: &Path) -> String {
+    const WIDTH: usize = 26;
+    let whole: Vec<char> = path.to_string_lossy().chars().collect();
+    match whole.len() > WIDTH {
+        true => format!("..{}", whole[whole.len() - WIDTH + 2..].iter().collect::<String>()),
+        false => whole.into_iter().collect(),
+    }
+}

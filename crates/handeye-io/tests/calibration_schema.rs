@@ -1,0 +1,135 @@
+//! The published JSON Schema of calibration.json names the keys that are written.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
+
+use std::{collections::BTreeSet, fs};
+
+use handeye::{
+    Calibration, Pose, Setup, Verdict, Warning,
+    calibration::{
+        Answer, BudgetEntry, Candidate, CaptureResult, Diversity, Misfit, PoseCovariance, Scale,
+        TouchResult,
+    },
+    predict::PredictedTre,
+};
+use nalgebra::Vector3;
+use serde_json::Value;
+
+/// A result in which nothing is missing.
+fn full() -> Calibration {
+    let rows = Some([[0.0; 6]; 6]);
+    let answer = Answer {
+        mount_from_camera: Some(Pose::identity()),
+        anchor_from_target: Some(Pose::identity()),
+        covariance: PoseCovariance { mount_from_camera: rows, anchor_from_target: rows },
+    };
+    let misfit = Misfit {
+        rotation_rms_deg: Some(0.0),
+        translation_rms_mm: Some(0.0),
+        reprojection_rms_px: Some(0.0),
+    };
+    Calibration {
+        format: "1".into(),
+        setup: Setup::EyeInHand,
+        verdict: Verdict::Accepted,
+        reasons: vec!["why".into()],
+        method: "m".into(),
+        hand_eye: answer,
+        name: "flange_from_camera".into(),
+        chosen: Some("m".into()),
+        why: "why".into(),
+        candidates: vec![Candidate {
+            name: "m".into(),
+            hand_eye: answer,
+            in_sample: misfit,
+            held_out: misfit,
+            touch_rms_mm: Some(0.0),
+            held_out_mm: Some(0.0),
+            predicted_tre_mm: Some(0.0),
+            note: Some("n".into()),
+        }],
+        predicted_tre_mm: Some(PredictedTre { rms: 0.0, p95: 0.0, r#where: "w".into() }),
+        residual: misfit,
+        held_out: misfit,
+        captures: vec![CaptureResult {
+            id: "01".into(),
+            used: true,
+            reason: Some("r".into()),
+            base_from_flange: Pose::identity(),
+            camera_from_target: Some(Pose::identity()),
+            corners: 1,
+            corners_3d: 1,
+            residual_px: Some(0.0),
+            reprojection_px: Some(0.0),
+            residual_mm: Some(0.0),
+            residual_deg: Some(0.0),
+            held_out_mm: Some(0.0),
+            held_out_deg: Some(0.0),
+        }],
+        touches: vec![TouchResult {
+            capture: "A".into(),
+            corner: 0,
+            residual_mm: 0.0,
+            difference_mm: Vector3::zeros(),
+            used: true,
+        }],
+        rejected: vec!["02".into()],
+        undetermined: vec!["z".into()],
+        diversity: Some(Diversity {
+            captures: 1,
+            largest_rotation_deg: 0.0,
+            axis_spread: [1.0; 3],
+            travel_mm: [0.0; 3],
+        }),
+        error_budget: vec![BudgetEntry {
+            source: "robot".into(),
+            sigma: "s".into(),
+            sigma_mm: Some(0.0),
+            sigma_deg: Some(0.0),
+        }],
+        scale: Some(Scale { value: 1.0, sigma: 0.0 }),
+        warnings: vec![Warning::new("code", "message")],
+    }
+}
+
+/// The schema behind a reference, and the one of what is not null.
+fn resolved<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
+    let reference = schema.get("$ref").or_else(|| schema.get("anyOf")?.get(0)?.get("$ref"));
+    match reference.and_then(Value::as_str) {
+        Some(name) => root.pointer(name.trim_start_matches('#')).unwrap(),
+        None => schema,
+    }
+}
+
+fn compare(root: &Value, schema: &Value, value: &Value, at: &str) {
+    let schema = resolved(root, schema);
+    match value {
+        Value::Object(object) => {
+            let known = schema["properties"].as_object().unwrap_or_else(|| panic!("{at}"));
+            let keys = |o: &serde_json::Map<String, Value>| -> BTreeSet<String> {
+                o.keys().cloned().collect()
+            };
+            assert_eq!(keys(known), keys(object), "{at}");
+            for (key, inner) in object {
+                compare(root, &known[key], inner, &format!("{at}.{key}"));
+            }
+        }
+        Value::Array(items) => {
+            for item in items {
+                compare(root, &schema["items"], item, &format!("{at}[]"));
+            }
+        }
+        Value::String(word) => {
+            let words = schema["enum"].as_array();
+            assert!(words.is_none_or(|w| w.contains(&word.as_str().into())), "{at}: {word}");
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn the_schema_and_the_result_have_the_same_keys() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/calibration.schema.json");
+    let schema: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    compare(&schema, &schema, &serde_json::to_value(full()).unwrap(), "calibration");
+}
