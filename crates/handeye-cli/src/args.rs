@@ -76,7 +76,7 @@ pub struct SolveArgs {
 /// Arguments of `calibrate`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye calibrate cell/\n  handeye calibrate cell/ --out result --format ros2 --format kuka\n  handeye calibrate cell.toml --root /data/cell --json"
+    after_help = "Examples:\n  handeye calibrate cell/\n  handeye calibrate cell/ --out result --format ros2-launch,kuka\n  handeye calibrate cell.toml --root /data/cell --json"
 )]
 pub struct CalibrateArgs {
     /// Folder with `handeye.toml`, or a manifest.
@@ -87,6 +87,9 @@ pub struct CalibrateArgs {
     /// Folder for calibration.json, report.html and exports; it is made if need be.
     #[arg(long, short)]
     pub out: Option<PathBuf>,
+    /// Also export the transform in these formats (see `handeye export --format list`).
+    #[arg(long, value_delimiter = ',', requires = "out")]
+    pub format: Vec<String>,
     /// Run one published method as published: shah, park-martin, daniilidis.
     #[arg(long)]
     pub method: Option<String>,

@@ -6,7 +6,8 @@ use std::{
 };
 
 use handeye::{
-    Calibration, Config, Session, Setup, calibrate, refine::noise::KnownNoise, register::IcpConfig,
+    Calibration, Config, Session, Setup, Verdict, calibrate, refine::noise::KnownNoise,
+    register::IcpConfig,
 };
 use handeye_io::{
     Dataset, WorkspaceFrame,
@@ -16,6 +17,7 @@ use handeye_io::{
 
 use crate::{
     args::{CalibrateArgs, Manners},
+    export,
     failure::Failure,
     output,
     progress::Progress,
@@ -24,6 +26,7 @@ use crate::{
 
 pub fn run(args: &CalibrateArgs, manners: &Manners) -> Result<u8, Failure> {
     let config = config(args)?;
+    let formats = export::formats(&args.format)?;
     let dataset = open(args)?;
     let (calibration, session) = run_on(&dataset, config, manners)?;
     if manners.json {
@@ -34,6 +37,11 @@ pub fn run(args: &CalibrateArgs, manners: &Manners) -> Result<u8, Failure> {
     }
     if let Some(out) = &args.out {
         write(out, &dataset, &calibration, &session, manners)?;
+        if calibration.verdict == Verdict::Accepted {
+            export::exports(&calibration, &formats, out)?;
+        } else if !formats.is_empty() {
+            eprintln!("nothing exported: the verdict is not `accepted`");
+        }
     }
     Ok(calibration.exit_code())
 }

@@ -45,7 +45,6 @@ pub fn run(args: &ExportArgs, manners: &Manners) -> Result<u8, Failure> {
 
 /// Writes a calibration in the given formats into a folder, which is made if need be; says which
 /// files there are now.
-#[allow(dead_code, reason = "for `calibrate --format`")]
 pub fn exports(
     calibration: &Calibration,
     formats: &[Format],
