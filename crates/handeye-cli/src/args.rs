@@ -39,6 +39,8 @@ pub enum Command {
     Calibrate(CalibrateArgs),
     /// Solve for the transform from pairs of robot and target poses in a JSON file.
     Solve(SolveArgs),
+    /// Write a simulated dataset whose truth is known.
+    Simulate(Box<crate::simulate::SimulateArgs>),
     /// Write completions for a shell.
     #[command(
         after_help = "Example:\n  handeye completions bash > ~/.local/share/bash-completion/completions/handeye"

@@ -6,6 +6,7 @@ mod failure;
 mod output;
 mod progress;
 mod report;
+mod simulate;
 mod solve;
 
 use std::process::ExitCode;
@@ -30,6 +31,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
     match &program.command {
         Command::Calibrate(args) => calibrate::run(args, &program.manners),
         Command::Solve(args) => solve::run(args, &program.manners),
+        Command::Simulate(args) => simulate::run(args, &program.manners),
         Command::Completions { shell } => {
             output::completions(*shell);
             Ok(0)

@@ -17,6 +17,7 @@ mod npy;
 pub mod report;
 pub mod robot;
 mod scan;
+pub mod simulated;
 mod table;
 mod tree;
 pub mod units;

@@ -40,17 +40,31 @@ fn normalised_error_squared(found: &Calibration, truth: &Truth) -> f64 {
     xi.dot(&(invert_spd(&covariance).unwrap() * xi)) / 6.0
 }
 
-#[test]
-fn errors_are_as_large_as_the_stated_covariance() {
-    const CELLS: u64 = 200;
+/// The mean over cells with a robot as in the field: 0.5 mm and 0.03 degrees off in every pose.
+fn mean_normalised_error_squared(setup: Setup, cells: u64) -> f64 {
+    let each = (0..cells).map(|seed| {
+        let cell = Cell { placements: 0, touches: 0, ..Cell::new(setup, seed) };
+        let (found, truth) = solved(&cell, 1000 + seed);
+        normalised_error_squared(&found, &truth)
+    });
+    each.sum::<f64>() / cells as f64
+}
+
+fn assert_consistent(cells: u64) {
     for setup in SETUPS {
-        let each = (0..CELLS).map(|seed| {
-            let cell = Cell { placements: 0, touches: 0, ..Cell::new(setup, seed) };
-            let (found, truth) = solved(&cell, 1000 + seed);
-            normalised_error_squared(&found, &truth)
-        });
-        let mean = each.sum::<f64>() / CELLS as f64;
-        println!("{setup:?}: normalised error squared {mean:.3} over {CELLS} cells");
+        let mean = mean_normalised_error_squared(setup, cells);
+        println!("{setup:?}: normalised error squared {mean:.3} over {cells} cells");
         assert!((0.8..1.25).contains(&mean), "{setup:?}: {mean:.3}");
     }
+}
+
+#[test]
+fn errors_are_as_large_as_the_stated_covariance() {
+    assert_consistent(60);
+}
+
+#[test]
+#[ignore = "a minute"]
+fn errors_are_as_large_as_the_stated_covariance_in_many_cells() {
+    assert_consistent(200);
 }

@@ -91,6 +91,8 @@ pub struct Cell {
     pub noise: CellNoise,
     /// The 3D camera, where there is one.
     pub depth: Option<DepthSensor>,
+    /// Pixels of a scan per pixel of a picture, along each side.
+    pub scan_scale: f64,
     /// What lens and sensor do to pictures.
     pub optics: Optics,
     /// Robot poses with a picture.
@@ -174,6 +176,7 @@ impl Cell {
             viewing: usual_viewing(setup),
             noise: CellNoise::default(),
             depth: None,
+            scan_scale: 1.0,
             optics: Optics::default(),
             captures: 15,
             placements: if setup == Setup::EyeToHand { 3 } else { 0 },
@@ -209,6 +212,15 @@ impl Cell {
     pub fn session(&self, seed: u64) -> Result<(Session, Truth), Error> {
         let recording = self.record(seed)?;
         Ok((recording.session(), recording.truth))
+    }
+
+    /// Intrinsics of the scans.
+    pub fn scan_intrinsics(&self) -> Intrinsics {
+        if self.scan_scale == 1.0 {
+            self.intrinsics
+        } else {
+            self.intrinsics.resized(self.scan_scale)
+        }
     }
 
     /// Where the target is seen in captures and placements.
@@ -369,10 +381,11 @@ impl Recording<'_> {
         self.scene(k).picture(&self.cell.optics, random(self.seed, PICTURES, k).bits())
     }
 
-    /// Renders scan `k`, one point a pixel; `None` without a 3D camera.
+    /// Renders scan `k`, pixel-aligned with the picture; `None` without a 3D camera.
     pub fn scan(&self, k: usize) -> Option<Scan> {
         let sensor = self.cell.depth?;
-        Some(self.scene(k).scan(&sensor, random(self.seed, SCANS, k).bits()))
+        let scene = Scene { intrinsics: self.cell.scan_intrinsics(), ..self.scene(k) };
+        Some(scene.scan(&sensor, random(self.seed, SCANS, k).bits()))
     }
 
     /// Corners of picture `k`, projected, with their noise.
