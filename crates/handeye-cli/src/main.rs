@@ -2,6 +2,7 @@
 
 mod args;
 mod calibrate;
+mod demo;
 mod failure;
 mod output;
 mod progress;
@@ -32,6 +33,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Calibrate(args) => calibrate::run(args, &program.manners),
         Command::Solve(args) => solve::run(args, &program.manners),
         Command::Simulate(args) => simulate::run(args, &program.manners),
+        Command::Demo(args) => demo::run(args, &program.manners),
         Command::Completions { shell } => {
             output::completions(*shell);
             Ok(0)

@@ -218,20 +218,30 @@ fn corners(all: &[ImageCorner]) -> String {
 // ---------------------------------------------------------------- pictures
 
 fn picture(image: &GrayImage) -> Vec<u8> {
-    png_of(&image.to_u8(), (image.width(), image.height()), ExtendedColorType::L8)
+    png_of(
+        &image.to_u8(),
+        (image.width(), image.height()),
+        ExtendedColorType::L8,
+        png::FilterType::NoFilter,
+    )
 }
 
 fn depth(scan: &Scan) -> Vec<u8> {
     let unit = |p: &[f32; 3]| (f64::from(p[2]) / DEPTH_SCALE).round().clamp(0.0, 65535.0) as u16;
     // NaN becomes 0: nothing seen
     let bytes: Vec<u8> = scan.points().iter().flat_map(|p| unit(p).to_ne_bytes()).collect();
-    png_of(&bytes, (scan.width(), scan.height()), ExtendedColorType::L16)
+    png_of(&bytes, (scan.width(), scan.height()), ExtendedColorType::L16, png::FilterType::Adaptive)
 }
 
-fn png_of(bytes: &[u8], (width, height): (usize, usize), colour: ExtendedColorType) -> Vec<u8> {
+/// Noise on flat fields is packed best unfiltered, slopes of depth as differences.
+fn png_of(
+    bytes: &[u8],
+    (width, height): (usize, usize),
+    colour: ExtendedColorType,
+    filter: png::FilterType,
+) -> Vec<u8> {
     let mut out = Cursor::new(Vec::new());
-    let (best, filter) = (png::CompressionType::Best, png::FilterType::Adaptive);
-    let encoder = png::PngEncoder::new_with_quality(&mut out, best, filter);
+    let encoder = png::PngEncoder::new_with_quality(&mut out, png::CompressionType::Best, filter);
     let written = encoder.write_image(bytes, width as u32, height as u32, colour);
     written.expect("a picture of the size of its bytes, into memory");
     out.into_inner()
