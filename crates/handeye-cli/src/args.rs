@@ -49,6 +49,10 @@ pub enum Command {
     Repeat(RepeatArgs),
     /// Find the target's corners in pictures.
     Detect(DetectArgs),
+    /// Write a simulated dataset whose truth is known.
+    Simulate(Box<crate::simulate::SimulateArgs>),
+    /// Calibrate a small dataset inside the program, and show the report's place.
+    Demo(crate::demo::DemoArgs),
     /// Write completions for a shell.
     #[command(
         after_help = "Example:\n  handeye completions bash > ~/.local/share/bash-completion/completions/handeye"

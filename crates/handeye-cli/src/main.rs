@@ -2,6 +2,7 @@
 
 mod args;
 mod calibrate;
+mod demo;
 mod detect;
 mod export;
 mod failure;
@@ -10,6 +11,7 @@ mod output;
 mod progress;
 mod repeat;
 mod report;
+mod simulate;
 mod solve;
 mod target;
 
@@ -41,6 +43,8 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Target(args) => target::run(args, &program.manners),
         Command::Repeat(args) => repeat::run(args, &program.manners),
         Command::Detect(args) => detect::run(args, &program.manners),
+        Command::Simulate(args) => simulate::run(args, &program.manners),
+        Command::Demo(args) => demo::run(args, &program.manners),
         Command::Completions { shell } => {
             output::completions(*shell);
             Ok(0)

@@ -18,6 +18,7 @@ mod npy;
 pub mod report;
 pub mod robot;
 mod scan;
+pub mod simulated;
 mod table;
 mod target_file;
 mod tree;

@@ -15,6 +15,7 @@ use super::labelling::{Chess, FindGrids, Grid};
 use super::markers::{self, Dictionary, bilinear};
 use super::pyramid::{Scaled, smoothed, stretched};
 use super::subpixel::{self, Erf, FittedCorner, RoughCorner};
+use super::tag;
 use crate::{GrayImage, ImageCorner, TargetModel};
 
 /// Why no target was found.
@@ -66,6 +67,22 @@ pub enum NotFound {
         /// The declared dictionary.
         dictionary: String,
     },
+    /// No dark square with the tag's bits in it.
+    #[error("no tag {id} of {dictionary}: check dictionary and id; it needs white around it")]
+    NoTag {
+        /// The declared dictionary.
+        dictionary: String,
+        /// The declared tag.
+        id: u32,
+    },
+    /// The tag was read, but one of its edges is no straight line.
+    #[error("tag {id} of {dictionary} is there, but its edges are too blurred or covered")]
+    BlurredTag {
+        /// The declared dictionary.
+        dictionary: String,
+        /// The declared tag.
+        id: u32,
+    },
     /// A dictionary that does not exist.
     #[error("unknown marker dictionary {0}")]
     UnknownDictionary(String),
@@ -86,6 +103,9 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     let (width, height) = (image.width(), image.height());
     if width.min(height) < SMALLEST_IMAGE {
         return Err(NotFound::SmallImage { width, height });
+    }
+    if let TargetModel::Tag { dictionary, id, .. } = target {
+        return tag::detect(image, dictionary, *id);
     }
     let family = Family::of(target)?;
     let mut best = Err(NotFound::NoCorners);
@@ -221,8 +241,10 @@ impl Family {
                     ),
                 }))
             }
-            TargetModel::Tag { .. } => Err(NotFound::Unsupported("a single tag")),
-            TargetModel::CircleGrid { .. } => Err(NotFound::Unsupported("a grid of circles")),
+            // a tag has no grid: it was looked for before
+            TargetModel::Tag { .. } | TargetModel::CircleGrid { .. } => {
+                Err(NotFound::Unsupported("a grid of circles"))
+            }
         }
     }
 

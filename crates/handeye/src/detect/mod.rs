@@ -12,6 +12,7 @@ pub mod planar_pose;
 mod pyramid;
 pub mod subpixel;
 pub mod surface;
+pub mod tag;
 
 pub use board::{NotFound, detect};
 pub use planar_pose::{PosedTarget, relabelled, symmetry_turn, target_poses, with_symmetries};

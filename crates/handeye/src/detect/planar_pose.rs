@@ -118,8 +118,10 @@ pub fn symmetry_turn(target: &TargetModel, map: &[u32]) -> Pose<Target, Target> 
     let at = |id: usize| target.corner(map[id]).map_or(Vector3::zeros(), |p| p.vector());
     let here = target.corners();
     let columns = target.grid().0 as usize;
-    // the directions of the first row and column fix the turn
-    let (x, y) = ((at(1) - at(0)).normalize(), (at(columns) - at(0)).normalize());
+    // the directions of the first row and column fix the turn; a tag's third corner lies across
+    let x = (at(1) - at(0)).normalize();
+    let down = at(columns) - at(0);
+    let y = (down - x * x.dot(&down)).normalize();
     let there = Matrix3::from_columns(&[x, y, x.cross(&y)]);
     let rotation = there.transpose();
     Pose::from_parts(&rotation, here[0].vector() - rotation * at(0))
@@ -485,6 +487,16 @@ fn bisect(mut low: f64, mut high: f64, is_low: impl Fn(f64) -> bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_target_without_symmetry_keeps_its_poses() {
+        let tag = TargetModel::Tag { dictionary: "DICT_4X4_50".into(), id: 0, size_mm: 48.0 };
+        let board = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
+        for target in [tag, board] {
+            let same = turn(&target, &target.symmetries()[0]);
+            assert!(same.local(&Pose::identity()).norm() < 1e-12, "{target:?}");
+        }
+    }
     use crate::simulate::Random;
     use crate::{Camera, Distortion};
 

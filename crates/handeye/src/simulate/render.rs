@@ -23,7 +23,7 @@ pub struct Scene {
 }
 
 /// What lens and sensor do to a picture.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Optics {
     /// Standard deviation of the Gaussian point spread, px.
     pub blur_px: f64,
@@ -56,7 +56,7 @@ impl Default for Optics {
 }
 
 /// How a 3D camera measures depth.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DepthSensor {
     /// Standard deviation of a depth at 1 m, in metres; it grows with the square of the distance.
     pub sigma_at_1m: f64,

@@ -1,0 +1,275 @@
+//! `handeye simulate`: a dataset whose truth is known.
+
+use std::{fs, path::PathBuf};
+
+use clap::{Args, ValueEnum};
+use handeye::{
+    Intrinsics, Setup, TargetModel,
+    simulate::{Cell, CellNoise, DepthSensor, Optics, Viewing},
+};
+use handeye_io::simulated;
+use serde_json::json;
+
+use crate::{args::Manners, failure::Failure, output};
+
+/// Arguments of `simulate`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye simulate cell && handeye calibrate cell\n  handeye simulate cell --setup eye-to-hand --captures 20 --scans --seed 7\n  handeye simulate cell --charuco 12x9 --square-mm 25 --marker-mm 18 --width 1280 --height 960\n\nThe same options and seed give the same bytes. truth.json holds the answer."
+)]
+pub struct SimulateArgs {
+    /// Folder for the dataset; it is made if need be.
+    pub out: PathBuf,
+    /// Decides on everything random.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Who carries the camera.
+    #[arg(long, value_enum, default_value = "eye-in-hand")]
+    pub setup: SetupArg,
+    /// Robot poses with a picture.
+    #[arg(long, default_value_t = 15)]
+    pub captures: usize,
+    /// Boards laid down to be touched (eye-to-hand) [default: 3].
+    #[arg(long)]
+    pub placements: Option<usize>,
+    /// Corners touched on each of them (4), or on the one fixed board (12); 0 for none.
+    #[arg(long)]
+    pub touches: Option<usize>,
+    /// Picture width, px.
+    #[arg(long, default_value_t = 1920)]
+    pub width: u32,
+    /// Picture height, px.
+    #[arg(long, default_value_t = 1200)]
+    pub height: u32,
+    /// Focal length, px [default: 0.94 picture widths].
+    #[arg(long)]
+    pub focal_px: Option<f64>,
+    /// Checkerboard, numbers of inner corners: 9x6.
+    #[arg(long, value_name = "CxR", conflicts_with_all = ["charuco", "tag"])]
+    pub checkerboard: Option<String>,
+    /// ChArUco board, numbers of squares: 12x9.
+    #[arg(long, value_name = "CxR", conflicts_with = "tag")]
+    pub charuco: Option<String>,
+    /// One tag of this id.
+    #[arg(long, value_name = "ID")]
+    pub tag: Option<u32>,
+    /// Side of a square; of a tag with --tag.
+    #[arg(long, default_value_t = 30.0)]
+    pub square_mm: f64,
+    /// Side of a marker on a ChArUco board [default: 0.75 squares].
+    #[arg(long)]
+    pub marker_mm: Option<f64>,
+    /// Markers of a ChArUco board, or of a tag.
+    #[arg(long, default_value = "DICT_6X6_250")]
+    pub dictionary: String,
+    /// Largest tilt of the target against the camera.
+    #[arg(long, default_value_t = 35.0)]
+    pub tilt_deg: f64,
+    /// Largest turn of the camera about its axis, either way.
+    #[arg(long, default_value_t = 90.0)]
+    pub spin_deg: f64,
+    /// Distance of robot and its reading in every pose (3-D RMS).
+    #[arg(long, default_value_t = 0.5)]
+    pub robot_mm: f64,
+    /// The same for rotations, about each axis.
+    #[arg(long, default_value_t = 0.03)]
+    pub robot_deg: f64,
+    /// Repeatability of the robot (3-D RMS).
+    #[arg(long, default_value_t = 0.05)]
+    pub repeatability_mm: f64,
+    /// Error of every touch (3-D RMS).
+    #[arg(long, default_value_t = 0.3)]
+    pub touch_mm: f64,
+    /// Distance between the tool's tip and where the robot believes it.
+    #[arg(long, default_value_t = 0.0)]
+    pub tip_mm: f64,
+    /// Noise of corners, with --no-images.
+    #[arg(long, default_value_t = 0.1)]
+    pub corner_px: f64,
+    /// Noise of pictures, of 255 grey values.
+    #[arg(long, default_value_t = 2.0)]
+    pub image_noise: f64,
+    /// Noise of a depth at 1 m; it grows with the square of the distance.
+    #[arg(long, default_value_t = 0.3)]
+    pub depth_mm: f64,
+    /// No noise at all, of nothing.
+    #[arg(long)]
+    pub exact: bool,
+    /// Write depth images as well.
+    #[arg(long, conflicts_with = "no_images")]
+    pub scans: bool,
+    /// Pixels of a scan per pixel of a picture: 1, 0.5, ...
+    #[arg(long, default_value_t = 1.0)]
+    pub scan_scale: f64,
+    /// Lists of corners instead of pictures.
+    #[arg(long)]
+    pub no_images: bool,
+    /// Write into a folder that holds other files.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Who carries the camera.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum SetupArg {
+    /// The robot.
+    EyeInHand,
+    /// The cell.
+    EyeToHand,
+}
+
+/// Most captures, placements or touches: more are mistakes.
+const MOST: usize = 999;
+/// Largest side of a picture, px.
+const LARGEST_PX: u32 = 10_000;
+
+pub fn run(args: &SimulateArgs, manners: &Manners) -> Result<u8, Failure> {
+    let cell = cell(args)?;
+    let recording = cell.record(args.seed).map_err(|e| Failure::Usage(e.to_string()))?;
+    if !args.force && !simulated::clear(&args.out)? && !is_empty(&args.out) {
+        let what = "is not empty, and not the output of an earlier simulation: name another \
+                    folder, or say --force";
+        return Err(Failure::input(args.out.display(), what));
+    }
+    let names = simulated::write(&recording, &args.out, !args.no_images)?;
+    if manners.json {
+        output::json(&json!({"folder": args.out, "files": names}));
+    } else if !manners.quiet {
+        let folder = args.out.display();
+        output::print(&format!("{} files in {folder}; the truth is in truth.json\n", names.len()));
+    }
+    Ok(0)
+}
+
+fn is_empty(folder: &std::path::Path) -> bool {
+    fs::read_dir(folder).map_or(!folder.exists(), |mut entries| entries.next().is_none())
+}
+
+fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
+    let setup = match args.setup {
+        SetupArg::EyeInHand => Setup::EyeInHand,
+        SetupArg::EyeToHand => Setup::EyeToHand,
+    };
+    let usual = Cell::new(setup, args.seed);
+    let placements = args.placements.unwrap_or(usual.placements);
+    let touches = args.touches.unwrap_or(usual.touches);
+    check(args, placements, touches)?;
+    let placements = if setup == Setup::EyeInHand || touches == 0 { 0 } else { placements };
+    let depth = DepthSensor {
+        sigma_at_1m: zero_if(args.exact, args.depth_mm) * 1e-3,
+        ..DepthSensor::default()
+    };
+    Ok(Cell {
+        target: target(args)?,
+        intrinsics: intrinsics(args),
+        viewing: Viewing {
+            tilt_rad: args.tilt_deg.to_radians(),
+            spin_rad: args.spin_deg.to_radians(),
+            ..usual.viewing
+        },
+        noise: noise(args),
+        depth: args.scans.then_some(depth),
+        scan_scale: args.scan_scale,
+        optics: Optics { noise: zero_if(args.exact, args.image_noise), ..usual.optics },
+        captures: args.captures,
+        placements,
+        touches,
+        ..usual
+    })
+}
+
+fn check(args: &SimulateArgs, placements: usize, touches: usize) -> Result<(), Failure> {
+    let usage = |what: String| Err(Failure::Usage(what));
+    for (name, count) in
+        [("captures", args.captures), ("placements", placements), ("touches", touches)]
+    {
+        if count > MOST {
+            return usage(format!("--{name} {count}: at most {MOST}"));
+        }
+    }
+    if args.captures == 0 {
+        return usage("--captures 0: nothing to record".into());
+    }
+    if !(1..=LARGEST_PX).contains(&args.width) || !(1..=LARGEST_PX).contains(&args.height) {
+        return usage(format!("pictures have 1 to {LARGEST_PX} pixels a side"));
+    }
+    if !(0.05..=1.0).contains(&args.scan_scale) {
+        return usage("--scan-scale is between 0.05 and 1".into());
+    }
+    if !(0.0..=80.0).contains(&args.tilt_deg) || !(0.0..=180.0).contains(&args.spin_deg) {
+        return usage("--tilt-deg is between 0 and 80, --spin-deg between 0 and 180".into());
+    }
+    let noise = [
+        ("robot-mm", args.robot_mm),
+        ("robot-deg", args.robot_deg),
+        ("repeatability-mm", args.repeatability_mm),
+        ("touch-mm", args.touch_mm),
+        ("tip-mm", args.tip_mm),
+        ("corner-px", args.corner_px),
+        ("image-noise", args.image_noise),
+        ("depth-mm", args.depth_mm),
+    ];
+    match noise.iter().find(|(_, v)| !(v.is_finite() && *v >= 0.0)) {
+        Some((name, value)) => usage(format!("--{name} {value}: must not be negative")),
+        None => Ok(()),
+    }
+}
+
+fn zero_if(exact: bool, value: f64) -> f64 {
+    if exact { 0.0 } else { value }
+}
+
+fn noise(args: &SimulateArgs) -> CellNoise {
+    if args.exact {
+        return CellNoise::NONE;
+    }
+    CellNoise {
+        robot_repeatability_m: args.repeatability_mm * 1e-3,
+        robot_repeatability_rad: 0.0,
+        robot_absolute_m: args.robot_mm * 1e-3,
+        robot_absolute_rad: args.robot_deg.to_radians(),
+        corner_px: args.corner_px,
+        touch_m: args.touch_mm * 1e-3,
+        tip_m: args.tip_mm * 1e-3,
+    }
+}
+
+fn intrinsics(args: &SimulateArgs) -> Intrinsics {
+    let (width, height) = (f64::from(args.width), f64::from(args.height));
+    let f = args.focal_px.unwrap_or(0.9375 * width);
+    Intrinsics::pinhole(args.width, args.height, f, f, 0.5 * (width - 1.0), 0.5 * (height - 1.0))
+}
+
+fn target(args: &SimulateArgs) -> Result<TargetModel, Failure> {
+    let dictionary = args.dictionary.clone();
+    let square_mm = args.square_mm;
+    let target = if let Some(id) = args.tag {
+        TargetModel::Tag { dictionary, id, size_mm: square_mm }
+    } else if let Some(size) = &args.charuco {
+        let (squares_x, squares_y) = size_of(size)?;
+        let marker_mm = args.marker_mm.unwrap_or(0.75 * square_mm);
+        TargetModel::Charuco {
+            squares_x,
+            squares_y,
+            square_mm,
+            marker_mm,
+            dictionary,
+            legacy: false,
+        }
+    } else {
+        let (columns, rows) = size_of(args.checkerboard.as_deref().unwrap_or("9x6"))?;
+        TargetModel::Checkerboard { columns, rows, square_mm }
+    };
+    target.check().map_err(|e| Failure::Usage(e.to_string()))?;
+    let known = handeye::detect::markers::Dictionary::named(&args.dictionary).is_some();
+    if known {
+        Ok(target)
+    } else {
+        Err(Failure::Usage(format!("no dictionary {}", args.dictionary)))
+    }
+}
+
+fn size_of(text: &str) -> Result<(u32, u32), Failure> {
+    let size = text.split_once('x').and_then(|(c, r)| Some((c.parse().ok()?, r.parse().ok()?)));
+    size.ok_or_else(|| Failure::Usage(format!("{text:?} is no size like 9x6")))
+}

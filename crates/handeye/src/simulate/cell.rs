@@ -1,0 +1,563 @@
+//! A robot, a camera and a target whose places are known exactly, and what is measured there.
+//!
+//! The camera sees the target from a part of a hemisphere; each view `B⁻¹ = camera_from_target`
+//! asks for the robot pose `A = Y B X⁻¹`. The robot is really there up to its error: it reports
+//! `base_from_flange · exp(δ)`. Positions err by so many metres in three dimensions (root mean
+//! square), rotations by so many radians about each axis.
+
+use nalgebra::{Matrix2, Matrix3, Rotation3, Vector2, Vector3};
+
+use crate::{
+    Anchor, Base, Camera, Error, Flange, GrayImage, HandEye, ImageCorner, Intrinsics, Mount,
+    Observation, Placement, Point, Pose, Scan, Session, Setup, SurfaceCorner, Target, TargetModel,
+    Touch, detect, lie,
+    simulate::{DepthSensor, Optics, Random, Scene},
+};
+
+/// How wrong everything is that measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellNoise {
+    /// How well the robot returns to a place: position (m, 3-D root mean square).
+    pub robot_repeatability_m: f64,
+    /// The same: rotation (rad, about each axis).
+    pub robot_repeatability_rad: f64,
+    /// How far the robot is from where it says, another way in every pose: position (m, 3-D RMS).
+    pub robot_absolute_m: f64,
+    /// The same: rotation (rad, about each axis).
+    pub robot_absolute_rad: f64,
+    /// Corners in the picture (px, each axis), where they are not detected in rendered pictures.
+    pub corner_px: f64,
+    /// How well the tip is led onto a corner (m, 3-D RMS).
+    pub touch_m: f64,
+    /// Distance (m) between the tool's tip and where the robot believes it; one direction.
+    pub tip_m: f64,
+}
+
+impl CellNoise {
+    /// None at all.
+    pub const NONE: Self = Self {
+        robot_repeatability_m: 0.0,
+        robot_repeatability_rad: 0.0,
+        robot_absolute_m: 0.0,
+        robot_absolute_rad: 0.0,
+        corner_px: 0.0,
+        touch_m: 0.0,
+        tip_m: 0.0,
+    };
+}
+
+impl Default for CellNoise {
+    /// A usual industrial arm with a carefully led tip.
+    fn default() -> Self {
+        Self {
+            robot_repeatability_m: 0.05e-3,
+            robot_repeatability_rad: 0.0,
+            robot_absolute_m: 0.5e-3,
+            robot_absolute_rad: 0.03f64.to_radians(),
+            corner_px: 0.1,
+            touch_m: 0.3e-3,
+            tip_m: 0.0,
+        }
+    }
+}
+
+/// From where the camera sees the target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Viewing {
+    /// Least distance of the target's centre along the optical axis, m.
+    pub nearest_m: f64,
+    /// Largest one, m.
+    pub farthest_m: f64,
+    /// Largest angle between the optical axis and the target's normal, rad.
+    pub tilt_rad: f64,
+    /// Largest turn about the optical axis either way, rad.
+    pub spin_rad: f64,
+}
+
+/// A cell; equal cells and seeds give equal measurements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Who carries the camera.
+    pub setup: Setup,
+    /// What it looks at.
+    pub target: TargetModel,
+    /// The camera.
+    pub intrinsics: Intrinsics,
+    /// Where camera and target really sit.
+    pub hand_eye: HandEye,
+    /// From where the captures are taken.
+    pub viewing: Viewing,
+    /// How wrong everything is.
+    pub noise: CellNoise,
+    /// The 3D camera, where there is one.
+    pub depth: Option<DepthSensor>,
+    /// Pixels of a scan per pixel of a picture, along each side.
+    pub scan_scale: f64,
+    /// What lens and sensor do to pictures.
+    pub optics: Optics,
+    /// Robot poses with a picture.
+    pub captures: usize,
+    /// Boards laid into the cell to be touched (eye-to-hand).
+    pub placements: usize,
+    /// Corners touched on each placement, or on the one fixed board (eye-in-hand).
+    pub touches: usize,
+    /// Where the tool's tip really is.
+    pub tip_in_flange: Point<Flange>,
+    /// Decides on the views and on what is touched.
+    pub seed: u64,
+}
+
+/// What nobody in a real cell knows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    /// Where camera and target sit.
+    pub hand_eye: HandEye,
+    /// Where the target is in every picture: captures first, then placements.
+    pub camera_from_target: Vec<Pose<Camera, Target>>,
+    /// Where the flange is in every capture.
+    pub base_from_flange: Vec<Pose<Base, Flange>>,
+    /// Tip minus where the robot believes it, in the flange (m).
+    pub tip_error: Vector3<f64>,
+}
+
+/// What the robot says in a cell, and the truth behind it. Pictures and scans are made when asked
+/// for, one at a time.
+#[derive(Debug, Clone)]
+pub struct Recording<'a> {
+    /// The cell.
+    pub cell: &'a Cell,
+    /// Where the robot says it is, in every capture.
+    pub base_from_flange: Vec<Pose<Base, Flange>>,
+    /// The touches.
+    pub touches: Vec<Touch>,
+    /// The truth.
+    pub truth: Truth,
+    seed: u64,
+}
+
+/// Views are drawn until the board is in the picture, this many times at most.
+const MOST_DRAWS: usize = 20_000;
+/// The board must be in the picture with this many pitches more on every side.
+const MARGIN_PITCHES: f64 = 0.6;
+/// A board that lies in the cell is tilted against the camera by no more than this, rad.
+const LYING_TILT_RAD: f64 = 0.3;
+/// The tool is tilted against the board's normal by no more than this when it touches, rad.
+const TOOL_TILT_RAD: f64 = 0.3;
+/// Corners are never stated more precisely than this, px.
+const LEAST_CORNER_PX: f64 = 1e-3;
+/// 3D corners likewise, m.
+const LEAST_DEPTH_M: f64 = 1e-6;
+
+// each kind of noise has random numbers of its own: more captures leave the touches as they are
+const VIEWS: u64 = 1;
+const LYING: u64 = 2;
+const TOOL: u64 = 3;
+const ROBOT: u64 = 4;
+const PROBE: u64 = 5;
+const CORNERS: u64 = 6;
+const PICTURES: u64 = 7;
+const SCANS: u64 = 8;
+
+fn random(seed: u64, kind: u64, k: usize) -> Random {
+    Random::new(Random::new(seed ^ (kind << 56) ^ (k as u64 + 1).rotate_left(32)).bits())
+}
+
+impl Cell {
+    /// A usual cell: 1920 x 1200 pixels, f = 1800 px, a board of 9 x 6 corners 30 mm apart,
+    /// 15 captures, 12 touches. The seed also moves camera and target a little.
+    pub fn new(setup: Setup, seed: u64) -> Self {
+        let mut random = Random::new(seed);
+        let centre_m = Vector3::new(0.12, 0.075, 0.0);
+        Self {
+            setup,
+            target: TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 },
+            intrinsics: Intrinsics::pinhole(1920, 1200, 1800.0, 1800.0, 959.5, 599.5),
+            hand_eye: usual_places(setup, &centre_m, &mut random),
+            viewing: usual_viewing(setup),
+            noise: CellNoise::default(),
+            depth: None,
+            scan_scale: 1.0,
+            optics: Optics::default(),
+            captures: 15,
+            placements: if setup == Setup::EyeToHand { 3 } else { 0 },
+            touches: if setup == Setup::EyeToHand { 4 } else { 12 },
+            tip_in_flange: Point::new(0.004, -0.007, 0.182),
+            seed,
+        }
+    }
+
+    /// Sends the robot to all captures and touches; errors come from `seed`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when the board does not fit into the picture, or is no board.
+    pub fn record(&self, seed: u64) -> Result<Recording<'_>, Error> {
+        self.target.check()?;
+        self.intrinsics.check()?;
+        let camera_from_target = self.views()?;
+        let base_from_flange: Vec<Pose<Base, Flange>> =
+            camera_from_target[..self.captures].iter().map(|v| self.robot_at(v)).collect();
+        let mut robot = random(seed, ROBOT, 0);
+        let reported = base_from_flange.iter().map(|p| self.reported(*p, &mut robot)).collect();
+        let tip_error = direction(&mut random(self.seed, TOOL, 0)) * self.noise.tip_m;
+        let hand_eye = self.hand_eye;
+        let truth = Truth { hand_eye, camera_from_target, base_from_flange, tip_error };
+        let touches = self.touch_all(&truth, seed);
+        Ok(Recording { cell: self, base_from_flange: reported, touches, truth, seed })
+    }
+
+    /// A session with corners that are projected, not detected in pictures: quick.
+    ///
+    /// # Errors
+    /// As [`Cell::record`].
+    pub fn session(&self, seed: u64) -> Result<(Session, Truth), Error> {
+        let recording = self.record(seed)?;
+        Ok((recording.session(), recording.truth))
+    }
+
+    /// Intrinsics of the scans.
+    pub fn scan_intrinsics(&self) -> Intrinsics {
+        if self.scan_scale == 1.0 {
+            self.intrinsics
+        } else {
+            self.intrinsics.resized(self.scan_scale)
+        }
+    }
+
+    /// Where the target is seen in captures and placements.
+    fn views(&self) -> Result<Vec<Pose<Camera, Target>>, Error> {
+        let lying = Viewing { tilt_rad: LYING_TILT_RAD.min(self.viewing.tilt_rad), ..self.viewing };
+        let view = |k: usize| self.view(&self.viewing, &mut random(self.seed, VIEWS, k));
+        let placed = |k: usize| self.view(&lying, &mut random(self.seed, LYING, k));
+        (0..self.captures).map(view).chain((0..self.placements).map(placed)).collect()
+    }
+
+    fn view(&self, viewing: &Viewing, random: &mut Random) -> Result<Pose<Camera, Target>, Error> {
+        let outline = self.outline();
+        for _ in 0..MOST_DRAWS {
+            let view = self.draw_view(viewing, random);
+            if view.is_some_and(|v| self.shows(&v, &outline)) {
+                return view.ok_or_else(|| self.no_view(viewing));
+            }
+        }
+        Err(self.no_view(viewing))
+    }
+
+    fn no_view(&self, v: &Viewing) -> Error {
+        Error::Invalid(format!(
+            "the board does not fit into pictures of {} x {} pixels from {} to {} m: move the \
+             camera away, or take a smaller board",
+            self.intrinsics.width, self.intrinsics.height, v.nearest_m, v.farthest_m
+        ))
+    }
+
+    /// The target's centre on a random pixel, its normal tilted in a random direction.
+    fn draw_view(&self, v: &Viewing, random: &mut Random) -> Option<Pose<Camera, Target>> {
+        let pixel = Vector2::new(
+            random.between(0.0, f64::from(self.intrinsics.width)),
+            random.between(0.0, f64::from(self.intrinsics.height)),
+        );
+        let depth_m = random.between(v.nearest_m, v.farthest_m);
+        let tilt = v.tilt_rad * random.unit().sqrt();
+        let towards = random.between(-std::f64::consts::PI, std::f64::consts::PI);
+        let spin = random.between(-v.spin_rad, v.spin_rad);
+        let (sine, cosine) = towards.sin_cos();
+        let rotation = Rotation3::new(Vector3::new(cosine, sine, 0.0) * tilt)
+            * Rotation3::new(Vector3::z() * spin);
+        let centre_in_camera = self.intrinsics.ray(&pixel)? * depth_m;
+        let translation = centre_in_camera - rotation * self.centre();
+        Some(Pose::from_parts(rotation.matrix(), translation))
+    }
+
+    fn centre(&self) -> Vector3<f64> {
+        let corners = self.target.corners();
+        corners.iter().map(Point::vector).sum::<Vector3<f64>>() / corners.len() as f64
+    }
+
+    /// Four points around the corners, in the target.
+    fn outline(&self) -> [Vector3<f64>; 4] {
+        let margin = MARGIN_PITCHES * self.target.pitch_m();
+        let (mut low, mut high) = (self.centre(), self.centre());
+        for corner in self.target.corners() {
+            (low, high) = (low.inf(&corner.vector()), high.sup(&corner.vector()));
+        }
+        let (low, high) = (low.add_scalar(-margin), high.add_scalar(margin));
+        [(low.x, low.y), (high.x, low.y), (high.x, high.y), (low.x, high.y)]
+            .map(|(x, y)| Vector3::new(x, y, 0.0))
+    }
+
+    fn shows(&self, view: &Pose<Camera, Target>, outline: &[Vector3<f64>; 4]) -> bool {
+        let (width, height) = (f64::from(self.intrinsics.width), f64::from(self.intrinsics.height));
+        outline.iter().all(|p| {
+            let pixel = self.intrinsics.project(&(*view * Point::from_vector(*p)).vector());
+            pixel.is_some_and(|p| p.x > 0.0 && p.y > 0.0 && p.x < width && p.y < height)
+        })
+    }
+
+    /// `A = Y B X⁻¹`: where the robot is when the camera sees the target so.
+    fn robot_at(&self, camera_from_target: &Pose<Camera, Target>) -> Pose<Base, Flange> {
+        let HandEye { mount_from_camera, anchor_from_target } = self.hand_eye;
+        let anchor_from_mount: Pose<Anchor, Mount> =
+            anchor_from_target * camera_from_target.inverse() * mount_from_camera.inverse();
+        // the setups' map is its own inverse
+        self.setup.anchor_from_mount(anchor_from_mount.rename()).rename()
+    }
+
+    /// What the robot says when it is there.
+    fn reported(&self, p: Pose<Base, Flange>, random: &mut Random) -> Pose<Base, Flange> {
+        let n = &self.noise;
+        let rotation = n.robot_absolute_rad.hypot(n.robot_repeatability_rad);
+        let position = n.robot_absolute_m.hypot(n.robot_repeatability_m) / 3f64.sqrt();
+        let (turn, shift) = (random.normal3() * rotation, random.normal3() * position);
+        p.retract(&lie::tangent(&turn, &shift))
+    }
+
+    /// Every touch of every board: its name, where it lies, and the corner.
+    fn touch_all(&self, truth: &Truth, seed: u64) -> Vec<Touch> {
+        let corners = spread_corners(&self.target, self.touches);
+        let boards = self.touchable(truth);
+        let all = boards.iter().flat_map(|b| corners.iter().map(move |&corner| (b, corner)));
+        all.enumerate()
+            .map(|(k, ((name, base_from_target), corner))| {
+                self.touch(name, base_from_target, corner, truth, (seed, k))
+            })
+            .collect()
+    }
+
+    fn touchable(&self, truth: &Truth) -> Vec<(String, Pose<Base, Target>)> {
+        let HandEye { mount_from_camera, anchor_from_target } = self.hand_eye;
+        match self.setup {
+            Setup::EyeInHand => vec![("board".into(), anchor_from_target.rename())],
+            Setup::EyeToHand => {
+                let placed = &truth.camera_from_target[self.captures..];
+                let base_from_camera: Pose<Base, Camera> = mount_from_camera.rename();
+                let lie = |(k, v): (usize, &Pose<Camera, Target>)| {
+                    (placement_name(k), base_from_camera * *v)
+                };
+                placed.iter().enumerate().map(lie).collect()
+            }
+        }
+    }
+
+    fn touch(
+        &self,
+        placement: &str,
+        base_from_target: &Pose<Base, Target>,
+        corner: u32,
+        truth: &Truth,
+        (seed, k): (u64, usize),
+    ) -> Touch {
+        let on_board = self.target.corner(corner).unwrap_or(Point::new(0.0, 0.0, 0.0));
+        let mut probe = random(seed, PROBE, k);
+        let missed = probe.normal3() * (self.noise.touch_m / 3f64.sqrt());
+        let tip_in_base = (*base_from_target * on_board).vector() + missed;
+        let rotation = base_from_target.rotation() * held(&mut random(self.seed, TOOL, k + 1));
+        let flange = tip_in_base - rotation * self.tip_in_flange.vector();
+        let there: Pose<Base, Flange> = Pose::from_parts(&rotation, flange);
+        let says = self.reported(there, &mut probe);
+        let believed: Point<Flange> =
+            Point::from_vector(self.tip_in_flange.vector() - truth.tip_error);
+        let placement = placement.to_owned();
+        Touch { placement, corner, in_base: says * believed, base_from_flange: Some(says) }
+    }
+}
+
+impl Recording<'_> {
+    /// Where the robot believes the tip, in the flange.
+    pub fn believed_tip(&self) -> Point<Flange> {
+        Point::from_vector(self.cell.tip_in_flange.vector() - self.truth.tip_error)
+    }
+
+    /// The scene of picture `k`: captures first, then placements.
+    pub fn scene(&self, k: usize) -> Scene {
+        Scene {
+            target: self.cell.target.clone(),
+            camera_from_target: self.truth.camera_from_target[k],
+            intrinsics: self.cell.intrinsics,
+        }
+    }
+
+    /// Renders picture `k`.
+    pub fn picture(&self, k: usize) -> GrayImage {
+        self.scene(k).picture(&self.cell.optics, random(self.seed, PICTURES, k).bits())
+    }
+
+    /// Renders scan `k`, pixel-aligned with the picture; `None` without a 3D camera.
+    pub fn scan(&self, k: usize) -> Option<Scan> {
+        let sensor = self.cell.depth?;
+        let scene = Scene { intrinsics: self.cell.scan_intrinsics(), ..self.scene(k) };
+        Some(scene.scan(&sensor, random(self.seed, SCANS, k).bits()))
+    }
+
+    /// Corners of picture `k`, projected, with their noise.
+    pub fn corners(&self, k: usize) -> Vec<ImageCorner> {
+        let mut random = random(self.seed, CORNERS, k);
+        let sigma = self.cell.noise.corner_px;
+        let stated = Matrix2::identity() * sigma.max(LEAST_CORNER_PX).powi(2);
+        let mut corner = |(id, exact): (u32, Vector2<f64>)| {
+            let pixel = exact + Vector2::new(random.normal(), random.normal()) * sigma;
+            ImageCorner { id, pixel, covariance: stated }
+        };
+        self.scene(k).corners().into_iter().map(&mut corner).collect()
+    }
+
+    /// Corners of scan `k`: the depth, with its noise, on the rays of the corners in the picture.
+    pub fn surface(&self, k: usize, corners: &[ImageCorner]) -> Vec<SurfaceCorner> {
+        let Some(sensor) = self.cell.depth else { return vec![] };
+        let mut random = random(self.seed, SCANS, k);
+        let view = self.truth.camera_from_target[k];
+        let mut felt = |c: &ImageCorner| {
+            let ray = self.cell.intrinsics.ray(&c.pixel)?;
+            let z = depth_on(&view, &ray);
+            let sigma = sensor.sigma_at_1m * z * z;
+            let in_camera = Point::from_vector(ray * (z + sigma * random.normal()));
+            let covariance = self.felt_covariance(&ray, z, sigma, c);
+            Some(SurfaceCorner { id: c.id, in_camera, covariance })
+        };
+        corners.iter().filter_map(&mut felt).collect()
+    }
+
+    fn felt_covariance(&self, ray: &Vector3<f64>, z: f64, s: f64, c: &ImageCorner) -> Matrix3<f64> {
+        let camera = &self.cell.intrinsics;
+        let sideways = Vector2::new(z / camera.fx, z / camera.fy);
+        let mut covariance = ray * ray.transpose() * s.powi(2);
+        covariance += Matrix3::identity() * LEAST_DEPTH_M.powi(2);
+        (0..2).for_each(|i| covariance[(i, i)] += sideways[i].powi(2) * c.covariance[(i, i)]);
+        covariance
+    }
+
+    /// Everything as a session, without rendering.
+    pub fn session(&self) -> Session {
+        let cell = self.cell;
+        let observations = (0..cell.captures).map(|k| self.observation(k)).collect();
+        let placements = (0..cell.placements).map(|k| self.placement(k)).collect();
+        Session {
+            setup: cell.setup,
+            target: Some(cell.target.clone()),
+            camera: Some(cell.intrinsics),
+            observations,
+            placements,
+            touches: self.touches.clone(),
+            correspondences: vec![],
+            workspace: None,
+        }
+    }
+
+    fn observation(&self, k: usize) -> Observation {
+        let corners = self.corners(k);
+        let surface = self.surface(k, &corners);
+        let candidates = self.candidates(&corners, &surface);
+        let base_from_flange = self.base_from_flange[k];
+        let capture = format!("{:03}", k + 1);
+        Observation { capture, base_from_flange, corners, surface, candidates }
+    }
+
+    fn placement(&self, k: usize) -> Placement {
+        let corners = self.corners(self.cell.captures + k);
+        let surface = self.surface(self.cell.captures + k, &corners);
+        let candidates = self.candidates(&corners, &surface);
+        Placement { id: placement_name(k), corners, surface, candidates }
+    }
+
+    fn candidates(&self, c: &[ImageCorner], s: &[SurfaceCorner]) -> Vec<crate::TargetPose> {
+        let target = &self.cell.target;
+        detect::target_poses(c, s, target, &self.cell.intrinsics)
+            .map_or(vec![], |poses| detect::with_symmetries(&poses, target))
+    }
+}
+
+/// Name of placement `k`.
+pub fn placement_name(k: usize) -> String {
+    format!("place-{}", k + 1)
+}
+
+/// Places of camera and target in a usual cell, moved a little at random.
+fn usual_places(setup: Setup, centre_m: &Vector3<f64>, random: &mut Random) -> HandEye {
+    let down = Rotation3::new(Vector3::x() * std::f64::consts::PI); // looks at the table
+    let mut near = |r: Rotation3<f64>, t: [f64; 3]| {
+        let turn = Rotation3::new(random.normal3() * 0.1);
+        (r * turn, Vector3::from(t) + random.normal3() * 0.02)
+    };
+    let ((x_r, x_t), (y_r, y_t)) = match setup {
+        Setup::EyeInHand => {
+            (near(Rotation3::identity(), [0.06, -0.03, 0.05]), near(down, [0.55, 0.05, 0.02]))
+        }
+        Setup::EyeToHand => (near(down, [0.65, 0.1, 1.35]), near(down, [0.01, 0.02, 0.06])),
+    };
+    HandEye {
+        mount_from_camera: Pose::from_parts(x_r.matrix(), x_t),
+        anchor_from_target: Pose::from_parts(y_r.matrix(), y_t - y_r * centre_m),
+    }
+}
+
+fn usual_viewing(setup: Setup) -> Viewing {
+    let (nearest_m, farthest_m) = match setup {
+        Setup::EyeInHand => (0.45, 0.75),
+        Setup::EyeToHand => (0.75, 1.05),
+    };
+    let (tilt_rad, spin_rad) = (35f64.to_radians(), 90f64.to_radians());
+    Viewing { nearest_m, farthest_m, tilt_rad, spin_rad }
+}
+
+fn direction(random: &mut Random) -> Vector3<f64> {
+    random.normal3().normalize()
+}
+
+/// How the tool is held over a board: its z into the board, tilted and turned.
+fn held(random: &mut Random) -> Matrix3<f64> {
+    let tilt = Vector3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.0);
+    let turn = random.between(-1.0, 1.0);
+    let rotation =
+        Rotation3::new(Vector3::z() * turn) * Rotation3::new(tilt * (TOOL_TILT_RAD / 2f64.sqrt()));
+    rotation.into_inner()
+}
+
+/// Depth (m) at which a ray `(x, y, 1)` meets the target's plane.
+fn depth_on(view: &Pose<Camera, Target>, ray: &Vector3<f64>) -> f64 {
+    let normal = view.rotation().column(2).into_owned();
+    normal.dot(&view.translation()) / normal.dot(ray)
+}
+
+/// Corners far from each other: each next one is the farthest from those before it, the first one
+/// corner 0.
+fn spread_corners(target: &TargetModel, count: usize) -> Vec<u32> {
+    let at: Vec<Vector3<f64>> = target.corners().iter().map(Point::vector).collect();
+    let mut chosen: Vec<usize> = Vec::new();
+    while chosen.len() < count.min(at.len()) {
+        let room =
+            |k: usize| chosen.iter().map(|&c| (at[k] - at[c]).norm()).fold(f64::INFINITY, f64::min);
+        let free = (0..at.len()).filter(|k| !chosen.contains(k));
+        let next = free.rev().max_by(|&a, &b| room(a).total_cmp(&room(b)));
+        chosen.extend(next);
+    }
+    chosen.into_iter().map(|k| k as u32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_outer_corners_are_touched_first() {
+        let board = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
+        let mut first = spread_corners(&board, 4);
+        first.sort_unstable();
+        assert_eq!(first, [0, 8, 45, 53]);
+    }
+
+    #[test]
+    fn more_captures_leave_the_first_ones_as_they_were() {
+        let cell = Cell::new(Setup::EyeToHand, 3);
+        let more = Cell { captures: 20, ..cell.clone() };
+        let (few, many) = (cell.session(5).unwrap().0, more.session(5).unwrap().0);
+        assert_eq!(few.observations, many.observations[..15]);
+        assert_eq!(few.touches, many.touches);
+    }
+
+    #[test]
+    fn a_board_too_large_for_the_picture_is_refused() {
+        let small = Intrinsics::pinhole(64, 48, 1800.0, 1800.0, 31.5, 23.5);
+        let cell = Cell { intrinsics: small, ..Cell::new(Setup::EyeInHand, 1) };
+        let message = cell.record(1).unwrap_err().to_string();
+        assert!(message.contains("does not fit into pictures of 64 x 48"), "{message}");
+    }
+}
