@@ -4,7 +4,7 @@ use crate::{
     Error, HandEye, Intrinsics, Observation, PosePair, Setup, TargetModel,
     calibration::{Diversity, Misfit},
     predict::Volume,
-    refine::{self, NoiseModel, View, noise::KnownNoise},
+    refine::{self, View, noise::KnownNoise},
     solve::{self, Method, motions},
 };
 
@@ -15,10 +15,8 @@ pub enum Estimator {
     ClosedForm(Method),
     /// Least squares over both unknowns; 1 rad of misfit costs as much as 0.1 m.
     LeastSquares,
-    /// Maximum likelihood, noise of robot and camera estimated.
-    MaximumLikelihood,
-    /// Maximum likelihood with noise that was estimated before.
-    WithNoise(NoiseModel),
+    /// Maximum likelihood, noise of robot and camera estimated where it is not known.
+    MaximumLikelihood(KnownNoise),
 }
 
 /// Weight of rotation against translation in plain least squares, m per rad.
@@ -39,11 +37,9 @@ impl Estimator {
         match self {
             Estimator::ClosedForm(method) => solve::solve(&pairs(), *method),
             Estimator::LeastSquares => Ok(refine::fit_fixed_weights(views, start, METRES_PER_RAD)),
-            Estimator::MaximumLikelihood => {
-                let known = KnownNoise::default();
-                refine::fit_estimating_noise(views, start, &known, setup).map(|f| f.hand_eye)
+            Estimator::MaximumLikelihood(known) => {
+                refine::fit_estimating_noise(views, start, known, setup).map(|f| f.hand_eye)
             }
-            Estimator::WithNoise(noise) => Ok(refine::fit(views, start, noise, setup).hand_eye),
         }
     }
 }
@@ -163,7 +159,7 @@ mod tests {
         for estimator in [
             Estimator::ClosedForm(Method::Shah),
             Estimator::LeastSquares,
-            Estimator::MaximumLikelihood,
+            Estimator::MaximumLikelihood(KnownNoise::default()),
         ] {
             let found = rms(&held_out(&estimator, &views, &truths()[0], Setup::EyeInHand));
             assert!(found.translation_rms_mm.unwrap() < 1e-6, "{estimator:?}");

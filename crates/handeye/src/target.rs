@@ -154,6 +154,12 @@ impl TargetModel {
         })
     }
 
+    /// The point at which misfits are stated: the first inner corner, or the centre of a tag.
+    pub fn reference(&self) -> Point<Target> {
+        let origin = Point::new(0.0, 0.0, 0.0);
+        if matches!(self, Self::Tag { .. }) { origin } else { self.corner(0).unwrap_or(origin) }
+    }
+
     /// All corners in the order of their ids, in metres.
     pub fn corners(&self) -> Vec<Point<Target>> {
         (0..self.len() as u32)

@@ -308,8 +308,7 @@ pub(super) fn agree<'a>(
     config: &Config,
     result: &mut Calibration,
 ) -> Option<(Views<'a>, Consensus)> {
-    let corner = session.target.as_ref().and_then(|t| t.corner(0));
-    let shift = corner.map_or(Vector3::zeros(), |c| c.vector());
+    let shift = session.target.as_ref().map_or(Vector3::zeros(), |t| t.reference().vector());
     let target_from_corner: Pose<Target, Target> =
         Pose::claim(nalgebra::Isometry3::translation(shift.x, shift.y, shift.z));
     let readings: Vec<Readings> =

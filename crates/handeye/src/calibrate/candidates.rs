@@ -89,7 +89,7 @@ fn view_candidates(
         .map(|m| (format!("closed-form-{}", m.name()), Estimator::ClosedForm(m)))
         .collect();
     all.push(("least-squares".into(), Estimator::LeastSquares));
-    all.push(("maximum-likelihood".into(), Estimator::WithNoise(fit.noise.clone())));
+    all.push(("maximum-likelihood".into(), Estimator::MaximumLikelihood(config.known)));
     if let Some(method) = config.method {
         all.retain(|(_, e)| *e == Estimator::ClosedForm(method));
     }
@@ -113,7 +113,7 @@ fn view_candidate(
 ) -> Option<Judged> {
     let setup = views.session.setup;
     let answer = match estimator {
-        Estimator::WithNoise(_) => fit.hand_eye,
+        Estimator::MaximumLikelihood(_) => fit.hand_eye,
         other => other.estimate(&views.views, &fit.hand_eye, setup).ok()?,
     };
     let x = answer.mount_from_camera;

@@ -493,7 +493,7 @@ mod tests {
         let tag = TargetModel::Tag { dictionary: "DICT_4X4_50".into(), id: 0, size_mm: 48.0 };
         let board = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
         for target in [tag, board] {
-            let same = turn(&target, &target.symmetries()[0]);
+            let same = symmetry_turn(&target, &target.symmetries()[0]);
             assert!(same.local(&Pose::identity()).norm() < 1e-12, "{target:?}");
         }
     }
