@@ -91,10 +91,11 @@ pub fn measure(
         }
         warn_missing(shot, s, &mut warnings);
     }
+    let excess = typical_excess(dataset, &seen, camera.as_ref());
     let poses: Vec<Vec<TargetPose>> = shots
         .iter()
         .zip(&seen)
-        .map(|(shot, s)| target_poses(dataset, shot, s, camera.as_ref(), &mut not_found))
+        .map(|(shot, s)| target_poses(dataset, shot, s, camera.as_ref(), excess, &mut not_found))
         .collect();
     let session = session(dataset, seen, poses, camera);
     Ok(Measured { session, camera_rms_px, not_found, warnings })
@@ -229,11 +230,28 @@ fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), 
     Ok(())
 }
 
+/// Fewest pictures that tell what is typical.
+const FEWEST_TYPICAL: usize = 4;
+
+/// What lens model and print leave in the corners of all pictures, px: the median.
+fn typical_excess(dataset: &Dataset, seen: &[Seen], camera: Option<&Intrinsics>) -> Option<f64> {
+    let (target, camera) = (dataset.target.as_ref()?, camera?);
+    let mut all: Vec<f64> = seen
+        .iter()
+        .filter(|s| !s.corners.is_empty())
+        .filter_map(|s| detect::target_poses(&s.corners, &[], target, camera).ok())
+        .filter_map(|poses| poses.first().map(|p| p.excess_px))
+        .collect();
+    all.sort_by(f64::total_cmp);
+    (all.len() >= FEWEST_TYPICAL).then(|| all[all.len() / 2])
+}
+
 fn target_poses(
     dataset: &Dataset,
     shot: &Shot,
     seen: &Seen,
     camera: Option<&Intrinsics>,
+    excess: Option<f64>,
     not_found: &mut Vec<(String, String)>,
 ) -> Vec<TargetPose> {
     if let Some(camera_from_target) = shot.pose {
@@ -243,7 +261,7 @@ fn target_poses(
     else {
         return vec![];
     };
-    match detect::target_poses(&seen.corners, &seen.surface, target, camera) {
+    match detect::target_poses_with(&seen.corners, &seen.surface, target, camera, excess) {
         Ok(poses) => detect::with_symmetries(&poses, target),
         Err(error) => {
             not_found.push((shot.id.to_owned(), error.to_string()));

@@ -15,5 +15,7 @@ pub mod surface;
 pub mod tag;
 
 pub use board::{NotFound, detect};
-pub use planar_pose::{PosedTarget, relabelled, symmetry_turn, target_poses, with_symmetries};
+pub use planar_pose::{
+    PosedTarget, relabelled, symmetry_turn, target_poses, target_poses_with, with_symmetries,
+};
 pub use surface::{Missing, lift};

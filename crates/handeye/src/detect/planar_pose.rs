@@ -49,6 +49,8 @@ const ROUNDS: usize = 4;
 const MOST_STEPS: usize = 50;
 /// A step this small (rad and m alike) ends the run.
 const STEP: f64 = 1e-11;
+/// Equations' worth of belief in what other pictures say about lens model and print.
+const TYPICAL_EQUATIONS: f64 = 20.0;
 /// Poses nearer to each other than this angle (rad) are one solution.
 const SAME_RAD: f64 = 1e-3;
 /// A solution whose cost exceeds the best by more than this is no candidate: ten standard
@@ -69,7 +71,24 @@ pub fn target_poses(
     target: &TargetModel,
     intrinsics: &Intrinsics,
 ) -> Result<Vec<PosedTarget>, Error> {
+    target_poses_with(corners, surface, target, intrinsics, None)
+}
+
+/// As [`target_poses`], with what other pictures of the same camera and target say about lens model
+/// and print: the typical `excess_px` of [`PosedTarget`]. A few corners tell little about it
+/// themselves.
+///
+/// # Errors
+/// As [`target_poses`].
+pub fn target_poses_with(
+    corners: &[ImageCorner],
+    surface: &[SurfaceCorner],
+    target: &TargetModel,
+    intrinsics: &Intrinsics,
+    typical_excess_px: Option<f64>,
+) -> Result<Vec<PosedTarget>, Error> {
     let mut fit = Fit::new(corners, surface, target, intrinsics)?;
+    fit.typical_excess = typical_excess_px.map(|px| px * px);
     let mut found: Vec<PosedTarget> = vec![];
     for start in fit.starts()? {
         let posed = fit.polish(start);
@@ -150,6 +169,8 @@ struct Fit<'a> {
     intrinsics: &'a Intrinsics,
     /// `τ²`, px².
     excess: f64,
+    /// What other pictures say it is.
+    typical_excess: Option<f64>,
     /// Factor on the covariances of the 3D corners.
     felt_scale: f64,
 }
@@ -180,7 +201,7 @@ impl<'a> Fit<'a> {
             return Err(Error::TooFewPoints { found: seen.len(), needed: FEWEST });
         }
         let felt = surface.iter().filter_map(felt).collect();
-        Ok(Self { seen, felt, intrinsics, excess: 0.0, felt_scale: 1.0 })
+        Ok(Self { seen, felt, intrinsics, excess: 0.0, typical_excess: None, felt_scale: 1.0 })
     }
 
     /// Both solutions of the homography.
@@ -342,6 +363,10 @@ impl<'a> Fit<'a> {
             let high = used.iter().map(|(r, _)| r.norm_squared()).sum::<f64>() / freedom;
             bisect(0.0, 2.0 * high, |excess| chi2(excess) > freedom)
         };
+        if let Some(typical) = self.typical_excess {
+            self.excess = (freedom * self.excess + TYPICAL_EQUATIONS * typical)
+                / (freedom + TYPICAL_EQUATIONS);
+        }
         let felt: Vec<f64> = self
             .felt
             .iter()
