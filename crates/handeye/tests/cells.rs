@@ -1,5 +1,7 @@
 //! Whole calibrations of cells whose truth is known.
 
+#![allow(clippy::unwrap_used, reason = "a test fails loudly")]
+
 use handeye::{
     Calibration, Config, Setup, calibrate,
     calibration::{Verdict, matrix},
