@@ -163,3 +163,23 @@ fn the_clouds_of_the_flange_are_read_alike_from_ply_and_pcd() {
             .unwrap();
     assert_eq!(packed.points().len(), 83_793);
 }
+
+/// Corners that OpenCV's ArucoDetector finds, its order and its pixels (refined by cornerSubPix).
+const OPENCV_TAGS: [(usize, [(f64, f64); 4]); 2] = [
+    (0, [(346.56, 271.31), (479.17, 281.38), (477.70, 420.34), (337.61, 408.35)]),
+    (3, [(434.78, 210.89), (319.52, 344.38), (180.91, 219.57), (311.29, 81.93)]),
+];
+
+#[test]
+fn tags_have_their_corners_in_the_order_of_opencv() {
+    let Some(dataset) = open("visp_franka_eth") else { return };
+    let target = dataset.target.as_ref().unwrap();
+    for (k, wanted) in OPENCV_TAGS {
+        let image = dataset.image(dataset.captures[k].image.as_ref().unwrap()).unwrap();
+        let found = handeye::detect::detect(&image, target).unwrap();
+        for (corner, (x, y)) in found.iter().zip(wanted) {
+            let off = (corner.pixel.x - x).hypot(corner.pixel.y - y);
+            assert!(off < 0.5, "picture {k}: corner {} is {off:.2} px away", corner.id);
+        }
+    }
+}

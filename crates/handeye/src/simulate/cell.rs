@@ -517,14 +517,13 @@ fn depth_on(view: &Pose<Camera, Target>, ray: &Vector3<f64>) -> f64 {
     normal.dot(&view.translation()) / normal.dot(ray)
 }
 
-/// Corners far from each other: each next one is the farthest from those before it, the first one
-/// corner 0.
+/// Corners far from each other: each next one has the largest product of distances to those before
+/// it (F. Leja's points), the first one is corner 0.
 fn spread_corners(target: &TargetModel, count: usize) -> Vec<u32> {
     let at: Vec<Vector3<f64>> = target.corners().iter().map(Point::vector).collect();
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < count.min(at.len()) {
-        let room =
-            |k: usize| chosen.iter().map(|&c| (at[k] - at[c]).norm()).fold(f64::INFINITY, f64::min);
+        let room = |k: usize| chosen.iter().map(|&c| (at[k] - at[c]).norm()).product::<f64>();
         let free = (0..at.len()).filter(|k| !chosen.contains(k));
         let next = free.rev().max_by(|&a, &b| room(a).total_cmp(&room(b)));
         chosen.extend(next);

@@ -1,0 +1,108 @@
+//! Simulated datasets: what is written is read back, and nothing of others is touched.
+
+#![allow(clippy::unwrap_used, reason = "a test fails loudly")]
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use handeye::{
+    Config, Intrinsics, Setup, TargetModel, calibrate,
+    calibration::Verdict,
+    simulate::{Cell, CellNoise, DepthSensor},
+};
+use handeye_io::{Dataset, measure, simulated};
+
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("handeye-{name}-{}", std::process::id()));
+    fs::remove_dir_all(&folder).ok();
+    folder
+}
+
+fn small(setup: Setup) -> Cell {
+    Cell {
+        intrinsics: Intrinsics::pinhole(640, 480, 600.0, 600.0, 319.5, 239.5),
+        captures: 8,
+        ..Cell::new(setup, 2)
+    }
+}
+
+fn write(cell: &Cell, folder: &Path, with_images: bool) -> Vec<String> {
+    simulated::write(&cell.record(5).unwrap(), folder, with_images).unwrap()
+}
+
+/// Translation error of the chosen answer, mm.
+fn error_mm(cell: &Cell, folder: &Path) -> f64 {
+    let measured = measure::measure(&Dataset::open(folder).unwrap(), &|_, _| {}).unwrap();
+    let found = calibrate(&measured.session, &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
+    assert!(found.candidates.iter().any(|c| c.name == "two-step-svd"));
+    let x = found.hand_eye.mount_from_camera.unwrap();
+    x.distance_to(&cell.hand_eye.mount_from_camera) * 1e3
+}
+
+#[test]
+fn exact_lists_of_corners_are_read_back_exactly() {
+    for setup in [Setup::EyeInHand, Setup::EyeToHand] {
+        let folder = folder(&format!("exact-{setup:?}"));
+        let cell = Cell { noise: CellNoise::NONE, ..small(setup) };
+        write(&cell, &folder, false);
+        let error = error_mm(&cell, &folder);
+        assert!(error < 1e-6, "{setup:?}: {error:.1e} mm");
+        fs::remove_dir_all(folder).unwrap();
+    }
+}
+
+#[test]
+fn pictures_and_scans_of_every_target_give_the_truth() {
+    let charuco = TargetModel::Charuco {
+        squares_x: 8,
+        squares_y: 6,
+        square_mm: 30.0,
+        marker_mm: 22.0,
+        dictionary: "DICT_4X4_50".into(),
+        legacy: false,
+    };
+    let tag = TargetModel::Tag { dictionary: "DICT_6X6_250".into(), id: 3, size_mm: 120.0 };
+    let board = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
+    for (k, (target, limit_mm)) in
+        [(board, 0.5), (charuco, 0.5), (tag, 1.5)].into_iter().enumerate()
+    {
+        let folder = folder(&format!("rendered-{k}"));
+        let depth = Some(DepthSensor::default());
+        let noise = CellNoise { touch_m: 0.1e-3, ..CellNoise::NONE };
+        let cell = Cell { target, noise, depth, scan_scale: 0.5, ..small(Setup::EyeToHand) };
+        write(&cell, &folder, true);
+        let error = error_mm(&cell, &folder);
+        assert!(error < limit_mm, "{:?}: {error:.3} mm", cell.target);
+        fs::remove_dir_all(folder).unwrap();
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes() {
+    let (a, b) = (folder("bytes-a"), folder("bytes-b"));
+    let cell = Cell { captures: 1, depth: Some(DepthSensor::default()), ..small(Setup::EyeInHand) };
+    let names = write(&cell, &a, true);
+    assert_eq!(names, write(&cell, &b, true));
+    for name in names {
+        assert_eq!(fs::read(a.join(&name)).unwrap(), fs::read(b.join(&name)).unwrap(), "{name}");
+    }
+    fs::remove_dir_all(a).unwrap();
+    fs::remove_dir_all(b).unwrap();
+}
+
+#[test]
+fn only_an_earlier_simulation_is_cleared() {
+    let folder = folder("clear");
+    write(&small(Setup::EyeToHand), &folder, false);
+    fs::write(folder.join("mine.txt"), "keep").unwrap();
+    assert!(simulated::clear(&folder).unwrap());
+    assert!(folder.join("mine.txt").exists() && !folder.join("robot.csv").exists());
+    assert!(!simulated::clear(&folder).unwrap());
+    let outside = r#"{"format": "handeye-simulation-1", "files": ["../x", "/etc/passwd"]}"#;
+    fs::write(folder.join(simulated::TRUTH), outside).unwrap();
+    assert!(simulated::clear(&folder).unwrap());
+    fs::remove_dir_all(folder).unwrap();
+}
