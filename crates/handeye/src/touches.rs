@@ -29,6 +29,10 @@ pub struct TouchPairs {
     pub pairs: Vec<Correspondence>,
     /// Where the robot carried the camera in each pair: takes the mount to the base.
     pub base_from_mount: Vec<Pose<crate::Base, Mount>>,
+    /// Which view each pair was seen from; empty where the robot did not move the camera.
+    pub views: Vec<usize>,
+    /// The touched corner, about the point at which misfits are stated.
+    pub corner: Vector3<f64>,
 }
 
 /// Pairs every touch with what the camera measured. Touches whose corner no view shows are left
@@ -42,23 +46,27 @@ pub fn pair_touches(
 ) -> (Vec<TouchPairs>, Vec<usize>) {
     let (mut paired, mut missing) = (Vec::new(), Vec::new());
     for (k, touch) in touches.iter().enumerate() {
-        let (pairs, base_from_mount): (Vec<_>, Vec<_>) = match setup {
+        let found = match setup {
             Setup::EyeInHand => in_hand(target, observations, touch),
             Setup::EyeToHand => to_hand(target, placements, touch),
-        }
-        .into_iter()
-        .unzip();
-        if pairs.is_empty() {
-            missing.push(k);
-        } else {
-            let placement = touch.placement.clone();
-            paired.push(TouchPairs { touch: k, placement, pairs, base_from_mount });
+        };
+        let corner = target.corner(touch.corner).map(|c| c.vector() - target.reference().vector());
+        match corner {
+            Some(corner) if !found.is_empty() => paired.push(TouchPairs {
+                touch: k,
+                placement: touch.placement.clone(),
+                pairs: found.iter().map(|f| f.0).collect(),
+                base_from_mount: found.iter().map(|f| f.1).collect(),
+                views: found.iter().filter_map(|f| f.2).collect(),
+                corner,
+            }),
+            _ => missing.push(k),
         }
     }
     (paired, missing)
 }
 
-type Pair = (Correspondence, Pose<crate::Base, Mount>);
+type Pair = (Correspondence, Pose<crate::Base, Mount>, Option<usize>);
 
 fn to_hand(target: &TargetModel, placements: &[Placement], touch: &Touch) -> Vec<Pair> {
     let placement = placements.iter().filter(|p| p.id == touch.placement);
@@ -68,7 +76,7 @@ fn to_hand(target: &TargetModel, placements: &[Placement], touch: &Touch) -> Vec
     });
     measured
         .map(|in_camera| {
-            (Correspondence { in_camera, in_mount: touch.in_base.rename() }, Pose::identity())
+            (Correspondence { in_camera, in_mount: touch.in_base.rename() }, Pose::identity(), None)
         })
         .collect()
 }
@@ -76,12 +84,13 @@ fn to_hand(target: &TargetModel, placements: &[Placement], touch: &Touch) -> Vec
 fn in_hand(target: &TargetModel, observations: &[&Observation], touch: &Touch) -> Vec<Pair> {
     observations
         .iter()
-        .filter_map(|o| {
+        .enumerate()
+        .filter_map(|(view, o)| {
             let pose = o.candidates.first().map(|t| t.camera_from_target);
             let in_camera = camera_point(target, &o.surface, pose, touch.corner)?;
             let in_flange = o.base_from_flange.inverse() * touch.in_base;
             let pair = Correspondence { in_camera, in_mount: in_flange.rename() };
-            Some((pair, o.base_from_flange.rename()))
+            Some((pair, o.base_from_flange.rename(), Some(view)))
         })
         .collect()
 }
@@ -177,6 +186,39 @@ fn touch_covariance(touches: &[&TouchPairs], x: &Pose<Mount, Camera>) -> Option<
     }
     let sigma2 = squares / (3.0 * k - 6.0);
     linalg::invert_spd(&information).map(|c| c * (sigma2 * small_sample(3.0 * k - 6.0)))
+}
+
+/// One view's part in the error of touches: where it saw the target, and the covariance of its
+/// misfit (robot and camera together) in the target's axes at the reference point.
+#[derive(Debug, Clone, Copy)]
+pub struct ViewNoise {
+    /// Rotation of the target in the camera.
+    pub camera_from_target: nalgebra::Matrix3<f64>,
+    /// 6 x 6, rotation first.
+    pub covariance: Matrix6<f64>,
+}
+
+/// Covariance that the views add to a registration of touches (eye-in-hand): all touches paired in
+/// one view share that view's error, however many there are.
+///
+/// With `J_ij` the Jacobian of pair `(i, j)`, `H = Σ JᵀJ` and `B_i = Σ_j J_ijᵀ R_i [-[P_j]ₓ, I]`,
+/// the covariance is `H⁻¹ (Σ_i B_i S_i B_iᵀ) H⁻¹`.
+pub fn view_covariance(touches: &[TouchPairs], views: &[ViewNoise]) -> Option<Matrix6<f64>> {
+    let mut information = Matrix6::zeros();
+    let mut shares = vec![Matrix6::zeros(); views.len()];
+    for touch in touches {
+        for (pair, &view) in touch.pairs.iter().zip(&touch.views) {
+            let (share, noise) = (shares.get_mut(view)?, views.get(view)?);
+            let j = register::rigid_fit::point_jacobian(&pair.in_camera.vector());
+            let moved = register::rigid_fit::point_jacobian(&touch.corner);
+            information += j.transpose() * j;
+            *share += j.transpose() * (noise.camera_from_target * moved);
+        }
+    }
+    let inverse = linalg::invert_spd(&information)?;
+    let middle: Matrix6<f64> =
+        shares.iter().zip(views).map(|(b, v)| b * v.covariance * b.transpose()).sum();
+    Some(inverse * middle * inverse)
 }
 
 /// Mean square of a t-distributed error over that of a normal one: the variance was estimated

@@ -70,3 +70,17 @@ fn errors_are_as_large_as_the_stated_covariance() {
 fn errors_are_as_large_as_the_stated_covariance_in_many_cells() {
     assert_consistent(200);
 }
+
+/// With touches the chosen answer may be the two-step one, whose touches share the views' errors.
+#[test]
+fn the_chosen_answer_states_its_error_with_touches_too() {
+    for setup in SETUPS {
+        let each = (0..25).map(|seed| {
+            let (found, truth) = solved(&Cell::new(setup, seed), 2000 + seed);
+            normalised_error_squared(&found, &truth)
+        });
+        let mean = each.sum::<f64>() / 25.0;
+        println!("{setup:?} with touches: normalised error squared {mean:.3} over 25 cells");
+        assert!((0.7..1.4).contains(&mean), "{setup:?}: {mean:.3}");
+    }
+}

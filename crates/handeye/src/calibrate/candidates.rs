@@ -171,9 +171,8 @@ fn touch_candidates(
         [("two-step-svd", Registration::Svd), ("two-step-icp", Registration::Icp(config.icp))];
     let mut all = Vec::new();
     for (name, registration) in kinds {
-        match touch_candidate(fit, volume, paired, name, registration) {
+        match touch_candidate(views, fit, volume, paired, name, registration) {
             Ok(mut judged) => {
-                judged.candidate.in_sample = Misfit::default();
                 let placed = solve::place_target(&pairs_of(views), &judged.mount_from_camera);
                 judged.candidate.in_sample = evaluate::in_sample(&placed, &views.views);
                 judged.candidate.hand_eye.anchor_from_target =
@@ -192,7 +191,17 @@ fn pairs_of(views: &Views) -> Vec<PosePair> {
     views.views.iter().map(|v| v.pair).collect()
 }
 
+/// Noise of every view as the touches see it.
+fn view_noise(views: &Views, fit: &PoseFit) -> Vec<touches::ViewNoise> {
+    let one = |v: &refine::View| touches::ViewNoise {
+        camera_from_target: v.pair.camera_from_target.rotation(),
+        covariance: fit.noise.covariance(v, &fit.hand_eye, views.session.setup),
+    };
+    views.views.iter().map(one).collect()
+}
+
 fn touch_candidate(
+    views: &Views,
     fit: &PoseFit,
     volume: &Volume,
     paired: &[TouchPairs],
@@ -203,7 +212,9 @@ fn touch_candidate(
     let start = fit.hand_eye.mount_from_camera;
     let found = touches::fit_touches(&all, &start, registration)?;
     let x = found.mount_from_camera;
-    let tre = found.covariance.map(|c| predict::tre(volume, &c, |_| Vector3::zeros()));
+    let shared = touches::view_covariance(paired, &view_noise(views, fit));
+    let covariance = found.covariance.map(|c| c + shared.unwrap_or_else(Matrix6::zeros));
+    let tre = covariance.map(|c| predict::tre(volume, &c, |_| Vector3::zeros()));
     let wrong = found.wrong_matches;
     let note = match (registration, found.stop) {
         (Registration::Icp(_), Some((rounds, stop))) => Some(format!(
@@ -224,7 +235,7 @@ fn touch_candidate(
                 mount_from_camera: Some(x),
                 anchor_from_target: None,
                 covariance: PoseCovariance {
-                    mount_from_camera: found.covariance.as_ref().map(rows),
+                    mount_from_camera: covariance.as_ref().map(rows),
                     anchor_from_target: None,
                 },
             },
@@ -237,7 +248,7 @@ fn touch_candidate(
         },
         mount_from_camera: x,
         tre: tre.filter(|_| usable),
-        covariance: found.covariance,
+        covariance,
         held_out: vec![],
     })
 }

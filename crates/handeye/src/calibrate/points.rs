@@ -20,6 +20,8 @@ pub(super) fn from_points(session: &Session, result: &mut Calibration) {
             placement: k.to_string(),
             pairs: vec![*pair],
             base_from_mount: vec![Pose::identity()],
+            views: vec![],
+            corner: Vector3::zeros(),
         })
         .collect();
     let all: Vec<&TouchPairs> = touches.iter().collect();
