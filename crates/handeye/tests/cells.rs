@@ -84,3 +84,16 @@ fn the_chosen_answer_states_its_error_with_touches_too() {
         assert!((0.7..1.4).contains(&mean), "{setup:?}: {mean:.3}");
     }
 }
+
+#[test]
+fn the_order_of_captures_and_touches_changes_no_byte() {
+    for setup in SETUPS {
+        let (session, _) = Cell::new(setup, 7).session(7).unwrap();
+        let mut turned = session.clone();
+        turned.observations.reverse();
+        turned.touches.reverse();
+        turned.placements.reverse();
+        let bytes = |s| serde_json::to_string(&calibrate(s, &Config::default()).unwrap()).unwrap();
+        assert_eq!(bytes(&session), bytes(&turned), "{setup:?}");
+    }
+}

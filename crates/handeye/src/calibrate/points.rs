@@ -11,38 +11,62 @@ use crate::{
 };
 
 pub(super) fn from_points(session: &Session, result: &mut Calibration) {
-    let touches: Vec<TouchPairs> = session
-        .correspondences
-        .iter()
-        .enumerate()
-        .map(|(k, pair)| TouchPairs {
-            touch: k,
-            placement: k.to_string(),
-            pairs: vec![*pair],
-            base_from_mount: vec![Pose::identity()],
-            views: vec![],
-            corner: Vector3::zeros(),
-        })
-        .collect();
+    let touches = as_touches(session);
     let all: Vec<&TouchPairs> = touches.iter().collect();
     let found = match touches::fit_touches(&all, &Pose::identity(), Registration::Svd) {
         Ok(found) => found,
         Err(error) => {
-            result.reasons.push(error.to_string());
             let what = match error {
                 Error::Collinear { .. } => "rotation about the line of the points",
                 _ => "the pose of the camera",
             };
+            result.reasons.push(error.to_string());
             result.undetermined.push(what.into());
             return;
         }
     };
+    let held_out = touches::held_out(&touches, &Pose::identity(), Registration::Svd);
     let volume = point_volume(session, &touches, &found.mount_from_camera);
     let tre = found.covariance.zip(volume).map(|(c, v)| predict::tre(&v, &c, |_| Vector3::zeros()));
-    let held_out =
-        touches::held_out(&touches, &Pose::identity(), Registration::Svd).map(|m| m * 1e3);
-    let misfit = |mm: Option<f64>| Misfit { translation_rms_mm: mm, ..Misfit::default() };
-    let candidate = Candidate {
+    weak_directions(&touches, result);
+    if held_out.is_none() && touches.len() > 3 {
+        let what = "without one of the points the others lie on a line or are too few: the rotation \
+                    rests on a single point that nothing checks; add points away from the line";
+        result.reasons.push(what.into());
+        result.verdict = Verdict::Rejected;
+    }
+    let candidate = candidate(&found, held_out, tre.as_ref().map(|t| t.rms));
+    result.method = candidate.name.clone();
+    result.chosen = Some(candidate.name.clone());
+    result.why = "point pairs alone have one answer: their rigid registration".into();
+    result.hand_eye = candidate.hand_eye;
+    result.residual = candidate.in_sample;
+    result.held_out = candidate.held_out;
+    result.predicted_tre_mm = tre;
+    result.candidates = vec![candidate];
+}
+
+/// Every point pair as a touch of its own.
+fn as_touches(session: &Session) -> Vec<TouchPairs> {
+    let one = |(k, pair): (usize, &crate::Correspondence)| TouchPairs {
+        touch: k,
+        placement: k.to_string(),
+        pairs: vec![*pair],
+        base_from_mount: vec![Pose::identity()],
+        views: vec![],
+        corner: Vector3::zeros(),
+    };
+    session.correspondences.iter().enumerate().map(one).collect()
+}
+
+fn candidate(
+    found: &touches::TouchFit,
+    held_out_m: Option<f64>,
+    predicted_tre_mm: Option<f64>,
+) -> Candidate {
+    let misfit =
+        |m: Option<f64>| Misfit { translation_rms_mm: m.map(|m| m * 1e3), ..Misfit::default() };
+    Candidate {
         name: "point-pairs-svd".into(),
         hand_eye: Answer {
             mount_from_camera: Some(found.mount_from_camera),
@@ -52,28 +76,13 @@ pub(super) fn from_points(session: &Session, result: &mut Calibration) {
                 anchor_from_target: None,
             },
         },
-        in_sample: misfit(Some(found.rms_m * 1e3)),
-        held_out: misfit(held_out),
+        in_sample: misfit(Some(found.rms_m)),
+        held_out: misfit(held_out_m),
         touch_rms_mm: Some(found.rms_m * 1e3),
-        held_out_mm: held_out,
-        predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+        held_out_mm: held_out_m.map(|m| m * 1e3),
+        predicted_tre_mm,
         note: None,
-    };
-    weak_directions(&touches, result);
-    if held_out.is_none() && touches.len() > 3 {
-        let what = "without one of the points the others lie on a line or are too few: the rotation \
-                    rests on a single point that nothing checks; add points away from the line";
-        result.reasons.push(what.into());
-        result.verdict = Verdict::Rejected;
     }
-    result.method = candidate.name.clone();
-    result.chosen = Some(candidate.name.clone());
-    result.why = "point pairs alone have one answer: their rigid registration".into();
-    result.hand_eye = candidate.hand_eye;
-    result.residual = candidate.in_sample;
-    result.held_out = candidate.held_out;
-    result.predicted_tre_mm = tre;
-    result.candidates = vec![candidate];
 }
 
 fn point_volume(
