@@ -1,9 +1,9 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
-//! [`agreement`] (which captures agree, and on which reading) → [`candidates`] (closed forms, least
+//! `agreement` (which captures agree, and on which reading) → `candidates` (closed forms, least
 //! squares, maximum likelihood, registration of touches, each judged on what it has not seen; the
-//! choice by predicted error) → [`captures`] (misfit of every capture and touch) → [`verdict`].
-//! Point pairs alone take the short way through [`points`].
+//! choice by predicted error) → `captures` (misfit of every capture and touch) → `verdict`.
+//! Point pairs alone take the short way through `points`.
 
 mod agreement;
 mod candidates;

@@ -198,7 +198,7 @@ pub fn fit_fixed_weights(views: &[View], start: &HandEye, metres_per_rad: f64) -
 /// Fits both unknowns and the noise of every source, by REML.
 ///
 /// Few captures tell little about the noise, so each component carries a prior worth
-/// [`PRIOR_VIEWS`] captures at the common level of the misfit, shared out as in [`first_noise`].
+/// `PRIOR_VIEWS` captures at the common level of the misfit, shared out as in `first_noise`.
 pub fn fit_estimating_noise(
     views: &[View],
     start: &HandEye,

@@ -18,7 +18,7 @@ pub struct Motion {
 /// Up to this many captures all pairs are used; above, each capture is paired with as many others.
 const ALL_PAIRS_UP_TO: usize = 64;
 
-/// Motions between captures: all pairs of few captures; of many, each with [`ALL_PAIRS_UP_TO`]
+/// Motions between captures: all pairs of few captures; of many, each with `ALL_PAIRS_UP_TO`
 /// others at evenly spaced distances in the order, so that the count stays linear.
 pub fn motions(pairs: &[PosePair]) -> Vec<Motion> {
     let n = pairs.len();
