@@ -150,7 +150,7 @@ pub struct InitArgs {
     after_help = "Examples:\n  handeye target --checkerboard 11x8 --square-mm 20 --out board.pdf\n  handeye target --charuco 7x5 --square-mm 35 --marker-mm 26 --dictionary DICT_5X5_100 --out board.svg --paper a3\n  handeye target cell/handeye.toml --out board.pdf --paper 600x500"
 )]
 pub struct TargetArgs {
-    /// A manifest or another TOML file with a [target].
+    /// A manifest or another TOML file with a `[target]`.
     #[arg(conflicts_with_all = ["checkerboard", "charuco", "tag", "circle_grid"])]
     pub target: Option<PathBuf>,
     /// Checkerboard of so many INNER corners: columns x rows.
@@ -183,7 +183,7 @@ pub struct TargetArgs {
     /// Distance between the centres of neighbouring circles.
     #[arg(long)]
     pub pitch_mm: Option<f64>,
-    /// The drawing, .pdf or .svg; a .toml with the [target] is written beside it.
+    /// The drawing, .pdf or .svg; a .toml with the `[target]` is written beside it.
     #[arg(long, short)]
     pub out: PathBuf,
     /// a4, a3, a2, a1, a0, letter, or a size in mm such as 300x400.
@@ -213,7 +213,7 @@ pub struct DetectArgs {
     /// PNG, JPEG, TIFF or BMP pictures.
     #[arg(required = true)]
     pub images: Vec<PathBuf>,
-    /// A manifest or another TOML file with a [target].
+    /// A manifest or another TOML file with a `[target]`.
     #[arg(long, short)]
     pub target: PathBuf,
     /// Folder for pictures with the corners and their ids drawn in.
