@@ -6,7 +6,7 @@ use std::{
 };
 
 use handeye::{
-    Calibration, Config, Session, Setup, Verdict, calibrate, refine::noise::KnownNoise,
+    Calibration, Config, Session, Setup, Verdict, Warning, calibrate, refine::noise::KnownNoise,
     register::IcpConfig,
 };
 use handeye_io::{
@@ -122,6 +122,16 @@ fn explain(calibration: &mut Calibration, measured: &Measured) {
         if let Some(capture) = calibration.captures.iter_mut().find(|c| c.id == *id) {
             capture.reason = Some(reason.clone());
         }
+    }
+    let (missing, all) = (measured.not_found.len(), calibration.captures.len());
+    if let Some((id, reason)) = measured.not_found.first()
+        && 2 * missing > all
+    {
+        let message = format!(
+            "the target was not found in {missing} pictures of {all} captures ({id}: {reason}): \
+             check [target]"
+        );
+        calibration.warnings.insert(0, Warning::new("target-not-found", message));
     }
 }
 

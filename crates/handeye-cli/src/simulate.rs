@@ -126,7 +126,7 @@ const LARGEST_PX: u32 = 10_000;
 pub fn run(args: &SimulateArgs, manners: &Manners) -> Result<u8, Failure> {
     let cell = cell(args)?;
     let recording = cell.record(args.seed).map_err(|e| Failure::Usage(e.to_string()))?;
-    if !args.force && !simulated::clear(&args.out)? && !is_empty(&args.out) {
+    if !simulated::clear(&args.out)? && !args.force && !is_empty(&args.out) {
         let what = "is not empty, and not the output of an earlier simulation: name another \
                     folder, or say --force";
         return Err(Failure::input(args.out.display(), what));

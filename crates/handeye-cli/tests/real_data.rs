@@ -94,7 +94,7 @@ fn visp_franka_eih_is_rejected_for_its_square_size() {
     let Some(found) = calibrate("visp_franka_eih") else { return };
     assert_eq!(found.verdict, Verdict::Rejected);
     assert!(warned(&found, "target-scale"));
-    let scale = found.scale.unwrap();
+    let scale = found.target_scale.unwrap();
     assert!((scale.value - 26.4 / 23.6).abs() < 2.0 * scale.sigma, "{scale:?}");
 }
 

@@ -87,7 +87,9 @@ fn full() -> Calibration {
             sigma_mm: Some(0.0),
             sigma_deg: Some(0.0),
         }],
-        scale: Some(Scale { value: 1.0, sigma: 0.0 }),
+        time_offset_s: 0.0,
+        scale: 1.0,
+        target_scale: Some(Scale { value: 1.0, sigma: 0.0 }),
         warnings: vec![Warning::new("code", "message")],
     }
 }

@@ -211,8 +211,12 @@ pub struct Calibration {
     pub diversity: Option<Diversity>,
     /// Where the error comes from.
     pub error_budget: Vec<BudgetEntry>,
-    /// Size of the target as the robot sees it.
-    pub scale: Option<Scale>,
+    /// Camera time minus robot time; pairs are taken at the same moment.
+    pub time_offset_s: f64,
+    /// Factor that was taken out of the measured distances: one, the target's size is trusted.
+    pub scale: f64,
+    /// Size of the target as the robot sees it, for comparison.
+    pub target_scale: Option<Scale>,
     /// What to know.
     pub warnings: Vec<Warning>,
 }

@@ -193,7 +193,7 @@ pub fn undetermined(fit: &PoseFit, setup: Setup) -> Vec<String> {
 pub fn axis_name(axis: &nalgebra::Vector3<f64>) -> String {
     let axis = axis.normalize();
     let k = axis.iamax();
-    if axis[k].abs() > 0.98 {
+    if axis[k].abs() > 0.9998 {
         return ["x", "y", "z"][k].into();
     }
     format!("({:.2}, {:.2}, {:.2})", axis.x, axis.y, axis.z)

@@ -78,6 +78,21 @@ pub fn held_out(
     found
 }
 
+/// The misfit (rad, m) of every capture when the camera's place comes from elsewhere and the
+/// target's place from the other captures.
+pub fn placed_without(
+    views: &[View],
+    mount_from_camera: &crate::Pose<crate::Mount, crate::Camera>,
+) -> Vec<Option<(f64, f64)>> {
+    let without = |i: usize| {
+        let rest: Vec<PosePair> =
+            (0..views.len()).filter(|j| *j != i).map(|j| views[j].pair).collect();
+        let answer = solve::place_target(&rest, mount_from_camera);
+        (!rest.is_empty()).then(|| loop_misfit(&answer, &views[i].pair))
+    };
+    (0..views.len()).map(without).collect()
+}
+
 /// Angle (rad) and distance (m, at the target's origin) by which a capture's loop fails to close.
 pub fn loop_misfit(answer: &HandEye, pair: &PosePair) -> (f64, f64) {
     let e = answer.loop_error(pair);

@@ -364,7 +364,7 @@ fn diversity(c: &Calibration) -> String {
             "<h3>Where the misfit comes from (estimated)</h3><table><tr><th>source</th><th class=\"words\">one standard deviation</th></tr>{rows}</table>"
         );
     }
-    if let Some(s) = &c.scale {
+    if let Some(s) = &c.target_scale {
         let _ = write!(
             content,
             "<p class=\"note\">Size of the target as the robot's motions see it: {:.4} &plusmn; {:.4} of the declared one.</p>",

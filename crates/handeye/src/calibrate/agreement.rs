@@ -314,6 +314,7 @@ pub(super) fn agree<'a>(
     let readings: Vec<Readings> =
         session.observations.iter().map(|o| readings(session, o, &target_from_corner)).collect();
     result.captures = session.observations.iter().map(first_report).collect();
+    suspect_units(session, result);
     let found = match consensus::consensus(&readings) {
         Ok(found) => found,
         Err(error) => {
@@ -328,6 +329,7 @@ pub(super) fn agree<'a>(
     let of = |&i: &usize| {
         view(&session.observations[i], &readings[i], found.reading[i], &target_from_corner)
     };
+    warn_few(indices.len(), result);
     let views = Views {
         session,
         used: indices.iter().map(|&i| &session.observations[i]).collect(),
@@ -336,6 +338,39 @@ pub(super) fn agree<'a>(
         indices,
     };
     Some((views, found))
+}
+
+/// Fewer captures than this are answered with a warning.
+const FEW: usize = 8;
+
+fn warn_few(used: usize, result: &mut Calibration) {
+    if used < FEW {
+        result.warnings.push(Warning::new(
+            "few-captures",
+            format!(
+                "only {used} captures: too few to notice a wrong one or to judge the noise well; \
+                 take 10 to 15"
+            ),
+        ));
+    }
+}
+
+/// Robot positions beyond this, m, are no robot's.
+const FARTHEST: f64 = 20.0;
+
+/// Millimetres read as metres put the flange beyond any robot's reach.
+fn suspect_units(session: &Session, result: &mut Calibration) {
+    let reach = |o: &Observation| o.base_from_flange.translation().norm();
+    let far = session.observations.iter().map(reach).fold(0.0, f64::max);
+    if far > FARTHEST {
+        let message = format!(
+            "the robot poses lie up to {far:.0} m from the base: were millimetres read as metres? \
+             check the length unit"
+        );
+        result.reasons.push(message.clone());
+        result.warnings.push(Warning::new("robot-length-unit", message));
+        result.verdict = Verdict::Rejected;
+    }
 }
 
 /// Whether the target poses came from elsewhere.

@@ -175,6 +175,8 @@ fn touch_candidates(
             Ok(mut judged) => {
                 let placed = solve::place_target(&pairs_of(views), &judged.mount_from_camera);
                 judged.candidate.in_sample = evaluate::in_sample(&placed, &views.views);
+                judged.held_out = evaluate::placed_without(&views.views, &judged.mount_from_camera);
+                judged.candidate.held_out = evaluate::rms(&judged.held_out);
                 judged.candidate.hand_eye.anchor_from_target =
                     stored(views, &placed, None).anchor_from_target;
                 all.push(judged);

@@ -159,7 +159,9 @@ fn empty(session: &Session) -> Calibration {
         undetermined: vec![],
         diversity: None,
         error_budget: vec![],
-        scale: None,
+        time_offset_s: 0.0,
+        scale: 1.0,
+        target_scale: None,
         warnings: vec![],
     }
 }

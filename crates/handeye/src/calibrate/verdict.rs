@@ -134,7 +134,7 @@ pub(super) fn judge_scale(views: &Views, fit: &PoseFit, config: &Config, result:
     }
     let found = diagnose::target_scale(&views.views, fit, &config.known, views.session.setup);
     let Some(diagnose::TargetScale { value, sigma, p_value }) = found else { return };
-    result.scale = Some(Scale { value, sigma });
+    result.target_scale = Some(Scale { value, sigma });
     if p_value > IMPROBABLE_SCALE || (value - 1.0).abs() < LEAST_SCALE_ERROR {
         return;
     }
