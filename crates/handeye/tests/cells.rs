@@ -72,16 +72,32 @@ fn errors_are_as_large_as_the_stated_covariance_in_many_cells() {
 }
 
 /// With touches the chosen answer may be the two-step one, whose touches share the views' errors.
+fn mean_with_touches(setup: Setup, cells: u64) -> f64 {
+    let each = (0..cells).map(|seed| {
+        let (found, truth) = solved(&Cell::new(setup, seed), 2000 + seed);
+        assert!(found.hand_eye.covariance.anchor_from_target.is_some());
+        normalised_error_squared(&found, &truth)
+    });
+    let mean = each.sum::<f64>() / cells as f64;
+    println!("{setup:?} with touches: normalised error squared {mean:.3} over {cells} cells");
+    mean
+}
+
 #[test]
 fn the_chosen_answer_states_its_error_with_touches_too() {
     for setup in SETUPS {
-        let each = (0..25).map(|seed| {
-            let (found, truth) = solved(&Cell::new(setup, seed), 2000 + seed);
-            normalised_error_squared(&found, &truth)
-        });
-        let mean = each.sum::<f64>() / 25.0;
-        println!("{setup:?} with touches: normalised error squared {mean:.3} over 25 cells");
-        assert!((0.7..1.4).contains(&mean), "{setup:?}: {mean:.3}");
+        let mean = mean_with_touches(setup, 25);
+        // the standard error of the mean of 25 is 0.12
+        assert!((0.65..1.4).contains(&mean), "{setup:?}: {mean:.3}");
+    }
+}
+
+#[test]
+#[ignore = "two minutes"]
+fn the_chosen_answer_states_its_error_with_touches_in_many_cells() {
+    for setup in SETUPS {
+        let mean = mean_with_touches(setup, 200);
+        assert!((0.8..1.25).contains(&mean), "{setup:?}: {mean:.3}");
     }
 }
 

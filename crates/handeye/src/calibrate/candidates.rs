@@ -177,8 +177,7 @@ fn touch_candidates(
                 judged.candidate.in_sample = evaluate::in_sample(&placed, &views.views);
                 judged.held_out = evaluate::placed_without(&views.views, &judged.mount_from_camera);
                 judged.candidate.held_out = evaluate::rms(&judged.held_out);
-                judged.candidate.hand_eye.anchor_from_target =
-                    stored(views, &placed, None).anchor_from_target;
+                place_target(views, fit, &placed, &mut judged);
                 all.push(judged);
             }
             Err(error) => result
@@ -187,6 +186,23 @@ fn touch_candidates(
         }
     }
     all
+}
+
+/// Adds the target's place to a registration of touches. With `Y_i = A_i X C_i` averaged over the
+/// views, `cov(Y) = J cov(X) Jᵀ + Σ S_i/N²`, `J = Σ Ad(C_i⁻¹)/N`, and `S_i` the noise of one view.
+fn place_target(views: &Views, fit: &PoseFit, placed: &HandEye, judged: &mut Judged) {
+    let n = views.views.len() as f64;
+    let carry = |v: &refine::View| crate::lie::adjoint(v.pair.camera_from_target.inverse().iso());
+    let j = views.views.iter().map(carry).sum::<Matrix6<f64>>() / n;
+    let setup = views.session.setup;
+    let noise = |v: &refine::View| fit.noise.covariance(v, &fit.hand_eye, setup);
+    let own = views.views.iter().map(noise).sum::<Matrix6<f64>>() / (n * n);
+    let to_origin = crate::lie::adjoint(views.target_from_corner.iso());
+    let answer = &mut judged.candidate.hand_eye;
+    answer.anchor_from_target = stored(views, placed, None).anchor_from_target;
+    answer.covariance.anchor_from_target = judged
+        .covariance
+        .map(|x| rows(&(to_origin * (j * x * j.transpose() + own) * to_origin.transpose())));
 }
 
 fn pairs_of(views: &Views) -> Vec<PosePair> {

@@ -88,8 +88,9 @@ pub(super) fn check_axes(pairs: &[PosePair]) -> Result<(), Error> {
         None => Ok(()),
         Some(axis) => Err(Error::NotDetermined {
             what: format!(
-                "all rotations are about one axis ({:.3}, {:.3}, {:.3}) of the mount: the position \
-                 along it is free; tilt the robot about a second axis, or touch a corner",
+                "all rotations are about one axis, ({:.3}, {:.3}, {:.3}) of the body that carries \
+                 the camera (flange or base): the position along it is free; tilt the robot about \
+                 a second axis, or touch a corner",
                 axis.x, axis.y, axis.z
             ),
         }),
