@@ -2,7 +2,7 @@
 
 use crate::{
     Pose, PosePair, Setup, Target, predict,
-    refine::{self, PoseFit, View, noise::KnownNoise},
+    refine::{self, Extra, ExtraKind, JointFit, Problem, TARGET_SCALE, View, noise::KnownNoise},
     solve::consensus::{self, Consensus, Readings},
 };
 
@@ -91,47 +91,37 @@ pub struct TargetScale {
     pub p_value: f64,
 }
 
-/// Finds the size of the target that fits best. The noise is estimated again at that size: a wrong
-/// size would otherwise pass for noise and hide itself.
+/// Finds the size of the target that fits best. The noise is estimated at that size: a wrong size
+/// would otherwise pass for noise and hide itself.
 pub fn target_scale(
     views: &[View],
-    at: &PoseFit,
+    at: &JointFit,
     known: &KnownNoise,
     setup: Setup,
 ) -> Option<TargetScale> {
     use statrs::distribution::{ContinuousCDF, FisherSnedecor};
-    let first = best_scale(views, at, setup)?.0;
-    let rescaled = rescaled(views, first);
-    let refitted = refine::fit_estimating_noise(&rescaled, &at.hand_eye, known, setup).ok()?;
-    let (more, curvature) = best_scale(&rescaled, &refitted, setup)?;
-    let (value, sigma) = (first * more, first * (2.0 / curvature).sqrt());
+    let size = Extra { kind: ExtraKind::Camera(TARGET_SCALE), prior_sigma: 1.0 };
+    let scaling = |v: &View| View { by_camera: Some(by_scale(v)), ..*v };
+    let problem = Problem {
+        setup,
+        views: views.iter().map(scaling).collect(),
+        boards: vec![],
+        extras: vec![size],
+    };
+    let found = refine::fit_joint(&problem, &at.hand_eye, known).ok()?;
+    let (more, sigma) = found.extra(size.kind)?;
     let dof = at.degrees_of_freedom - 1.0;
-    let p_value = FisherSnedecor::new(1.0, dof).ok()?.sf(((value - 1.0) / sigma).powi(2));
-    Some(TargetScale { value, sigma, p_value })
+    let p_value = FisherSnedecor::new(1.0, dof).ok()?.sf((more / sigma).powi(2));
+    Some(TargetScale { value: 1.0 + more, sigma, p_value })
 }
 
-/// Steps of the search for the scale.
-const SCALE_STEPS: usize = 20;
-
-/// The scale of least cost and the cost's curvature there, by parabolas through three points.
-fn best_scale(views: &[View], at: &PoseFit, setup: Setup) -> Option<(f64, f64)> {
-    let cost =
-        |s: f64| refine::fit(&rescaled(views, s), &at.hand_eye, &at.noise, setup).chi_squared;
-    let (mut s, mut h, mut curvature) = (1.0, 0.02, 0.0);
-    for _ in 0..SCALE_STEPS {
-        let (low, middle, high) = (cost(s - h), cost(s), cost(s + h));
-        curvature = (low - 2.0 * middle + high) / (h * h);
-        if !(curvature > 0.0) {
-            return None;
-        }
-        let step = (0.5 * (low - high) / h / curvature).clamp(-0.3, 0.3);
-        s = (s + step).clamp(0.2, 5.0);
-        if step.abs() < 1e-5 {
-            break;
-        }
-        h = step.abs().clamp(5e-3, 0.02);
-    }
-    Some((s, curvature))
+/// A larger target is farther away: `t (1 + s) = t + R (Rᵀ t) s`.
+fn by_scale(view: &View) -> nalgebra::SMatrix<f64, 6, { refine::pose_fit::CAMERA }> {
+    let c = &view.pair.camera_from_target;
+    let mut by = nalgebra::SMatrix::<f64, 6, { refine::pose_fit::CAMERA }>::zeros();
+    let outward = c.rotation().transpose() * c.translation();
+    by.fixed_view_mut::<3, 1>(3, TARGET_SCALE).copy_from(&outward);
+    by
 }
 
 /// Views as they would be with a target `s` times as large.
@@ -169,8 +159,8 @@ pub fn exchanged(
 const FREE: (f64, f64) = (0.052, 0.02);
 
 /// Directions of `mount_from_camera` that the data leave free, in the user's words.
-pub fn undetermined(fit: &PoseFit, setup: Setup) -> Vec<String> {
-    let Some(covariance) = &fit.covariance else {
+pub fn undetermined(fit: &JointFit, setup: Setup) -> Vec<String> {
+    let Some(covariance) = fit.pose_covariance() else {
         return vec![format!("the pose of the camera on the {}", setup.mount())];
     };
     let x = covariance.fixed_view::<6, 6>(0, 0);

@@ -38,7 +38,7 @@ impl Estimator {
             Estimator::ClosedForm(method) => solve::solve(&pairs(), *method),
             Estimator::LeastSquares => Ok(refine::fit_fixed_weights(views, start, METRES_PER_RAD)),
             Estimator::MaximumLikelihood(known) => {
-                refine::fit_estimating_noise(views, start, known, setup).map(|f| f.hand_eye)
+                refine::fit_views(views, start, known, setup).map(|f| f.hand_eye)
             }
         }
     }
@@ -167,10 +167,8 @@ mod tests {
 
     #[test]
     fn exact_captures_have_no_held_out_error() {
-        let views: Vec<View> = exact_pairs(&truths()[0], 8)
-            .into_iter()
-            .map(|pair| View { pair, covariance: None })
-            .collect();
+        let views: Vec<View> =
+            exact_pairs(&truths()[0], 8).into_iter().map(|pair| View::bare(pair)).collect();
         for estimator in [
             Estimator::ClosedForm(Method::Shah),
             Estimator::LeastSquares,

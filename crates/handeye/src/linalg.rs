@@ -141,6 +141,35 @@ pub fn invert_spd<const N: usize>(m: &SMatrix<f64, N, N>) -> Option<SMatrix<f64,
     Some(SMatrix::from_fn(|i, j| inverse[(i, j)] * scale[i] * scale[j]))
 }
 
+/// A symmetric matrix scaled to unit diagonal, and the scale; `None` where the diagonal is not
+/// positive. Units of rad and m differ by orders of magnitude.
+pub(crate) fn scaled(m: &DMatrix<f64>) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    let scale = m.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 });
+    if scale.iter().any(|s| !(s.is_finite() && *s > 0.0)) {
+        return None;
+    }
+    let n = m.nrows();
+    Some((DMatrix::from_fn(n, n, |i, j| m[(i, j)] * scale[i] * scale[j]), scale))
+}
+
+/// Inverse of a symmetric positive definite matrix; `None` when it is singular.
+pub(crate) fn inverse_spd(m: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if m.is_empty() {
+        return Some(m.clone());
+    }
+    let (scaled, scale) = scaled(m)?;
+    let mut inverse = nalgebra::linalg::Cholesky::new(scaled)?.inverse();
+    for ((i, j), value) in indices(m.nrows()).zip(inverse.iter_mut()) {
+        *value *= scale[i] * scale[j];
+    }
+    Some(inverse)
+}
+
+/// Row and column of every entry, in the order of storage.
+fn indices(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n).flat_map(move |j| (0..n).map(move |i| (i, j)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -48,8 +48,7 @@ fn readmit(
     for _ in 0..READMISSIONS {
         let used: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();
         let views: Vec<View> = used.iter().map(|&i| view(i, found.reading[i])).collect();
-        let Ok(fit) = refine::fit_estimating_noise(&views, &found.hand_eye, &config.known, setup)
-        else {
+        let Ok(fit) = refine::fit_views(&views, &found.hand_eye, &config.known, setup) else {
             break;
         };
         let limit = surprise_limit(fit.degrees_of_freedom);
@@ -113,6 +112,7 @@ fn view(
             camera_from_target: readings.camera_from_target[k],
         },
         covariance: o.candidates[k].covariance.map(|c| carry * c * carry.transpose()),
+        by_camera: None,
     }
 }
 

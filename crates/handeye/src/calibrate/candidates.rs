@@ -1,15 +1,21 @@
 //! Every way to the answer, side by side, and the choice between them.
 
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::Matrix6;
 
-use super::{Config, agreement::Views, captures, verdict};
+use super::{
+    Config,
+    agreement::Views,
+    boards, captures,
+    joint::{self, Joint},
+    verdict,
+};
 use crate::{
     Camera, Error, HandEye, Mount, Pose, PosePair, Setup, Target, Warning, Workspace,
-    calibration::{Answer, Calibration, Candidate, Misfit, PoseCovariance, rows},
+    calibration::{Answer, Calibration, Candidate, PoseCovariance, rows},
     diagnose,
     evaluate::{self, Estimator},
     predict::{self, Volume},
-    refine::{self, PoseFit},
+    refine::{self, JointFit},
     solve::{self, Method, consensus::Consensus},
     touches::{self, Registration, TouchPairs},
 };
@@ -23,50 +29,52 @@ pub(super) fn estimate<'a>(
 ) -> Option<Views<'a>> {
     let setup = views.session.setup;
     result.diversity = Some(evaluate::diversity(&pairs_of(&views)));
-    let mut fit =
-        match refine::fit_estimating_noise(&views.views, &found.hand_eye, &config.known, setup) {
-            Ok(fit) => fit,
-            Err(error) => {
-                result.reasons.push(error.to_string());
-                result
-                    .undetermined
-                    .push(format!("the pose of the camera on the {}", setup.mount()));
-                return None;
-            }
-        };
+    let mut fit = match refine::fit_views(&views.views, &found.hand_eye, &config.known, setup) {
+        Ok(fit) => fit,
+        Err(error) => {
+            result.reasons.push(error.to_string());
+            result.undetermined.push(format!("the pose of the camera on the {}", setup.mount()));
+            return None;
+        }
+    };
     captures::orient_target(&mut views, &mut fit);
     result.undetermined = diagnose::undetermined(&fit, setup);
     result.error_budget = verdict::budget(&fit);
     verdict::judge_scale(&views, &fit, config, result);
-    let covariance = stated_covariance(&fit);
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
-    let mut candidates = view_candidates(&views, &fit, &covariance, &volume, &paired, config);
-    candidates.extend(touch_candidates(&views, &fit, &volume, &paired, config, result));
-    if let Some((posterior, touched)) = fit_covariances(&covariance, &candidates) {
-        compare_sources(&candidates, &posterior, &touched, result);
+    let joint = joint::fit(&views, &boards::boards(&views, &fit), &fit, &config.known);
+    if let Some(joint) = &joint {
+        result.error_budget = verdict::budget(&joint.fit);
+        joint.warn(&views, result);
+    }
+    let best = joint.as_ref().map_or(&fit, |j| &j.fit);
+    let judge =
+        Judge { views: &views, volume: &volume, paired: &paired, known: config.known, best };
+    let mut candidates = judge.view_candidates(&fit, joint.is_some(), config);
+    candidates.extend(judge.touch_candidates(&fit, config, result));
+    if config.method.is_none() {
+        candidates.extend(joint.as_ref().and_then(|j| judge.joint_candidate(j)));
     }
     choose(candidates, &views, &volume, config, result);
-    captures::report_touches(&views, &paired, result);
+    captures::report_touches(&views, &paired, joint.as_ref(), result);
     Some(views)
 }
 
 /// A candidate with what its choice needs.
 struct Judged {
     candidate: Candidate,
-    mount_from_camera: Pose<Mount, Camera>,
     tre: Option<predict::PredictedTre>,
-    covariance: Option<Matrix6<f64>>,
     /// Misfit of each capture when it was left out.
     held_out: Vec<Option<(f64, f64)>>,
 }
 
 /// Covariance of X and Y in their own frames, widened for noise estimated from few captures, and
 /// for data that fit worse than their noise says.
-fn stated_covariance(fit: &PoseFit) -> Option<refine::pose_fit::Matrix12> {
+fn stated_covariance(fit: &JointFit) -> Option<refine::pose_fit::Matrix12> {
     let dof = fit.degrees_of_freedom;
     let misfit = if dof > 0.0 { (fit.chi_squared / dof).max(1.0) } else { 1.0 };
-    fit.covariance.map(|c| c * (misfit * touches::small_sample(dof)))
+    fit.pose_covariance().map(|c| c * (misfit * touches::small_sample(dof)))
 }
 
 fn blocks(covariance: &refine::pose_fit::Matrix12) -> (Matrix6<f64>, Matrix6<f64>) {
@@ -76,65 +84,91 @@ fn blocks(covariance: &refine::pose_fit::Matrix12) -> (Matrix6<f64>, Matrix6<f64
     )
 }
 
-fn view_candidates(
-    views: &Views,
-    fit: &PoseFit,
-    covariance: &Option<refine::pose_fit::Matrix12>,
-    volume: &Volume,
-    paired: &[TouchPairs],
-    config: &Config,
-) -> Vec<Judged> {
-    let mut all: Vec<(String, Estimator)> = Method::ALL
-        .into_iter()
-        .map(|m| (format!("closed-form-{}", m.name()), Estimator::ClosedForm(m)))
-        .collect();
-    all.push(("least-squares".into(), Estimator::LeastSquares));
-    all.push(("maximum-likelihood".into(), Estimator::MaximumLikelihood(config.known)));
-    if let Some(method) = config.method {
-        all.retain(|(_, e)| *e == Estimator::ClosedForm(method));
-    }
-    all.into_iter()
-        .filter_map(|(name, estimator)| {
-            view_candidate(views, fit, covariance, volume, paired, name, &estimator)
-        })
-        .collect()
+/// What every candidate is judged by: the best answer and how sure it is. A candidate's predicted
+/// error is that of the best answer plus, in full, the distance of the two: given everything that
+/// was measured, that is its expected error.
+struct Judge<'a> {
+    views: &'a Views<'a>,
+    volume: &'a Volume,
+    paired: &'a [TouchPairs],
+    known: refine::KnownNoise,
+    best: &'a JointFit,
 }
 
-/// One candidate from views alone. Its predicted error is that of the most likely answer plus, in
-/// full, the distance of the two: given the views, that is its expected error.
-fn view_candidate(
-    views: &Views,
-    fit: &PoseFit,
-    covariance: &Option<refine::pose_fit::Matrix12>,
-    volume: &Volume,
-    paired: &[TouchPairs],
-    name: String,
-    estimator: &Estimator,
-) -> Option<Judged> {
-    let setup = views.session.setup;
-    let answer = match estimator {
-        Estimator::MaximumLikelihood(_) => fit.hand_eye,
-        other => other.estimate(&views.views, &fit.hand_eye, setup).ok()?,
-    };
-    let x = answer.mount_from_camera;
-    let tre = covariance.as_ref().map(|c| {
-        predict::tre(volume, &blocks(c).0, predict::difference(&fit.hand_eye.mount_from_camera, &x))
-    });
-    let left_out = evaluate::held_out(estimator, &views.views, &fit.hand_eye, setup);
-    let held_out = evaluate::rms(&left_out);
-    let touch_rms = touches::touch_rms(paired, &x).map(|m| m * 1e3);
-    let candidate = Candidate {
-        name,
-        hand_eye: stored(views, &answer, covariance.as_ref()),
-        in_sample: evaluate::in_sample(&answer, &views.views),
-        held_out,
-        touch_rms_mm: touch_rms,
-        held_out_mm: touch_rms.or(held_out.translation_rms_mm),
-        predicted_tre_mm: tre.as_ref().map(|t| t.rms),
-        note: None,
-    };
-    let covariance = covariance.as_ref().map(|c| blocks(c).0);
-    Some(Judged { candidate, mount_from_camera: x, tre, covariance, held_out: left_out })
+impl Judge<'_> {
+    fn tre(&self, x: &Pose<Mount, Camera>) -> Option<predict::PredictedTre> {
+        let covariance = stated_covariance(self.best)?;
+        let offset = predict::difference(&self.best.hand_eye.mount_from_camera, x);
+        Some(predict::tre(self.volume, &blocks(&covariance).0, offset))
+    }
+
+    fn view_candidates(&self, fit: &JointFit, touched: bool, config: &Config) -> Vec<Judged> {
+        let likeliest = if touched { "views-only" } else { "joint" };
+        let mut all: Vec<(String, Estimator)> = Method::ALL
+            .into_iter()
+            .map(|m| (format!("closed-form-{}", m.name()), Estimator::ClosedForm(m)))
+            .collect();
+        all.push(("least-squares".into(), Estimator::LeastSquares));
+        all.push((likeliest.into(), Estimator::MaximumLikelihood(config.known)));
+        if let Some(method) = config.method {
+            all.retain(|(_, e)| *e == Estimator::ClosedForm(method));
+        }
+        all.into_iter()
+            .filter_map(|(name, estimator)| self.view_candidate(fit, name, &estimator))
+            .collect()
+    }
+
+    /// One candidate from views alone.
+    fn view_candidate(
+        &self,
+        fit: &JointFit,
+        name: String,
+        estimator: &Estimator,
+    ) -> Option<Judged> {
+        let (views, setup) = (self.views, self.views.session.setup);
+        let answer = match estimator {
+            Estimator::MaximumLikelihood(_) => fit.hand_eye,
+            other => other.estimate(&views.views, &fit.hand_eye, setup).ok()?,
+        };
+        let x = answer.mount_from_camera;
+        let tre = self.tre(&x);
+        let left_out = evaluate::held_out(estimator, &views.views, &fit.hand_eye, setup);
+        let held_out = evaluate::rms(&left_out);
+        let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
+        let covariance = stated_covariance(fit);
+        let candidate = Candidate {
+            name,
+            hand_eye: stored(views, &answer, covariance.as_ref()),
+            in_sample: evaluate::in_sample(&answer, &views.views),
+            held_out,
+            touch_rms_mm: touch_rms,
+            held_out_mm: touch_rms.or(held_out.translation_rms_mm),
+            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+            note: None,
+        };
+        Some(Judged { candidate, tre, held_out: left_out })
+    }
+
+    /// The fit of everything.
+    fn joint_candidate(&self, joint: &Joint) -> Option<Judged> {
+        let fit = &joint.fit;
+        let x = fit.hand_eye.mount_from_camera;
+        let tre = self.tre(&x);
+        let left_out = joint.held_out_views(&self.known);
+        let held_out = evaluate::rms(&left_out);
+        let touch_held_out = joint.held_out_touches(&self.known).map(|m| m * 1e3);
+        let candidate = Candidate {
+            name: "joint".into(),
+            hand_eye: stored(self.views, &fit.hand_eye, stated_covariance(fit).as_ref()),
+            in_sample: evaluate::in_sample(&fit.hand_eye, &self.views.views),
+            held_out,
+            touch_rms_mm: joint.touch_rms().map(|m| m * 1e3),
+            held_out_mm: touch_held_out.or(held_out.translation_rms_mm),
+            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+            note: joint.note(),
+        };
+        Some(Judged { candidate, tre, held_out: left_out })
+    }
 }
 
 /// The answer for files: about the target's own origin again.
@@ -156,41 +190,84 @@ fn stored(
     }
 }
 
-fn touch_candidates(
-    views: &Views,
-    fit: &PoseFit,
-    volume: &Volume,
-    paired: &[TouchPairs],
-    config: &Config,
-    result: &mut Calibration,
-) -> Vec<Judged> {
-    if paired.is_empty() || config.method.is_some() {
-        return vec![];
-    }
-    let kinds =
-        [("two-step-svd", Registration::Svd), ("two-step-icp", Registration::Icp(config.icp))];
-    let mut all = Vec::new();
-    for (name, registration) in kinds {
-        match touch_candidate(views, fit, volume, paired, name, registration) {
-            Ok(mut judged) => {
-                let placed = solve::place_target(&pairs_of(views), &judged.mount_from_camera);
-                judged.candidate.in_sample = evaluate::in_sample(&placed, &views.views);
-                judged.held_out = evaluate::placed_without(&views.views, &judged.mount_from_camera);
-                judged.candidate.held_out = evaluate::rms(&judged.held_out);
-                place_target(views, fit, &placed, &mut judged);
-                all.push(judged);
-            }
-            Err(error) => result
-                .warnings
-                .push(Warning::new("touches-not-enough", format!("no {name} candidate: {error}"))),
+impl Judge<'_> {
+    fn touch_candidates(
+        &self,
+        fit: &JointFit,
+        config: &Config,
+        result: &mut Calibration,
+    ) -> Vec<Judged> {
+        if self.paired.is_empty() || config.method.is_some() {
+            return vec![];
         }
+        let kinds =
+            [("two-step-svd", Registration::Svd), ("two-step-icp", Registration::Icp(config.icp))];
+        let mut all = Vec::new();
+        for (name, registration) in kinds {
+            match self.touch_candidate(fit, name, registration) {
+                Ok(judged) => all.push(judged),
+                Err(error) => result.warnings.push(Warning::new(
+                    "touches-not-enough",
+                    format!("no {name} candidate: {error}"),
+                )),
+            }
+        }
+        all
     }
-    all
+
+    fn touch_candidate(
+        &self,
+        fit: &JointFit,
+        name: &str,
+        registration: Registration,
+    ) -> Result<Judged, Error> {
+        let (views, paired) = (self.views, self.paired);
+        let all: Vec<&TouchPairs> = paired.iter().collect();
+        let start = fit.hand_eye.mount_from_camera;
+        let found = touches::fit_touches(&all, &start, registration)?;
+        let x = found.mount_from_camera;
+        let shared = touches::view_covariance(paired, &view_noise(views, fit));
+        let covariance = found.covariance.map(|c| c + shared.unwrap_or_else(Matrix6::zeros));
+        // nearest neighbours that differ from the touched corners prove the match wrong
+        let tre = self.tre(&x).filter(|_| found.wrong_matches == 0);
+        let placed = solve::place_target(&pairs_of(views), &x);
+        let held_out = evaluate::placed_without(&views.views, &x);
+        let candidate = Candidate {
+            name: name.into(),
+            hand_eye: stored_registration(views, fit, &placed, covariance.as_ref()),
+            in_sample: evaluate::in_sample(&placed, &views.views),
+            held_out: evaluate::rms(&held_out),
+            touch_rms_mm: touches::touch_rms(paired, &x).map(|m| m * 1e3),
+            held_out_mm: touches::held_out(paired, &start, registration).map(|m| m * 1e3),
+            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+            note: registration_note(&found),
+        };
+        Ok(Judged { candidate, tre, held_out })
+    }
 }
 
-/// Adds the target's place to a registration of touches. With `Y_i = A_i X C_i` averaged over the
-/// views, `cov(Y) = J cov(X) Jᵀ + Σ S_i/N²`, `J = Σ Ad(C_i⁻¹)/N`, and `S_i` the noise of one view.
-fn place_target(views: &Views, fit: &PoseFit, placed: &HandEye, judged: &mut Judged) {
+fn registration_note(found: &touches::TouchFit) -> Option<String> {
+    match found.stop {
+        Some((rounds, stop)) => Some(format!(
+            "{rounds} iterations, {stop:?}; {} of the matches are other corners than were touched",
+            found.wrong_matches
+        )),
+        None if found.covariance.is_none() => {
+            Some("three touches leave nothing to judge their error by; touch more".into())
+        }
+        None => None,
+    }
+}
+
+/// A registration of touches and the target's place that follows. With `Y_i = A_i X C_i` averaged
+/// over the views, `cov(Y) = J cov(X) Jᵀ + Σ S_i/N²`, `J = Σ Ad(C_i⁻¹)/N`, and `S_i` the noise of
+/// one view.
+fn stored_registration(
+    views: &Views,
+    fit: &JointFit,
+    placed: &HandEye,
+    covariance: Option<&Matrix6<f64>>,
+) -> Answer {
     let n = views.views.len() as f64;
     let carry = |v: &refine::View| crate::lie::adjoint(v.pair.camera_from_target.inverse().iso());
     let j = views.views.iter().map(carry).sum::<Matrix6<f64>>() / n;
@@ -198,11 +275,15 @@ fn place_target(views: &Views, fit: &PoseFit, placed: &HandEye, judged: &mut Jud
     let noise = |v: &refine::View| fit.noise.covariance(v, &fit.hand_eye, setup);
     let own = views.views.iter().map(noise).sum::<Matrix6<f64>>() / (n * n);
     let to_origin = crate::lie::adjoint(views.target_from_corner.iso());
-    let answer = &mut judged.candidate.hand_eye;
-    answer.anchor_from_target = stored(views, placed, None).anchor_from_target;
-    answer.covariance.anchor_from_target = judged
-        .covariance
-        .map(|x| rows(&(to_origin * (j * x * j.transpose() + own) * to_origin.transpose())));
+    let place =
+        |x: &Matrix6<f64>| to_origin * (j * x * j.transpose() + own) * to_origin.transpose();
+    Answer {
+        covariance: PoseCovariance {
+            mount_from_camera: covariance.map(rows),
+            anchor_from_target: covariance.map(|x| rows(&place(x))),
+        },
+        ..stored(views, placed, None)
+    }
 }
 
 fn pairs_of(views: &Views) -> Vec<PosePair> {
@@ -210,100 +291,12 @@ fn pairs_of(views: &Views) -> Vec<PosePair> {
 }
 
 /// Noise of every view as the touches see it.
-fn view_noise(views: &Views, fit: &PoseFit) -> Vec<touches::ViewNoise> {
+fn view_noise(views: &Views, fit: &JointFit) -> Vec<touches::ViewNoise> {
     let one = |v: &refine::View| touches::ViewNoise {
         camera_from_target: v.pair.camera_from_target.rotation(),
         covariance: fit.noise.covariance(v, &fit.hand_eye, views.session.setup),
     };
     views.views.iter().map(one).collect()
-}
-
-fn touch_candidate(
-    views: &Views,
-    fit: &PoseFit,
-    volume: &Volume,
-    paired: &[TouchPairs],
-    name: &str,
-    registration: Registration,
-) -> Result<Judged, Error> {
-    let all: Vec<&TouchPairs> = paired.iter().collect();
-    let start = fit.hand_eye.mount_from_camera;
-    let found = touches::fit_touches(&all, &start, registration)?;
-    let x = found.mount_from_camera;
-    let shared = touches::view_covariance(paired, &view_noise(views, fit));
-    let covariance = found.covariance.map(|c| c + shared.unwrap_or_else(Matrix6::zeros));
-    let tre = covariance.map(|c| predict::tre(volume, &c, |_| Vector3::zeros()));
-    let wrong = found.wrong_matches;
-    let note = match (registration, found.stop) {
-        (Registration::Icp(_), Some((rounds, stop))) => Some(format!(
-            "{rounds} iterations, {stop:?}; {} of the matches are other corners than were touched",
-            wrong
-        )),
-        _ if found.covariance.is_none() => {
-            Some("three touches leave nothing to judge their error by; touch more".into())
-        }
-        _ => None,
-    };
-    // nearest neighbours that differ from the touched corners prove the match wrong
-    let usable = wrong == 0;
-    Ok(Judged {
-        candidate: Candidate {
-            name: name.into(),
-            hand_eye: Answer {
-                mount_from_camera: Some(x),
-                anchor_from_target: None,
-                covariance: PoseCovariance {
-                    mount_from_camera: covariance.as_ref().map(rows),
-                    anchor_from_target: None,
-                },
-            },
-            in_sample: Misfit::default(),
-            held_out: Misfit::default(),
-            touch_rms_mm: touches::touch_rms(paired, &x).map(|m| m * 1e3),
-            held_out_mm: touches::held_out(paired, &start, registration).map(|m| m * 1e3),
-            predicted_tre_mm: tre.as_ref().filter(|_| usable).map(|t| t.rms),
-            note,
-        },
-        mount_from_camera: x,
-        tre: tre.filter(|_| usable),
-        covariance,
-        held_out: vec![],
-    })
-}
-
-fn fit_covariances(
-    covariance: &Option<refine::pose_fit::Matrix12>,
-    candidates: &[Judged],
-) -> Option<(Matrix6<f64>, Matrix6<f64>)> {
-    let touch = candidates.iter().find(|c| c.candidate.name == "two-step-svd")?.covariance?;
-    Some((blocks(covariance.as_ref()?).0, touch))
-}
-
-/// Chance of a disagreement between views and touches below which it is called systematic.
-const CONFLICT: f64 = 0.001;
-
-fn compare_sources(
-    candidates: &[Judged],
-    views: &Matrix6<f64>,
-    touched: &Matrix6<f64>,
-    result: &mut Calibration,
-) {
-    let of = |name: &str| candidates.iter().find(|c| c.candidate.name == name);
-    let (Some(a), Some(b)) = (of("maximum-likelihood"), of("two-step-svd")) else { return };
-    let found =
-        touches::consistency((&a.mount_from_camera, views), (&b.mount_from_camera, touched));
-    let Some((_, p)) = found else { return };
-    if p < CONFLICT {
-        let gap = a.candidate.touch_rms_mm.unwrap_or(f64::NAN);
-        result.warnings.push(Warning::new(
-            "views-and-touches-disagree",
-            format!(
-                "views and touches disagree: the touched corners lie {gap:.2} mm (RMS) from where \
-                 the views put them, p = {p:.1e}; check the tool tip first, then the robot's \
-                 calibration"
-            ),
-        ));
-    }
 }
 
 /// The least predicted error wins; the residual has no say.
@@ -360,7 +353,7 @@ fn why(best: &Judged, all: &[Judged], volume: &Volume, config: &Config) -> Strin
 }
 
 /// Where the answer will be used, in the camera frame.
-fn volume(views: &Views, fit: &PoseFit) -> Option<Volume> {
+fn volume(views: &Views, fit: &JointFit) -> Option<Volume> {
     if let Some(w) = &views.session.workspace {
         return Some(workspace_volume(views.session.setup, w, &fit.hand_eye.mount_from_camera));
     }

@@ -1,12 +1,12 @@
 //! Misfit of every capture and touch, and which way round the target lies.
 
-use super::agreement::Views;
+use super::{agreement::Views, joint::Joint};
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
     TargetPose, Touch, Warning,
     calibration::{Calibration, TouchResult},
     detect, evaluate, lie,
-    refine::{PoseFit, View},
+    refine::{JointFit, View},
     touches::{self, TouchPairs},
 };
 
@@ -37,7 +37,7 @@ fn relabelling_of(
 
 /// Turns a symmetric target so that its corners lie where they were touched (eye-in-hand): views
 /// alone cannot tell the board from itself turned by half a turn, and need not.
-pub(super) fn orient_target(views: &mut Views, fit: &mut PoseFit) {
+pub(super) fn orient_target(views: &mut Views, fit: &mut JointFit) {
     let Some(target) = &views.session.target else { return };
     if views.session.setup != crate::Setup::EyeInHand || views.session.touches.is_empty() {
         return;
@@ -60,22 +60,24 @@ pub(super) fn orient_target(views: &mut Views, fit: &mut PoseFit) {
     }
 }
 
-fn turn_all(views: &mut Views, fit: &mut PoseFit, old_from_new: &Pose<Target, Target>) {
+fn turn_all(views: &mut Views, fit: &mut JointFit, old_from_new: &Pose<Target, Target>) {
     let s = views.target_from_corner;
     let turn = s.inverse() * *old_from_new * s;
     let carry = lie::adjoint(turn.inverse().iso());
     for view in &mut views.views {
         view.pair.camera_from_target = view.pair.camera_from_target * turn;
         view.covariance = view.covariance.map(|c| carry * c * carry.transpose());
+        view.by_camera = view.by_camera.map(|by| carry * by);
     }
     fit.hand_eye = fit.hand_eye.retarget(turn);
-    let mut both = crate::refine::pose_fit::Matrix12::identity();
+    let n = fit.information.nrows();
+    let mut both = nalgebra::DMatrix::identity(n, n);
     both.fixed_view_mut::<6, 6>(6, 6).copy_from(&carry);
-    fit.covariance = fit.covariance.map(|c| both * c * both.transpose());
+    fit.covariance = fit.covariance.take().map(|c| &both * c * both.transpose());
 }
 
 /// A placement in the reading that puts its corners where they were touched.
-fn oriented(
+pub(super) fn oriented(
     placement: &Placement,
     touches: &[Touch],
     x: &Pose<Mount, Camera>,
@@ -104,7 +106,7 @@ fn oriented(
 /// Pairs touches with what the camera measured of their corners.
 pub(super) fn pair_touches(
     views: &Views,
-    fit: &PoseFit,
+    fit: &JointFit,
     result: &mut Calibration,
 ) -> Vec<TouchPairs> {
     let Some(target) = &views.session.target else { return vec![] };
@@ -212,9 +214,16 @@ fn picture_residual(
 }
 
 /// Where the chosen answer puts each touched corner.
-pub(super) fn report_touches(views: &Views, paired: &[TouchPairs], result: &mut Calibration) {
+pub(super) fn report_touches(
+    views: &Views,
+    paired: &[TouchPairs],
+    joint: Option<&Joint>,
+    result: &mut Calibration,
+) {
     let Some(x) = result.hand_eye.mount_from_camera else { return };
-    let used = result.chosen.as_deref().is_some_and(|n| n.starts_with("two-step"));
+    let chosen = |name: &str| result.chosen.as_deref().is_some_and(|n| n.starts_with(name));
+    let (registered, fused) = (chosen("two-step"), chosen("joint"));
+    let taken = |touch: usize| joint.is_some_and(|j| j.used.contains(&touch));
     let one = |p: &TouchPairs| {
         let difference_mm = touches::touch_error(p, &x) * 1e3;
         TouchResult {
@@ -222,7 +231,7 @@ pub(super) fn report_touches(views: &Views, paired: &[TouchPairs], result: &mut 
             corner: views.session.touches[p.touch].corner,
             residual_mm: difference_mm.norm(),
             difference_mm,
-            used,
+            used: registered || fused && taken(p.touch),
         }
     };
     result.touches = paired.iter().map(one).collect();

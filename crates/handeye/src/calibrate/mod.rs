@@ -6,8 +6,10 @@
 //! Point pairs alone take the short way through `points`.
 
 mod agreement;
+mod boards;
 mod candidates;
 mod captures;
+mod joint;
 mod points;
 mod sources;
 mod verdict;

@@ -5,7 +5,7 @@ use crate::{
     Warning,
     calibration::{Answer, BudgetEntry, Calibration, Scale, Verdict},
     diagnose,
-    refine::{self, PoseFit, noise::Source},
+    refine::{self, JointFit, noise::Source},
 };
 
 /// Predicted error (95 %) beyond which an answer is rejected when the user named no limit, mm.
@@ -113,7 +113,7 @@ fn imprecision(config: &Config, result: &Calibration) -> Vec<String> {
     }
 }
 
-pub(super) fn budget(fit: &PoseFit) -> Vec<BudgetEntry> {
+pub(super) fn budget(fit: &JointFit) -> Vec<BudgetEntry> {
     let text = |s: &refine::Sigma| match s.source {
         Source::Picture => format!("{:.2} times what the corners' scatter says", s.sigma),
         k if k.is_rotation() => format!("{:.4} deg per axis", s.sigma.to_degrees()),
@@ -128,7 +128,12 @@ pub(super) fn budget(fit: &PoseFit) -> Vec<BudgetEntry> {
     fit.noise.sigmas.iter().map(entry).collect()
 }
 
-pub(super) fn judge_scale(views: &Views, fit: &PoseFit, config: &Config, result: &mut Calibration) {
+pub(super) fn judge_scale(
+    views: &Views,
+    fit: &JointFit,
+    config: &Config,
+    result: &mut Calibration,
+) {
     if views.views.len() < 5 || result.verdict == Verdict::Rejected {
         return;
     }

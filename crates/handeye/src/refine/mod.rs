@@ -1,7 +1,17 @@
 //! Refinement of both unknowns from a start, with covariance.
+//!
+//! [`joint`] is the estimator: one maximum-likelihood fit of everything that was measured, the
+//! noise of every source estimated alongside. [`pose_fit`] is least squares, for starts and for
+//! comparison.
 
+pub mod extra;
+pub mod joint;
 pub mod noise;
 pub mod pose_fit;
+pub mod touched;
 
-pub use noise::{NoiseModel, Sigma};
-pub use pose_fit::{PoseFit, View, fit, fit_estimating_noise, fit_fixed_weights};
+pub use extra::{Extra, ExtraKind};
+pub use joint::{JointFit, Problem, fit_joint, fit_views};
+pub use noise::{KnownNoise, NoiseModel, Sigma, Source};
+pub use pose_fit::{TARGET_SCALE, View, fit_fixed_weights};
+pub use touched::{TouchedBoard, TouchedCorner};

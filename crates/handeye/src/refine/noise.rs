@@ -1,14 +1,20 @@
-//! Where the misfit of a loop `C⁻¹ X⁻¹ A⁻¹ Y = exp(r)` comes from.
+//! Where the misfit of a loop `C⁻¹ X⁻¹ A⁻¹ Y = exp(r)` comes from, and that of a touch.
 //!
-//! The robot errs at the flange, the camera in its own axes at the target. Each source of error is
-//! one variance component: `cov(r_i) = Σ_k θ_k G_ik`, with known `G_ik` and unknown `θ_k` (rad² or
-//! m², or a pure factor on a covariance that came with the picture).
+//! The robot errs at the flange, the camera in its own axes at the target, the tip where it is led
+//! by hand. Each source of error is one variance component, and each misfit a sum of them:
+//!
+//! ```text
+//! cov(r_i) = B_i Θ B_iᵀ        Θ = diag(θ_source(column))
+//! ```
+//!
+//! with known factors `B_i` and unknown `θ` (rad² or m², or a pure factor on a covariance that came
+//! with the picture).
 
-use nalgebra::{Isometry3, Matrix3, Matrix6};
+use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::View;
-use crate::{HandEye, Setup, lie};
+use crate::{HandEye, Setup, lie, linalg};
 
 /// One source of error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,21 +33,27 @@ pub enum Source {
     CameraLateral,
     /// Position of such a pose along the optical axis.
     CameraDepth,
+    /// How well the tip is led onto a corner.
+    Touch,
 }
 
 impl Source {
-    /// Sources that act on views with a covariance of their own.
-    pub const WITH_COVARIANCE: [Source; 3] =
-        [Source::RobotRotation, Source::RobotPosition, Source::Picture];
-    /// Sources that act on views that are bare poses.
-    pub const BARE: [Source; 6] = [
+    /// Every source, in the order of their numbers.
+    pub const ALL: [Source; 8] = [
         Source::RobotRotation,
         Source::RobotPosition,
+        Source::Picture,
         Source::CameraTilt,
         Source::CameraRoll,
         Source::CameraLateral,
         Source::CameraDepth,
+        Source::Touch,
     ];
+
+    /// Its number.
+    pub(super) fn index(self) -> usize {
+        self as usize
+    }
 
     /// Words for people.
     pub fn name(self) -> &'static str {
@@ -53,6 +65,7 @@ impl Source {
             Source::CameraRoll => "camera roll",
             Source::CameraLateral => "camera lateral",
             Source::CameraDepth => "camera depth",
+            Source::Touch => "touch",
         }
     }
 
@@ -65,29 +78,67 @@ impl Source {
     pub(super) fn axes(self) -> f64 {
         match self {
             Source::Picture => 6.0,
-            Source::RobotRotation | Source::RobotPosition => 3.0,
+            Source::RobotRotation | Source::RobotPosition | Source::Touch => 3.0,
             Source::CameraTilt | Source::CameraLateral => 2.0,
             Source::CameraRoll | Source::CameraDepth => 1.0,
         }
     }
+}
 
-    /// `G_ik`, in the Target frame, rotation first.
-    pub(super) fn shape(self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
-        let in_camera = |rotation: [f64; 3], translation: [f64; 3]| {
-            let r = view.pair.camera_from_target.rotation();
-            let turned = |d: [f64; 3]| r.transpose() * Matrix3::from_diagonal(&d.into()) * r;
-            both(&turned(rotation), &turned(translation))
-        };
-        match self {
-            Source::RobotRotation => at_flange(view, hand_eye, setup, 1.0, 0.0),
-            Source::RobotPosition => at_flange(view, hand_eye, setup, 0.0, 1.0),
-            Source::Picture => view.covariance.unwrap_or_else(Matrix6::zeros),
-            Source::CameraTilt => in_camera([1.0, 1.0, 0.0], [0.0; 3]),
-            Source::CameraRoll => in_camera([0.0, 0.0, 1.0], [0.0; 3]),
-            Source::CameraLateral => in_camera([0.0; 3], [1.0, 1.0, 0.0]),
-            Source::CameraDepth => in_camera([0.0; 3], [0.0, 0.0, 1.0]),
+/// Columns of the factor of one view.
+pub(super) const COLUMNS: usize = 12;
+/// `B_i` of one view: robot rotation and position, then what the camera adds.
+pub(super) type Factor = SMatrix<f64, 6, COLUMNS>;
+
+/// The source behind each column of a view's factor.
+pub(super) fn columns(view: &View) -> [Source; COLUMNS] {
+    use Source::*;
+    let mut all = [Picture; COLUMNS];
+    all[..3].fill(RobotRotation);
+    all[3..6].fill(RobotPosition);
+    if view.covariance.is_none() {
+        all[6..].copy_from_slice(&[
+            CameraTilt,
+            CameraTilt,
+            CameraRoll,
+            CameraLateral,
+            CameraLateral,
+            CameraDepth,
+        ]);
+    }
+    all
+}
+
+/// `B_i`, in the Target frame, rotation first.
+pub(super) fn factor(view: &View, hand_eye: &HandEye, setup: Setup) -> Factor {
+    let mut b = Factor::zeros();
+    let target_from_flange: Isometry3<f64> = match setup {
+        // the mount is the flange: through the camera
+        Setup::EyeInHand => {
+            (hand_eye.mount_from_camera * view.pair.camera_from_target).iso().inverse()
+        }
+        // the anchor is the flange
+        Setup::EyeToHand => hand_eye.anchor_from_target.iso().inverse(),
+    };
+    b.fixed_view_mut::<6, 6>(0, 0).copy_from(&lie::adjoint(&target_from_flange));
+    b.fixed_view_mut::<6, 6>(0, 6).copy_from(&camera_factor(view));
+    b
+}
+
+/// The camera's columns: a root of the covariance that came with the pose, or its own axes.
+pub(super) fn camera_factor(view: &View) -> Matrix6<f64> {
+    match &view.covariance {
+        Some(covariance) => root(covariance),
+        None => {
+            let turned = view.pair.camera_from_target.rotation().transpose();
+            both(&turned, &turned)
         }
     }
+}
+
+/// `L` with `L Lᵀ = S`; zeros where `S` is no covariance.
+fn root(s: &Matrix6<f64>) -> Matrix6<f64> {
+    s.cholesky().map_or_else(Matrix6::zeros, |c| c.l())
 }
 
 fn both(rotation: &Matrix3<f64>, translation: &Matrix3<f64>) -> Matrix6<f64> {
@@ -97,27 +148,6 @@ fn both(rotation: &Matrix3<f64>, translation: &Matrix3<f64>) -> Matrix6<f64> {
     g
 }
 
-/// Isotropic noise at the flange, carried to the target.
-fn at_flange(
-    view: &View,
-    hand_eye: &HandEye,
-    setup: Setup,
-    rotation: f64,
-    position: f64,
-) -> Matrix6<f64> {
-    let target_from_flange: Isometry3<f64> = match setup {
-        // the mount is the flange: through the camera
-        Setup::EyeInHand => {
-            (hand_eye.mount_from_camera * view.pair.camera_from_target).iso().inverse()
-        }
-        // the anchor is the flange
-        Setup::EyeToHand => hand_eye.anchor_from_target.iso().inverse(),
-    };
-    let carry = lie::adjoint(&target_from_flange);
-    let noise = both(&(Matrix3::identity() * rotation), &(Matrix3::identity() * position));
-    carry * noise * carry.transpose()
-}
-
 /// Standard deviation of one source, per axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sigma {
@@ -125,6 +155,8 @@ pub struct Sigma {
     pub source: Source,
     /// rad, m, or a factor (for [`Source::Picture`]).
     pub sigma: f64,
+    /// Standard deviation of `sigma` over `sigma`; `None` where it was given, not estimated.
+    pub uncertainty: Option<f64>,
 }
 
 /// Standard deviations of all sources that act.
@@ -151,29 +183,23 @@ impl KnownNoise {
         match source {
             Source::RobotRotation => self.robot_rotation_rad,
             Source::RobotPosition => self.robot_position_m,
+            Source::Touch => self.touch_m,
             _ => None,
         }
     }
 }
 
 impl NoiseModel {
-    /// Largest relative change of a standard deviation.
-    pub(super) fn largest_change(&self, other: &NoiseModel) -> f64 {
-        let change = |(a, b): (&Sigma, &Sigma)| (b.sigma / a.sigma - 1.0).abs();
-        self.sigmas.iter().zip(&other.sigmas).map(change).fold(0.0, f64::max)
-    }
-
-    /// A cautious start for the estimation: a good industrial robot and a good camera.
-    pub fn start(bare: bool) -> Self {
-        let sources: &[Source] = if bare { &Source::BARE } else { &Source::WITH_COVARIANCE };
+    /// A cautious start for the estimation: a good industrial robot, camera and hand.
+    pub(super) fn start(sources: impl Iterator<Item = Source>) -> Self {
         let sigma = |source: Source| match source {
             Source::Picture => 1.0,
+            Source::Touch => 0.3e-3,
             s if s.is_rotation() => 2e-3,
             _ => 1e-3,
         };
-        Self {
-            sigmas: sources.iter().map(|&source| Sigma { source, sigma: sigma(source) }).collect(),
-        }
+        let one = |source| Sigma { source, sigma: sigma(source), uncertainty: None };
+        Self { sigmas: sources.map(one).collect() }
     }
 
     /// Standard deviation of a source, if it acts.
@@ -181,22 +207,46 @@ impl NoiseModel {
         self.sigmas.iter().find(|s| s.source == source).map(|s| s.sigma)
     }
 
+    /// Variances by number of the source; zero where it does not act.
+    pub(super) fn variances(&self) -> [f64; Source::ALL.len()] {
+        let mut all = [0.0; Source::ALL.len()];
+        for s in &self.sigmas {
+            all[s.source.index()] = s.sigma * s.sigma;
+        }
+        all
+    }
+
     /// Covariance of a view's misfit, in the Target frame.
     pub fn covariance(&self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
-        let sum: Matrix6<f64> = self
-            .sigmas
-            .iter()
-            .map(|s| s.source.shape(view, hand_eye, setup) * (s.sigma * s.sigma))
-            .sum();
-        // exact data have no noise at all: keep the weights finite
-        sum + both(
-            &(Matrix3::identity() * LEAST_ROTATION.powi(2)),
-            &(Matrix3::identity() * LEAST_POSITION.powi(2)),
-        )
+        covariance(&factor(view, hand_eye, setup), &columns(view), &self.variances())
+    }
+
+    /// Information of a view's misfit.
+    pub(super) fn weight(&self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
+        let covariance = self.covariance(view, hand_eye, setup);
+        linalg::invert_spd(&covariance).unwrap_or_else(Matrix6::zeros)
     }
 }
 
+/// `B Θ Bᵀ`, kept away from zero: exact data have no noise at all.
+pub(super) fn covariance(
+    b: &Factor,
+    columns: &[Source; COLUMNS],
+    variances: &[f64; Source::ALL.len()],
+) -> Matrix6<f64> {
+    let mut scaled = *b;
+    for (k, source) in columns.iter().enumerate() {
+        scaled.column_mut(k).scale_mut(variances[source.index()]);
+    }
+    let mut s = scaled * b.transpose();
+    for k in 0..3 {
+        s[(k, k)] += LEAST_ROTATION.powi(2);
+        s[(k + 3, k + 3)] += LEAST_POSITION.powi(2);
+    }
+    s
+}
+
 /// Floor of the rotation noise, rad: far below any instrument.
-const LEAST_ROTATION: f64 = 1e-9;
+pub(super) const LEAST_ROTATION: f64 = 1e-9;
 /// Floor of the position noise, m.
-const LEAST_POSITION: f64 = 1e-9;
+pub(super) const LEAST_POSITION: f64 = 1e-9;

@@ -1,26 +1,16 @@
-//! Maximum likelihood over pose pairs, with the noise of robot and camera estimated alongside.
+//! One capture as the fits see it, and least squares over captures with one weight for all.
 //!
 //! ```text
-//! r_i = log(C_i⁻¹ X⁻¹ A_i⁻¹ Y)        cov(r_i) = S_i = Σ_k θ_k G_ik
-//! ∂r/∂X = -J_l⁻¹(r) Ad(C_i⁻¹)          ∂r/∂Y = J_r⁻¹(r)
+//! r_i = log(C_i⁻¹ X⁻¹ A_i⁻¹ Y)
+//! ∂r/∂X = -J_l⁻¹(r) Ad(C_i⁻¹)          ∂r/∂Y = J_r⁻¹(r)          ∂r/∂C = -J_l⁻¹(r)
 //! ```
 //!
-//! with `X = mount_from_camera`, `Y = anchor_from_target`, both perturbed on the right. To first
-//! order this is the marginal of the full problem in which every robot pose is an unknown of its
-//! own. Given the noise, Levenberg-Marquardt finds `X, Y`; given those, restricted maximum
-//! likelihood (REML) gives the `θ`: with `u_i = S_i⁻¹ r_i`, `H = Σ JᵀS⁻¹J`,
-//!
-//! ```text
-//! θ_k ← θ_k · Σ u_iᵀ G_ik u_i / (Σ tr(S_i⁻¹ G_ik) - tr(H⁻¹ Σ J_iᵀ S_i⁻¹ G_ik S_i⁻¹ J_i))
-//! ```
-//!
-//! D. Harville, *Maximum likelihood approaches to variance component estimation*, JASA 72, 1977;
-//! M. Ulrich and M. Hillemann, *Uncertainty-aware hand-eye calibration*, IEEE T-RO 40, 2024.
+//! with `X = mount_from_camera`, `Y = anchor_from_target`, all perturbed on the right.
 
-use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
+use nalgebra::{DVector, Matrix6, SMatrix, SVector, Vector6};
 
-use super::noise::{KnownNoise, NoiseModel, Sigma, Source};
-use crate::{Error, HandEye, PosePair, Setup, lie, linalg};
+use super::extra::{Extra, ExtraKind};
+use crate::{HandEye, PosePair, lie, linalg};
 
 /// One capture as the fit sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,39 +19,50 @@ pub struct View {
     pub pair: PosePair,
     /// Covariance of the target pose, in the Target frame; `None` when unknown.
     pub covariance: Option<Matrix6<f64>>,
+    /// How the target pose moves (perturbed on the right) with the parameters of camera and target
+    /// of [`super::sight`]; `None` where it cannot.
+    pub by_camera: Option<SMatrix<f64, 6, CAMERA>>,
 }
 
-/// Information and covariance matrices of both unknowns: X first, then Y.
+/// Parameters of camera and target that a target pose may depend on.
+pub const CAMERA: usize = 12;
+/// Number of the parameter that makes the target larger.
+pub const TARGET_SCALE: usize = 0;
+
+impl View {
+    /// A pose that came from elsewhere, of unknown covariance.
+    pub fn bare(pair: PosePair) -> Self {
+        Self { pair, covariance: None, by_camera: None }
+    }
+
+    /// How the target pose moves with one parameter.
+    pub(super) fn by_camera(&self, which: usize) -> Vector6<f64> {
+        self.by_camera.map_or_else(Vector6::zeros, |m| m.column(which).into())
+    }
+
+    /// The pair at other values of the camera's parameters.
+    pub(super) fn with(&self, extras: &[Extra], values: &DVector<f64>) -> PosePair {
+        let Some(by_camera) = &self.by_camera else { return self.pair };
+        let mut step = Vector6::zeros();
+        for (extra, value) in extras.iter().zip(values) {
+            if let ExtraKind::Camera(which) = extra.kind {
+                step += by_camera.column(which) * *value;
+            }
+        }
+        let camera_from_target = self.pair.camera_from_target.retract(&step);
+        PosePair { camera_from_target, ..self.pair }
+    }
+}
+
+/// Information and covariance of both unknowns: X first, then Y.
 pub type Matrix12 = SMatrix<f64, 12, 12>;
-type Vector12 = SVector<f64, 12>;
+pub(super) type Vector12 = SVector<f64, 12>;
 type Matrix6x12 = SMatrix<f64, 6, 12>;
-
-/// Both unknowns, and how sure they are.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PoseFit {
-    /// The answer.
-    pub hand_eye: HandEye,
-    /// Covariance of `(X, Y)`; `None` where the views leave a direction free.
-    pub covariance: Option<Matrix12>,
-    /// Information of `(X, Y)`.
-    pub information: Matrix12,
-    /// Noise of each source, per axis.
-    pub noise: NoiseModel,
-    /// `Σ rᵀ S⁻¹ r`.
-    pub chi_squared: f64,
-    /// Equations minus unknowns.
-    pub degrees_of_freedom: f64,
-}
 
 /// Steps of one fit; it takes five from a closed form.
 const MOST_STEPS: usize = 100;
 /// The fit has converged when a step changes the cost by less than this part of it.
 const COST_CHANGE: f64 = 1e-14;
-/// Rounds of noise estimation.
-const MOST_ROUNDS: usize = 200;
-/// Noise estimation has converged when no standard deviation changes by more than this part.
-const SIGMA_CHANGE: f64 = 1e-4;
-
 /// The misfit of one view, `r_i`.
 pub fn misfit(hand_eye: &HandEye, pair: &PosePair) -> Vector6<f64> {
     lie::log(hand_eye.loop_error(pair).inverse().iso())
@@ -100,7 +101,7 @@ fn normal(views: &[View], weights: &[Matrix6<f64>], at: &HandEye) -> Normal {
     sum
 }
 
-fn moved(at: &HandEye, step: &Vector12) -> HandEye {
+pub(super) fn moved(at: &HandEye, step: &Vector12) -> HandEye {
     let half = |k: usize| Vector6::from_fn(|i, _| step[k + i]);
     HandEye {
         mount_from_camera: at.mount_from_camera.retract(&half(0)),
@@ -155,174 +156,11 @@ fn damped_step(at: &Normal, damping: f64) -> Option<Vector12> {
     Some(step - inverse * (at.g + h * step))
 }
 
-/// Fits both unknowns for noise that is known.
-///
-/// The weights follow the fit: robot noise is carried to the target through `X` or `Y`.
-pub fn fit(views: &[View], start: &HandEye, noise: &NoiseModel, setup: Setup) -> PoseFit {
-    let mut at = *start;
-    for _ in 0..3 {
-        let weights = weights(views, &at, noise, setup);
-        let (next, _) = minimise(views, &weights, &at);
-        let still = next.mount_from_camera.distance_to(&at.mount_from_camera) < 1e-12;
-        at = next;
-        if still {
-            break;
-        }
-    }
-    let weights = weights(views, &at, noise, setup);
-    let normal = normal(views, &weights, &at);
-    PoseFit {
-        hand_eye: at,
-        covariance: linalg::invert_spd(&normal.h),
-        information: normal.h,
-        noise: noise.clone(),
-        chi_squared: normal.cost,
-        degrees_of_freedom: 6.0 * views.len() as f64 - 12.0,
-    }
-}
-
-fn weights(views: &[View], at: &HandEye, noise: &NoiseModel, setup: Setup) -> Vec<Matrix6<f64>> {
-    let weight = |view: &View| {
-        linalg::invert_spd(&noise.covariance(view, at, setup)).unwrap_or_else(Matrix6::zeros)
-    };
-    views.iter().map(weight).collect()
-}
-
 /// Fits both unknowns with one weight for all: 1 rad of misfit costs as much as `metres_per_rad`.
 pub fn fit_fixed_weights(views: &[View], start: &HandEye, metres_per_rad: f64) -> HandEye {
     let rotation = metres_per_rad * metres_per_rad;
     let weight = Matrix6::from_diagonal(&Vector6::new(rotation, rotation, rotation, 1.0, 1.0, 1.0));
     minimise(views, &vec![weight; views.len()], start).0
-}
-
-/// Fits both unknowns and the noise of every source, by REML.
-///
-/// Few captures tell little about the noise, so each component carries a prior worth
-/// `PRIOR_VIEWS` captures at the common level of the misfit, shared out as in `first_noise`.
-pub fn fit_estimating_noise(
-    views: &[View],
-    start: &HandEye,
-    known: &KnownNoise,
-    setup: Setup,
-) -> Result<PoseFit, Error> {
-    if views.len() < crate::solve::FEWEST_POSES {
-        return Err(crate::solve::too_few(views.len()));
-    }
-    let start = fit_fixed_weights(views, start, FIRST_WEIGHT);
-    let prior = levelled(views, &start, first_noise(views, &start, known), known, setup);
-    let mut at = fit(views, &start, &prior, setup);
-    for _ in 0..MOST_ROUNDS {
-        let noise = updated_noise(views, &at, &prior, known, setup);
-        let change = at.noise.largest_change(&noise);
-        at = fit(views, &at.hand_eye, &noise, setup);
-        if change < SIGMA_CHANGE {
-            break;
-        }
-    }
-    Ok(at)
-}
-
-/// Weight of rotation against translation in the fit whose misfit gives the first noise level,
-/// m per rad.
-const FIRST_WEIGHT: f64 = 0.3;
-/// Captures' worth of prior belief in the first noise level.
-const PRIOR_VIEWS: f64 = 2.0;
-/// Prior share of the misfit in rotation that is the robot's: a robot reports its orientation
-/// several times better than one picture tells a board's tilt.
-const ROBOT_ROTATION_SHARE: f64 = 0.3;
-
-/// The level of the misfit, shared between robot and camera.
-fn first_noise(views: &[View], start: &HandEye, known: &KnownNoise) -> NoiseModel {
-    let (mut rotation, mut position) = (0.0, 0.0);
-    for view in views {
-        let r = misfit(start, &view.pair);
-        rotation += lie::omega(&r).norm_squared();
-        position += lie::nu(&r).norm_squared();
-    }
-    let level = |sum: f64| (0.5 * sum / (3.0 * views.len() as f64 - 6.0).max(3.0)).sqrt().max(1e-9);
-    let mut noise = NoiseModel::start(views.iter().any(|v| v.covariance.is_none()));
-    for s in &mut noise.sigmas {
-        let sigma = match s.source {
-            Source::Picture => 1.0,
-            Source::RobotRotation => level(rotation) * ROBOT_ROTATION_SHARE,
-            s if s.is_rotation() => level(rotation),
-            _ => level(position),
-        };
-        s.sigma = known.sigma(s.source).unwrap_or(sigma);
-    }
-    noise
-}
-
-/// The same shares at the height that makes the misfit as large as expected.
-fn levelled(
-    views: &[View],
-    start: &HandEye,
-    mut noise: NoiseModel,
-    known: &KnownNoise,
-    setup: Setup,
-) -> NoiseModel {
-    let at = fit(views, start, &noise, setup);
-    let level = (at.chi_squared / at.degrees_of_freedom.max(6.0)).sqrt().max(1e-6);
-    for s in &mut noise.sigmas {
-        if s.source != Source::Picture && known.sigma(s.source).is_none() {
-            s.sigma *= level;
-        }
-    }
-    noise
-}
-
-/// One REML step on every component that is not known.
-fn updated_noise(
-    views: &[View],
-    at: &PoseFit,
-    prior: &NoiseModel,
-    known: &KnownNoise,
-    setup: Setup,
-) -> NoiseModel {
-    let Some(covariance) = &at.covariance else { return at.noise.clone() };
-    let weights = weights(views, &at.hand_eye, &at.noise, setup);
-    let update = |(s, first): (&Sigma, &Sigma)| {
-        if known.sigma(s.source).is_some() {
-            return *s;
-        }
-        let (found, expected) = moments(views, &weights, &at.hand_eye, covariance, s.source, setup);
-        let theta = s.sigma * s.sigma;
-        let belief = PRIOR_VIEWS * s.source.axes() / theta;
-        let factor = (found + belief * first.sigma.powi(2) / theta) / (expected.max(0.0) + belief);
-        Sigma { source: s.source, sigma: (s.sigma * factor.sqrt()).max(1e-12) }
-    };
-    NoiseModel { sigmas: at.noise.sigmas.iter().zip(&prior.sigmas).map(update).collect() }
-}
-
-/// `Σ uᵀ G u` and its expectation, the two sides of the REML equation of one component.
-fn moments(
-    views: &[View],
-    weights: &[Matrix6<f64>],
-    hand_eye: &HandEye,
-    covariance: &Matrix12,
-    source: Source,
-    setup: Setup,
-) -> (f64, f64) {
-    let (mut found, mut expected) = (0.0, 0.0);
-    for (view, w) in views.iter().zip(weights) {
-        let g = source.shape(view, hand_eye, setup);
-        let (r, j) = misfit_with_jacobian(hand_eye, &view.pair);
-        let (u, wj) = (w * r, w * j);
-        found += u.dot(&(g * u));
-        expected += (w * g).trace() - (covariance * (wj.transpose() * g * wj)).trace();
-    }
-    (found, expected)
-}
-
-impl PoseFit {
-    /// Squared Mahalanobis distance of a capture that the fit has not seen: its misfit against its
-    /// own noise and the fit's uncertainty together.
-    pub fn surprise(&self, view: &View, setup: Setup) -> Option<f64> {
-        let (r, j) = misfit_with_jacobian(&self.hand_eye, &view.pair);
-        let own = self.noise.covariance(view, &self.hand_eye, setup);
-        let expected = own + j * self.covariance? * j.transpose();
-        Some(r.dot(&(linalg::invert_spd(&expected)? * r)))
-    }
 }
 
 #[cfg(test)]
@@ -331,10 +169,7 @@ mod tests {
     use crate::solve::tests::{assert_same, exact_pairs, truths};
 
     fn views(count: usize) -> Vec<View> {
-        exact_pairs(&truths()[0], count)
-            .into_iter()
-            .map(|pair| View { pair, covariance: None })
-            .collect()
+        exact_pairs(&truths()[0], count).into_iter().map(View::bare).collect()
     }
 
     #[test]
@@ -352,16 +187,5 @@ mod tests {
                 assert!((j.column(k) - numeric).norm() < 1e-6, "column {k}");
             }
         }
-    }
-
-    #[test]
-    fn exact_views_give_the_truth_from_a_bad_start() {
-        let truth = truths()[0];
-        let off = moved(&truth, &Vector12::from_fn(|i, _| 0.1 * (i as f64 + 1.0).cos()));
-        let found =
-            fit_estimating_noise(&views(12), &off, &KnownNoise::default(), Setup::EyeInHand)
-                .unwrap();
-        assert_same(found.hand_eye.mount_from_camera, truth.mount_from_camera, "X");
-        assert_same(found.hand_eye.anchor_from_target, truth.anchor_from_target, "Y");
     }
 }

@@ -186,10 +186,8 @@ fn polish(captures: &[Readings], start: HandEye) -> HandEye {
         if chosen == last || chosen.len() < FEWEST_POSES {
             break;
         }
-        let views: Vec<View> = chosen
-            .iter()
-            .map(|&(i, k)| View { pair: pair(&captures[i], k), covariance: None })
-            .collect();
+        let views: Vec<View> =
+            chosen.iter().map(|&(i, k)| View::bare(pair(&captures[i], k))).collect();
         hand_eye = fit_fixed_weights(&views, &hand_eye, METRES_PER_RAD);
         last = chosen;
     }

@@ -1,0 +1,79 @@
+//! Touches in the form that the joint fit takes.
+
+use nalgebra::Vector3;
+
+use super::{agreement::Views, captures};
+use crate::{
+    Placement, Pose, PosePair, Setup, Target, TargetModel, Touch, lie,
+    refine::{JointFit, TouchedBoard, TouchedCorner, View},
+};
+
+/// Boards with their touches, and which touch of the session each corner is.
+pub(super) struct Boards {
+    pub boards: Vec<TouchedBoard>,
+    /// Per board and corner: the touch of the session.
+    pub touches: Vec<Vec<usize>>,
+}
+
+/// Boards that were touched and that the camera saw.
+pub(super) fn boards(views: &Views, fit: &JointFit) -> Boards {
+    let session = views.session;
+    let Some(target) = &session.target else { return Boards { boards: vec![], touches: vec![] } };
+    let mut found = Boards { boards: vec![], touches: vec![] };
+    match session.setup {
+        Setup::EyeInHand => {
+            let all: Vec<usize> = (0..session.touches.len()).collect();
+            found.add(None, target, &session.touches, &all);
+        }
+        Setup::EyeToHand => {
+            for placement in &session.placements {
+                let Some(seen) = seen(placement, views, fit, target) else { continue };
+                let own: Vec<usize> = (0..session.touches.len())
+                    .filter(|&k| session.touches[k].placement == placement.id)
+                    .collect();
+                found.add(Some(seen), target, &session.touches, &own);
+            }
+        }
+    }
+    found
+}
+
+impl Boards {
+    fn add(&mut self, seen: Option<View>, target: &TargetModel, touches: &[Touch], own: &[usize]) {
+        let known: Vec<usize> =
+            own.iter().copied().filter(|&k| target.corner(touches[k].corner).is_some()).collect();
+        if known.is_empty() {
+            return;
+        }
+        let corner = |&k: &usize| TouchedCorner {
+            in_base: touches[k].in_base.vector(),
+            base_from_flange: touches[k].base_from_flange,
+            in_target: target
+                .corner(touches[k].corner)
+                .map_or(Vector3::zeros(), |c| c.vector() - target.reference().vector()),
+        };
+        self.boards.push(TouchedBoard { seen, corners: known.iter().map(corner).collect() });
+        self.touches.push(known);
+    }
+}
+
+/// The placement in the reading that puts its corners where they were touched.
+fn seen(
+    placement: &Placement,
+    views: &Views,
+    fit: &JointFit,
+    target: &TargetModel,
+) -> Option<View> {
+    let x = &fit.hand_eye.mount_from_camera;
+    let chosen = captures::oriented(placement, &views.session.touches, x, target);
+    let pose = chosen.candidates.first()?;
+    let carry = lie::adjoint(views.target_from_corner.inverse().iso());
+    let unused: Pose<crate::Anchor, crate::Mount> = Pose::identity();
+    let about_corner: Pose<crate::Camera, Target> =
+        pose.camera_from_target * views.target_from_corner;
+    Some(View {
+        pair: PosePair { anchor_from_mount: unused, camera_from_target: about_corner },
+        covariance: pose.covariance.map(|c| carry * c * carry.transpose()),
+        by_camera: None,
+    })
+}

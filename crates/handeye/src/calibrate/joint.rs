@@ -1,0 +1,339 @@
+//! The joint candidate: views and touches in one fit, wrong touches left out, and a systematic
+//! difference between the two where the data show one.
+
+use nalgebra::{DMatrix, DVector, Vector3};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+use super::{agreement::Views, boards::Boards};
+use crate::{
+    Warning,
+    calibration::Calibration,
+    evaluate,
+    refine::{
+        self, Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard,
+        extra::{SYSTEMATIC, TIP_PRIOR, systematic, tip},
+        joint,
+    },
+};
+
+/// What views and touches say together.
+pub(super) struct Joint {
+    pub problem: Problem,
+    pub fit: JointFit,
+    /// Which touches of the session were used.
+    pub used: Vec<usize>,
+    /// Touches left out, and the chance of one as far off.
+    pub left_out: Vec<(usize, f64)>,
+    /// The conflict of views and touches.
+    pub conflict: Option<Conflict>,
+    /// A tool tip that is wrong.
+    pub wrong_tip: Option<WrongTip>,
+}
+
+/// How far views and touches are from agreeing.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Conflict {
+    /// Chance of a disagreement as large when there is none.
+    pub p_value: f64,
+    /// Strength of the systematic difference that explains it best, in its own units; zero where
+    /// none is needed.
+    pub strength: f64,
+}
+
+/// Fits views and touches together.
+pub(super) fn fit(
+    views: &Views,
+    boards: &Boards,
+    start: &JointFit,
+    known: &KnownNoise,
+) -> Option<Joint> {
+    let mut problem = Problem {
+        setup: views.session.setup,
+        views: views.views.clone(),
+        boards: boards.boards.clone(),
+        extras: tip(TIP_PRIOR).to_vec(),
+    };
+    if problem.boards.is_empty() {
+        return None;
+    }
+    let mut touches = boards.touches.clone();
+    let mut fit = refine::fit_joint(&problem, &start.hand_eye, known).ok()?;
+    let left_out = leave_out_wrong(&mut problem, &mut touches, &mut fit, known);
+    let wrong_tip = free_wrong_tip(&mut problem, &mut fit, known);
+    let conflict = conflict(&problem, &fit);
+    if let Some(conflict) = conflict
+        && conflict.strength > 0.0
+    {
+        problem.extras.extend(systematic(conflict.strength));
+        fit = joint::refit(&problem, &fit, known);
+    }
+    Some(Joint { problem, fit, used: touches.concat(), left_out, conflict, wrong_tip })
+}
+
+/// What is believed of a tip once it is known to be wrong, m per axis.
+const WRONG_TIP_PRIOR: f64 = 20e-3;
+
+/// Tests whether the tip is where the robot believes it; if not, believes the data instead.
+fn free_wrong_tip(
+    problem: &mut Problem,
+    fit: &mut JointFit,
+    known: &KnownNoise,
+) -> Option<WrongTip> {
+    let without = Problem { extras: vec![], ..problem.clone() };
+    let fixed = joint::refit(&without, fit, known);
+    let (h, g) = score(&without, &fixed, &tip(TIP_PRIOR))?;
+    let (d2, rank) = significance(&h, &g);
+    let p_value = ChiSquared::new(f64::from(rank)).ok()?.sf(d2);
+    if p_value > WRONG_TIP {
+        return None;
+    }
+    problem.extras = tip(WRONG_TIP_PRIOR).to_vec();
+    *fit = joint::refit(problem, fit, known);
+    let offset = Vector3::from_fn(|k, _| fit.extra(ExtraKind::Tip(k)).map_or(0.0, |e| e.0));
+    let in_flange =
+        problem.boards.iter().flat_map(|b| &b.corners).all(|c| c.base_from_flange.is_some());
+    Some(WrongTip { offset, in_flange, p_value })
+}
+
+/// `gᵀ H⁺ g` and the rank of `H`.
+fn significance(h: &DMatrix<f64>, g: &DVector<f64>) -> (f64, u32) {
+    let eigen = h.clone().symmetric_eigen();
+    let most = eigen.eigenvalues.max();
+    let (mut d2, mut rank) = (0.0, 0);
+    for (k, value) in eigen.eigenvalues.iter().enumerate() {
+        // directions in which a unit difference would not be seen at all say nothing
+        if *value > 1e-6 * most {
+            d2 += eigen.eigenvectors.column(k).dot(g).powi(2) / value;
+            rank += 1;
+        }
+    }
+    (d2, rank)
+}
+
+/// Chance of a touch as far off as it is below which it is left out.
+const IMPROBABLE_TOUCH: f64 = 1e-4;
+
+/// Leaves out, one by one, touches that surprise a fit made without them.
+fn leave_out_wrong(
+    problem: &mut Problem,
+    touches: &mut [Vec<usize>],
+    fit: &mut JointFit,
+    known: &KnownNoise,
+) -> Vec<(usize, f64)> {
+    let mut left_out = vec![];
+    loop {
+        let count: usize = problem.boards.iter().map(|b| b.corners.len()).sum();
+        if count < 4 || left_out.len() * 3 > count {
+            return left_out;
+        }
+        let Some((board, corner)) = worst_touch(problem, fit) else { return left_out };
+        let mut without = problem.clone();
+        let removed = without.boards[board].corners.remove(corner);
+        let alone = TouchedBoard { corners: vec![removed], ..problem.boards[board].clone() };
+        let refitted = joint::refit(&without, fit, known);
+        let Some(d2) = refitted.surprise_of_touch(&without, &alone) else { return left_out };
+        let dof = 3.0 * (count as f64 - 1.0);
+        let p = FisherSnedecor::new(3.0, dof).map_or(1.0, |f| f.sf(d2 / 3.0));
+        if p * count as f64 > IMPROBABLE_TOUCH {
+            return left_out;
+        }
+        left_out.push((touches[board].remove(corner), p));
+        (*problem, *fit) = (without, refitted);
+    }
+}
+
+/// The touch whose removal promises most: the largest misfit in units of the noise.
+fn worst_touch(problem: &Problem, fit: &JointFit) -> Option<(usize, usize)> {
+    let mut worst: Option<(f64, (usize, usize))> = None;
+    for (b, board) in problem.boards.iter().enumerate() {
+        let misfits = fit.touch_misfits(problem, board);
+        for (k, e) in misfits.iter().enumerate() {
+            let size = e.norm_squared();
+            if worst.is_none_or(|(most, _)| size > most) {
+                worst = Some((size, (b, k)));
+            }
+        }
+    }
+    worst.map(|(_, place)| place)
+}
+
+/// Strengths of a systematic difference that are tried.
+const STRENGTHS: [f64; 6] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0];
+/// A systematic difference is only taken in when it makes the data this much more likely
+/// (logarithm): rarer than one set in twenty without one.
+const GAIN: f64 = 2.0;
+
+/// Tests whether views and touches agree, and finds the systematic difference that explains best
+/// why not.
+fn conflict(problem: &Problem, fit: &JointFit) -> Option<Conflict> {
+    let (h, g) = score(problem, fit, &systematic(1.0))?;
+    let (d2, rank) = significance(&h, &g);
+    let p_value = ChiSquared::new(f64::from(rank)).ok()?.sf(d2);
+    let gains = STRENGTHS.map(|s| gain(&h, &g, s));
+    let best = (0..gains.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b]))?;
+    let strength = if gains[best] > GAIN { STRENGTHS[best] } else { 0.0 };
+    Some(Conflict { p_value, strength })
+}
+
+/// By how much a Gaussian unknown of this strength raises the logarithm of the likelihood.
+fn gain(h: &DMatrix<f64>, g: &DVector<f64>, strength: f64) -> f64 {
+    if strength == 0.0 {
+        return 0.0;
+    }
+    let n = h.nrows();
+    let with_prior = h + DMatrix::identity(n, n) * strength.powi(-2);
+    let Some(cholesky) = with_prior.cholesky() else { return f64::NEG_INFINITY };
+    let log_determinant: f64 = cholesky.l().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
+    let prior = 2.0 * n as f64 * strength.ln();
+    0.5 * (g.dot(&cholesky.solve(g)) - log_determinant - prior)
+}
+
+/// Information and score of unknowns that are not free yet, marginal over those that are.
+fn score(
+    problem: &Problem,
+    fit: &JointFit,
+    more: &[Extra],
+) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    let mut wider = problem.clone();
+    wider.extras.extend_from_slice(more);
+    let (h, g) = joint::normal_equations(&wider, fit);
+    let p = fit.information.nrows();
+    let n = more.len();
+    let own = h.view((p, p), (n, n)).into_owned();
+    // the prior of the new unknowns is not part of what the data say
+    let prior = DVector::from_iterator(n, more.iter().map(|e| e.prior_sigma.powi(-2)));
+    let own = own - DMatrix::from_diagonal(&prior);
+    let cross = h.view((p, 0), (n, p)).into_owned();
+    let through = &cross * fit.covariance.as_ref()?;
+    let gradient = g.rows(p, n) - &through * g.rows(0, p);
+    Some((own - &through * cross.transpose(), -gradient))
+}
+
+/// A tip is named as wrong when the data say so with less than this chance of error.
+const WRONG_TIP: f64 = 1e-3;
+
+impl Joint {
+    /// RMS distance of tip and corner over the touches that were used, tip corrected (m).
+    pub(super) fn touch_rms(&self) -> Option<f64> {
+        let misfits =
+            self.problem.boards.iter().flat_map(|b| self.fit.touch_misfits(&self.problem, b));
+        root_mean_square(misfits.map(|e| e.norm_squared()))
+    }
+
+    /// Misfit (rad, m) of every view under a fit made without it.
+    pub(super) fn held_out_views(&self, known: &KnownNoise) -> Vec<Option<(f64, f64)>> {
+        let views = &self.problem.views;
+        let mut found = vec![None; views.len()];
+        if views.len() <= crate::solve::FEWEST_POSES {
+            return found;
+        }
+        for fold in evaluate::folds(views.len()) {
+            let rest = (0..views.len()).filter(|i| !fold.contains(i)).map(|i| views[i]).collect();
+            let problem = Problem { views: rest, ..self.problem.clone() };
+            let refitted = joint::refit(&problem, &self.fit, known);
+            for i in fold {
+                found[i] = Some(evaluate::loop_misfit(&refitted.hand_eye, &views[i].pair));
+            }
+        }
+        found
+    }
+
+    /// RMS distance (m) of tip and corner over touches left out of the fit: one board at a time
+    /// where there are several, one touch at a time otherwise.
+    pub(super) fn held_out_touches(&self, known: &KnownNoise) -> Option<f64> {
+        let boards = &self.problem.boards;
+        let mut squares = vec![];
+        if boards.len() > 1 {
+            for k in 0..boards.len() {
+                let mut without = self.problem.clone();
+                let board = without.boards.remove(k);
+                squares.extend(self.missed(&without, &board, known));
+            }
+        } else {
+            let board = boards.first()?;
+            for k in 0..board.corners.len() {
+                let mut without = self.problem.clone();
+                let corner = without.boards[0].corners.remove(k);
+                let alone = TouchedBoard { corners: vec![corner], ..board.clone() };
+                squares.extend(self.missed(&without, &alone, known));
+            }
+        }
+        root_mean_square(squares.into_iter())
+    }
+
+    fn missed(&self, without: &Problem, board: &TouchedBoard, known: &KnownNoise) -> Vec<f64> {
+        let refitted = joint::refit(without, &self.fit, known);
+        refitted.touch_misfits(without, board).iter().map(|e| e.norm_squared()).collect()
+    }
+
+    /// What to know about the fit.
+    pub(super) fn note(&self) -> Option<String> {
+        let strength = self.conflict?.strength;
+        (strength > 0.0).then(|| {
+            let (turn, step) = SYSTEMATIC;
+            format!(
+                "views and touches differ systematically; a difference of about {:.2} mm and {:.3} \
+                 degrees per axis is part of the model",
+                strength * step * 1e3,
+                strength * turn.to_degrees()
+            )
+        })
+    }
+
+    /// Names touches left out, a wrong tip, and a conflict of views and touches.
+    pub(super) fn warn(&self, views: &Views, result: &mut Calibration) {
+        for &(k, p) in &self.left_out {
+            let touch = &views.session.touches[k];
+            result.warnings.push(Warning::new(
+                "touch-rejected",
+                format!(
+                    "the touch of corner {} of {:?} is left out: it is too far from where all else \
+                     puts that corner (p = {p:.0e}); a wrong corner, or a slipped tip",
+                    touch.corner, touch.placement
+                ),
+            ));
+        }
+        let Some(conflict) = self.conflict else { return };
+        if let Some(tip) = &self.wrong_tip {
+            let [x, y, z] = tip.offset.map(|v| v * 1e3).into();
+            let frame = if tip.in_flange { "flange" } else { "base" };
+            result.warnings.push(Warning::new(
+                "tip-off",
+                format!(
+                    "views and touches disagree by {:.2} mm, p = {:.1e}; most likely the tool tip: \
+                     its best estimate is off by ({x:.2}, {y:.2}, {z:.2}) mm in the {frame} frame; \
+                     calibrate the tool again. The answer takes it into account",
+                    tip.offset.norm() * 1e3,
+                    tip.p_value
+                ),
+            ));
+        }
+        if conflict.strength > 0.0 {
+            result.warnings.push(Warning::new(
+                "views-and-touches-disagree",
+                format!(
+                    "views and touches disagree, p = {:.1e}, and no tool tip explains it: the robot \
+                     is calibrated differently where it was touched and where the views were taken, \
+                     or picture and scan differ; the answer holds near the touched places",
+                    conflict.p_value
+                ),
+            ));
+        }
+    }
+}
+
+/// A tool tip that is not where the robot believes it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WrongTip {
+    /// Its best estimate minus what the robot believes (m).
+    pub offset: Vector3<f64>,
+    /// Whether that is in the flange frame; in the base where no flange pose was recorded.
+    pub in_flange: bool,
+    /// Chance of an estimate as large when the tip is right.
+    pub p_value: f64,
+}
+
+fn root_mean_square(squares: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = squares.fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+    (count > 0.0).then(|| f64::sqrt(sum / count))
+}

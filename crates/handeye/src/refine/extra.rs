@@ -1,0 +1,46 @@
+//! Unknowns beside `X` and `Y`, each with a prior: `x ~ N(0, σ²)`.
+
+use nalgebra::DVector;
+
+/// What the unknown changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ExtraKind {
+    /// A parameter of the camera or the target, by its place in [`super::sight`].
+    Camera(usize),
+    /// Where the tip is beyond where the robot believes it, axis of the flange (m); of the base
+    /// where no flange pose was recorded at contact.
+    Tip(usize),
+    /// Systematic difference between the views and the touched places, in units of its own size.
+    Systematic(usize),
+}
+
+/// One unknown beside `X` and `Y`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extra {
+    /// What it changes.
+    pub kind: ExtraKind,
+    /// Standard deviation of what is believed of it beforehand; the belief is zero.
+    pub prior_sigma: f64,
+}
+
+/// Size of a systematic difference of unit strength: rotation (rad) and position (m) per axis, at
+/// the middle of the touched places.
+pub const SYSTEMATIC: (f64, f64) = (0.04 / 180.0 * std::f64::consts::PI, 0.5e-3);
+
+/// Standard deviation of a tool tip that was measured with care, m per axis.
+pub const TIP_PRIOR: f64 = 0.5e-3;
+
+/// Three coordinates of the tip.
+pub fn tip(prior_sigma: f64) -> [Extra; 3] {
+    std::array::from_fn(|k| Extra { kind: ExtraKind::Tip(k), prior_sigma })
+}
+
+/// Six coordinates of a systematic difference of this strength.
+pub fn systematic(strength: f64) -> [Extra; 6] {
+    std::array::from_fn(|k| Extra { kind: ExtraKind::Systematic(k), prior_sigma: strength })
+}
+
+/// The value of an unknown; zero where it is not free.
+pub(super) fn value(extras: &[Extra], values: &DVector<f64>, kind: ExtraKind) -> f64 {
+    extras.iter().position(|e| e.kind == kind).map_or(0.0, |k| values[k])
+}
