@@ -195,6 +195,9 @@ pub struct TargetArgs {
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  handeye repeat monday/calibration.json tuesday/calibration.json\n\n\
+Distances are from the combined result: `rms` is the root of their mean square, `max` the largest,\n\
+`one alone` the standard deviation of a single result (the sum of squares over n - 1): how far one\n\
+calibration of this cell scatters. In JSON: rms, max, axes, standard_deviation.\n\n\
 Exit code 0: they agree within what they say of their errors (p >= 0.01); 3: they do not, or cannot\n\
 be tested because one states no covariance."
 )]

@@ -13,7 +13,7 @@ pub fn run(args: &InitArgs, manners: &Manners) -> Result<u8, Failure> {
     let path = args.folder.join(MANIFEST);
     if path.exists() && !args.force {
         let what = "is there already; to write over it: --force";
-        return Err(Failure::input(path.display(), what));
+        return Err(Failure::in_the_way(path, what));
     }
     let text = handeye_init(&args.folder)?;
     write_atomically(&path, text.as_bytes())?;

@@ -129,7 +129,7 @@ pub fn run(args: &SimulateArgs, manners: &Manners) -> Result<u8, Failure> {
     if !simulated::clear(&args.out)? && !args.force && !is_empty(&args.out) {
         let what = "is not empty, and not the output of an earlier simulation: name another \
                     folder, or say --force";
-        return Err(Failure::input(args.out.display(), what));
+        return Err(Failure::input(&args.out, what));
     }
     let names = simulated::write(&recording, &args.out, !args.no_images)?;
     if manners.json {

@@ -455,7 +455,7 @@ impl Recording<'_> {
         let corners = self.corners(self.cell.captures + k);
         let surface = self.surface(self.cell.captures + k, &corners);
         let candidates = self.candidates(&corners, &surface);
-        Placement { id: placement_name(k), corners, surface, candidates }
+        Placement { id: placement_name(k), corners, surface, candidates, not_seen: None }
     }
 
     fn candidates(&self, c: &[ImageCorner], s: &[SurfaceCorner]) -> Vec<crate::TargetPose> {
