@@ -27,6 +27,23 @@ pub fn print(text: &str) {
     }
 }
 
+/// Columns of a terminal that everybody has.
+const WIDTH: usize = 80;
+
+/// Lines of at most 80 columns; all but the first are indented as far as the first one's heading.
+pub fn wrapped(heading: &str, text: &str) -> String {
+    let indent = " ".repeat(heading.chars().count());
+    let (mut lines, mut line) = (String::new(), heading.to_owned());
+    for (k, word) in text.split_whitespace().enumerate() {
+        if k > 0 && line.chars().count() + word.chars().count() > WIDTH {
+            lines += &format!("{}\n", line.trim_end());
+            line = indent.clone();
+        }
+        line += &format!("{word} ");
+    }
+    format!("{lines}{}\n", line.trim_end())
+}
+
 /// Whether something that was printed got lost, such as on a full disk.
 pub fn lost() -> bool {
     LOST.load(Ordering::Relaxed)

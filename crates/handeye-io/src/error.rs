@@ -132,6 +132,12 @@ pub enum Error {
         /// What the core said.
         source: handeye::Error,
     },
+    /// A folder without anything to calibrate from.
+    #[error("{}: nothing found here that the camera saw or the robot reported; put the captures' pictures (or scans, or lists of corners) and the robot's poses into the folder, or name the one that has them", folder.display())]
+    NothingFound {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// An error in what belongs to one capture.
     #[error("{source}")]
     Capture {
@@ -154,6 +160,7 @@ impl Error {
             Error::CountMismatch { .. } => "count-mismatch",
             Error::NoFiles { .. } => "no-files",
             Error::Values { .. } => "unusable",
+            Error::NothingFound { .. } => "nothing-found",
             Error::Capture { source, .. } => source.code(),
         }
     }
@@ -168,6 +175,7 @@ impl Error {
             | Error::CountMismatch { place, .. }
             | Error::NoFiles { place, .. }
             | Error::Values { place, .. } => place.clone(),
+            Error::NothingFound { folder } => Place::file(folder),
             Error::Capture { source, .. } => source.place(),
         }
     }

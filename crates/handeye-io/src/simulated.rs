@@ -14,7 +14,7 @@ use std::{
 use handeye::{
     Base, Camera, Distortion, Flange, GrayImage, ImageCorner, Intrinsics, Pose, Scan, Setup,
     Target,
-    simulate::{Recording, cell::placement_name},
+    simulate::{Recording, recording::placement_name},
 };
 use image::{ExtendedColorType, ImageEncoder, codecs::png};
 use serde_json::{Value, json};
