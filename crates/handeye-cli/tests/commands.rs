@@ -94,8 +94,18 @@ fn broken_pairs_are_refused() {
     }
 }
 
-const COMMANDS: [&str; 8] =
-    ["calibrate", "solve", "export", "init", "target", "repeat", "detect", "completions"];
+const COMMANDS: [&str; 10] = [
+    "calibrate",
+    "solve",
+    "export",
+    "init",
+    "target",
+    "repeat",
+    "detect",
+    "simulate",
+    "demo",
+    "completions",
+];
 
 #[test]
 fn the_help_of_every_command_has_an_example_and_fits_the_screen() {
@@ -103,6 +113,8 @@ fn the_help_of_every_command_has_an_example_and_fits_the_screen() {
     for name in COMMANDS {
         let run = handeye(&folder, &[name, "--help"]);
         assert_eq!(run.code, 0, "{name}");
+        let wide: Vec<&str> = run.stdout.lines().filter(|l| l.chars().count() > 80).collect();
+        assert!(wide.is_empty(), "{name}: {wide:?}");
         let example = format!("  handeye {name} ");
         assert!(run.stdout.contains("Example") && run.stdout.contains(&example), "{name}");
         assert!(run.stdout.contains("--json") && run.stdout.contains("--quiet"), "{name}");

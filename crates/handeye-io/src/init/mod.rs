@@ -43,11 +43,8 @@ pub fn first_manifest(folder: &Path) -> Result<FirstManifest, Error> {
             (group, kind)
         })
         .collect();
-    let useful = |kind: &Kind| {
-        !matches!(kind, Kind::Nothing | Kind::Table(_) | Kind::Camera | Kind::Target(_))
-    };
-    let document = |kind: &Kind| matches!(kind, Kind::Table(fields) if !fields.is_empty());
-    if !kinds.iter().any(|(_, kind)| useful(kind) || document(kind)) {
+    let useful = |kind: &Kind| !matches!(kind, Kind::Nothing | Kind::Camera | Kind::Target(_));
+    if !kinds.iter().any(|(_, kind)| useful(kind)) {
         return Err(Error::NothingFound { folder: folder.into() });
     }
     let mut page = Page::default();
