@@ -81,22 +81,19 @@ pub fn measure(
         .map(Shot::from)
         .chain(dataset.placements.iter().map(Shot::from))
         .collect();
-    let seen = look_at_all(dataset, &shots, progress)?;
+    let mut seen = look_at_all(dataset, &shots, progress)?;
     let mut warnings = dataset.warnings.clone();
     let (camera, camera_rms_px) = camera(dataset, &shots, &seen, &mut warnings)?;
-    let mut not_found = Vec::new();
-    for (shot, s) in shots.iter().zip(&seen) {
-        if let Some(reason) = &s.not_found {
-            not_found.push((shot.id.to_owned(), reason.clone()));
-        }
-        warn_missing(shot, s, &mut warnings);
-    }
+    shots.iter().zip(&seen).for_each(|(shot, s)| warn_missing(shot, s, &mut warnings));
     let excess = typical_excess(dataset, &seen, camera.as_ref());
     let poses: Vec<Vec<TargetPose>> = shots
         .iter()
-        .zip(&seen)
-        .map(|(shot, s)| target_poses(dataset, shot, s, camera.as_ref(), excess, &mut not_found))
+        .zip(&mut seen)
+        .map(|(shot, s)| target_poses(dataset, shot, s, camera.as_ref(), excess))
         .collect();
+    let captures = dataset.captures.iter().zip(&seen);
+    let not_found = captures.filter_map(|(c, s)| Some((c.id.clone(), s.not_found.clone()?)));
+    let not_found = not_found.collect();
     let session = session(dataset, seen, poses, camera);
     Ok(Measured { session, camera_rms_px, not_found, warnings })
 }
@@ -126,7 +123,7 @@ fn look_at_all(
         loop {
             let k = next.fetch_add(1, Ordering::Relaxed);
             let Some(shot) = shots.get(k) else { break };
-            let seen = look_at(dataset, shot);
+            let seen = look_at(dataset, shot).map_err(|e| of_capture(shot, e));
             if let Ok(mut slot) = slots[k].lock() {
                 *slot = Some(seen);
             }
@@ -141,6 +138,10 @@ fn look_at_all(
     });
     // results, and the first error, in the order of the captures
     slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
+}
+
+fn of_capture(shot: &Shot, source: Error) -> Error {
+    Error::Capture { id: shot.id.to_owned(), source: Box::new(source) }
 }
 
 fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
@@ -224,7 +225,7 @@ fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), 
                 camera.width, camera.height
             );
             let advice = "give `resized` in [camera], or intrinsics for this size";
-            return Err(malformed(Place::file(path), what, advice));
+            return Err(of_capture(shot, malformed(Place::file(path), what, advice)));
         }
     }
     Ok(())
@@ -249,10 +250,9 @@ fn typical_excess(dataset: &Dataset, seen: &[Seen], camera: Option<&Intrinsics>)
 fn target_poses(
     dataset: &Dataset,
     shot: &Shot,
-    seen: &Seen,
+    seen: &mut Seen,
     camera: Option<&Intrinsics>,
     excess: Option<f64>,
-    not_found: &mut Vec<(String, String)>,
 ) -> Vec<TargetPose> {
     if let Some(camera_from_target) = shot.pose {
         return vec![TargetPose { camera_from_target, covariance: None }];
@@ -264,7 +264,7 @@ fn target_poses(
     match detect::target_poses_with(&seen.corners, &seen.surface, target, camera, excess) {
         Ok(poses) => detect::with_symmetries(&poses, target),
         Err(error) => {
-            not_found.push((shot.id.to_owned(), error.to_string()));
+            seen.not_found = Some(error.to_string());
             vec![]
         }
     }
@@ -292,6 +292,7 @@ fn session(
             corners: s.corners,
             surface: s.surface,
             candidates,
+            not_seen: s.not_found,
         })
         .collect();
     Session {
