@@ -36,10 +36,10 @@ pub struct Bend {
 const FEWEST_FREE: f64 = 10.0;
 /// Distances below this (px) are exact.
 const EXACT_PX: f64 = 1e-3;
-/// Half the width of the first parabola.
-const WIDTH: f64 = 0.05;
-/// Parabolas, each half as wide as the one before.
-const ROUNDS: usize = 4;
+/// Half the width of a parabola; narrower ones would feel a view whose pose is not found.
+const WIDTH: f64 = 0.04;
+/// Parabolas, each about the least of the one before.
+const ROUNDS: usize = 3;
 
 /// The radial distortion that the views prove, if `given` has none and they do.
 pub fn bend(views: &[Vec<ImageCorner>], target: &TargetModel, given: &Intrinsics) -> Option<Bend> {
@@ -86,16 +86,15 @@ fn with_k1(given: &Intrinsics, k1: f64) -> Intrinsics {
 
 /// Where `total` is least, and its second derivative there.
 fn least(total: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
-    let (mut at, mut width, mut curvature) = (0.0, WIDTH, 0.0);
+    let (mut at, mut curvature) = (0.0, 0.0);
     for _ in 0..ROUNDS {
-        let (below, here, above) = (total(at - width), total(at), total(at + width));
-        curvature = (below + above - 2.0 * here) / (width * width);
+        let (below, here, above) = (total(at - WIDTH), total(at), total(at + WIDTH));
+        curvature = (below + above - 2.0 * here) / (WIDTH * WIDTH);
         if !(curvature > 0.0) {
             return None;
         }
-        let step = (below - above) / (2.0 * width) / curvature;
-        at += step.clamp(-2.0 * width, 2.0 * width);
-        width *= 0.5;
+        let step = (below - above) / (2.0 * WIDTH) / curvature;
+        at += step.clamp(-2.0 * WIDTH, 2.0 * WIDTH);
     }
     Some((at, curvature))
 }
