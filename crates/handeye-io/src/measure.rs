@@ -15,7 +15,7 @@ use handeye::{
     Base, Camera, Flange, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
     SurfaceCorner, Target, TargetPose, Warning,
     detect::{self, surface},
-    intrinsics,
+    intrinsics, lens,
 };
 
 use crate::{CaptureSource, Dataset, Error, Place, PlacementSource, error::malformed};
@@ -187,7 +187,7 @@ fn camera(
 ) -> Result<(Option<Intrinsics>, Option<f64>), Error> {
     if let Some(given) = dataset.intrinsics {
         check_size(&given, shots, seen)?;
-        return Ok((Some(given), None));
+        return Ok((Some(unbent(given, dataset, seen, warnings)), None));
     }
     let Some(target) = &dataset.target else { return Ok((None, None)) };
     let views: Vec<Vec<ImageCorner>> =
@@ -208,6 +208,29 @@ fn camera(
     ));
     warnings.extend(found.warnings);
     Ok((Some(found.intrinsics), Some(found.rms_px)))
+}
+
+/// The camera as given, or with the radial distortion that was not declared and that the corners
+/// prove.
+fn unbent(
+    given: Intrinsics,
+    dataset: &Dataset,
+    seen: &[Seen],
+    warnings: &mut Vec<Warning>,
+) -> Intrinsics {
+    let views: Vec<Vec<ImageCorner>> = seen.iter().map(|s| s.corners.clone()).collect();
+    let target = dataset.target.as_ref();
+    let Some(bend) = target.and_then(|t| lens::bend(&views, t, &given)) else { return given };
+    warnings.push(Warning::new(
+        "camera-bends",
+        format!(
+            "the camera is given without distortion, but the target's corners show one: \
+             k1 = {:.3} +- {:.3} takes them from {:.3} to {:.3} px RMS and is used; calibrate the \
+             camera with a board all over the picture",
+            bend.k1, bend.sigma, bend.rms_given_px, bend.rms_px
+        ),
+    ));
+    bend.intrinsics
 }
 
 fn uncalibrated(dataset: &Dataset, error: &handeye::Error) -> Error {
