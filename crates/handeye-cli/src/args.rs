@@ -11,7 +11,7 @@ use clap_complete::Shell;
 /// evidence. Exit codes: 0 accepted, 1 the input cannot be used, 2 wrong command line, 3 rejected
 /// or undetermined (the result is still written).
 #[derive(Parser)]
-#[command(version, max_term_width = 90)]
+#[command(version, max_term_width = 80)]
 pub struct Program {
     /// What to do.
     #[command(subcommand)]
@@ -111,7 +111,7 @@ pub struct CalibrateArgs {
 /// Arguments of `export`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye export result/calibration.json --format kuka\n  handeye export result/calibration.json --format urdf,ros2-launch,npy --out exports\n  handeye export --format list"
+    after_help = "Examples:\n  handeye export result/calibration.json --format kuka\n  handeye export result/calibration.json -f urdf,ros2-launch,npy --out exports\n  handeye export --format list"
 )]
 pub struct ExportArgs {
     /// The calibration.json of a result.
@@ -147,7 +147,7 @@ pub struct InitArgs {
 /// Arguments of `target`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye target --checkerboard 11x8 --square-mm 20 --out board.pdf\n  handeye target --charuco 7x5 --square-mm 35 --marker-mm 26 --dictionary DICT_5X5_100 --out board.svg --paper a3\n  handeye target cell/handeye.toml --out board.pdf --paper 600x500"
+    after_help = "Examples:\n  handeye target --checkerboard 11x8 --square-mm 20 --out board.pdf\n  handeye target --charuco 7x5 --square-mm 35 --marker-mm 26 \\\n      --dictionary DICT_5X5_100 --out board.svg --paper a3\n  handeye target cell/handeye.toml --out board.pdf --paper 600x500"
 )]
 pub struct TargetArgs {
     /// A manifest or another TOML file with a `[target]`.
@@ -195,6 +195,9 @@ pub struct TargetArgs {
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  handeye repeat monday/calibration.json tuesday/calibration.json\n\n\
+Distances are from the combined result: `rms` is the root of their mean square, `max` the largest,\n\
+`one alone` the standard deviation of a single result (the sum of squares over n - 1): how far one\n\
+calibration of this cell scatters. In JSON: rms, max, axes, standard_deviation.\n\n\
 Exit code 0: they agree within what they say of their errors (p >= 0.01); 3: they do not, or cannot\n\
 be tested because one states no covariance."
 )]

@@ -11,6 +11,7 @@ use handeye::{
 };
 use handeye_io::{
     Dataset, WorkspaceFrame,
+    export::Format,
     measure::{self, Measured},
     write_atomically,
 };
@@ -29,21 +30,32 @@ pub fn run(args: &CalibrateArgs, manners: &Manners) -> Result<u8, Failure> {
     let formats = export::formats(&args.format)?;
     let dataset = open(args)?;
     let (calibration, session) = run_on(&dataset, config, manners)?;
-    if manners.json {
-        output::json(&calibration);
-    } else {
+    if !manners.json {
         output::warnings(&calibration, manners);
         output::summary(&calibration);
     }
     if let Some(out) = &args.out {
         write(out, &dataset, &calibration, &session, manners)?;
-        if calibration.verdict == Verdict::Accepted {
-            export::exports(&calibration, &formats, out)?;
-        } else if !formats.is_empty() {
-            eprintln!("nothing exported: the verdict is not `accepted`");
-        }
+        export_accepted(out, &calibration, &formats, manners)?;
+    }
+    if manners.json {
+        output::json(&calibration); // last: what fails before is the one document
     }
     Ok(calibration.exit_code())
+}
+
+fn export_accepted(
+    out: &Path,
+    calibration: &Calibration,
+    formats: &[Format],
+    manners: &Manners,
+) -> Result<(), Failure> {
+    if calibration.verdict == Verdict::Accepted {
+        export::exports(calibration, formats, out)?;
+    } else if !formats.is_empty() && !manners.quiet {
+        eprintln!("nothing exported: the verdict is not `accepted`");
+    }
+    Ok(())
 }
 
 fn config(args: &CalibrateArgs) -> Result<Config, Failure> {
@@ -112,7 +124,7 @@ fn check_workspace(dataset: &Dataset) -> Result<(), Failure> {
              robot work?"
         }
     };
-    Err(Failure::input(dataset.manifest.display(), what))
+    Err(Failure::input(&dataset.manifest, what))
 }
 
 /// Adds to the result what reading the files told.
@@ -143,10 +155,8 @@ pub fn write(
     session: &Session,
     manners: &Manners,
 ) -> Result<PathBuf, Failure> {
-    fs::create_dir_all(out)
-        .map_err(|e| Failure::input(out.display(), format!("cannot be made: {e}")))?;
-    let json =
-        serde_json::to_string_pretty(calibration).map_err(|e| Failure::input(out.display(), e))?;
+    fs::create_dir_all(out).map_err(|e| Failure::no_folder(out, e))?;
+    let json = serde_json::to_string_pretty(calibration).map_err(|e| Failure::input(out, e))?;
     write_atomically(&out.join("calibration.json"), (json + "\n").as_bytes())?;
     let page = report::page(dataset, calibration, session);
     let path = out.join("report.html");

@@ -87,8 +87,7 @@ fn unpack(folder: &Path) -> Result<(), Failure> {
     for (name, content) in FILES {
         let path = folder.join(name);
         let parent = path.parent().unwrap_or(folder);
-        fs::create_dir_all(parent)
-            .map_err(|e| Failure::input(parent.display(), format!("cannot be made: {e}")))?;
+        fs::create_dir_all(parent).map_err(|e| Failure::no_folder(parent, e))?;
         write_atomically(&path, content)?;
     }
     Ok(())

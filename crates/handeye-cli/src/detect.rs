@@ -12,6 +12,7 @@ use std::{
 use handeye::{ImageCorner, TargetModel, detect};
 use handeye_io::{drawing, image_size, read_image, read_target, write_atomically};
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::{
     args::{DetectArgs, Manners},
@@ -24,8 +25,12 @@ use crate::{
 struct Found {
     path: PathBuf,
     found: bool,
+    /// Why the picture shows no target.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
+    /// Why the file cannot be used at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<String>,
     corners: Vec<Corner>,
 }
 
@@ -40,6 +45,9 @@ struct Corner {
 #[derive(Serialize)]
 struct Answer {
     images: Vec<Found>,
+    /// The first file that cannot be used.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Value>,
 }
 
 pub fn run(args: &DetectArgs, manners: &Manners) -> Result<u8, Failure> {
@@ -47,20 +55,31 @@ pub fn run(args: &DetectArgs, manners: &Manners) -> Result<u8, Failure> {
     let drawings = drawings(args)?;
     let progress = Progress::new("looking at pictures", manners);
     let done = AtomicUsize::new(0);
-    let images = in_parallel(args.images.len(), threads(&args.images), |k| {
+    let looked = in_parallel(args.images.len(), threads(&args.images), |k| {
         let found = look_at(&args.images[k], &target, drawings.get(k));
         progress.tell(done.fetch_add(1, Ordering::Relaxed) + 1, args.images.len());
         found
-    })?;
+    });
     drop(progress);
-    let any = images.iter().any(|i| i.found);
-    let answer = Answer { images };
+    let failures: Vec<&Failure> = looked.iter().filter_map(|l| l.as_ref().err()).collect();
+    let (error, code) = (failures.first().map(|f| f.json()), failures.first().map(|_| 1));
+    failures.iter().for_each(|failure| failure.tell(false));
+    let images = args.images.iter().zip(looked);
+    let images: Vec<Found> =
+        images.map(|(path, l)| l.unwrap_or_else(|f| unusable(path, &f))).collect();
+    let nothing = if images.iter().any(|i| i.found) { 0 } else { 3 };
+    let answer = Answer { images, error };
     if manners.json {
         output::json(&answer);
     } else {
         output::print(&table(&answer, target.len()));
     }
-    Ok(if any { 0 } else { 3 })
+    Ok(code.unwrap_or(nothing))
+}
+
+fn unusable(path: &Path, failure: &Failure) -> Found {
+    let (path, error) = (path.to_path_buf(), Some(failure.to_string()));
+    Found { path, found: false, reason: None, error, corners: vec![] }
 }
 
 /// Pictures larger than this (pixels) are worked on by two threads at most.
@@ -75,15 +94,10 @@ fn threads(images: &[PathBuf]) -> usize {
     if large { cores.min(2) } else { cores }
 }
 
-/// Results of `work(0), work(1) ...`, or the first error, whatever order they were made in.
-fn in_parallel<T: Send>(
-    count: usize,
-    threads: usize,
-    work: impl Fn(usize) -> Result<T, Failure> + Sync,
-) -> Result<Vec<T>, Failure> {
+/// `work(0), work(1) ...`, whatever order they were made in.
+fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
-    let slots: Vec<Mutex<Option<Result<T, Failure>>>> =
-        (0..count).map(|_| Mutex::new(None)).collect();
+    let slots: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
     let take = || {
         loop {
             let k = next.fetch_add(1, Ordering::Relaxed);
@@ -116,6 +130,7 @@ fn look_at(path: &Path, target: &TargetModel, drawing: Option<&PathBuf>) -> Resu
         path: path.to_path_buf(),
         found: reason.is_none(),
         reason,
+        error: None,
         corners: corners.iter().map(corner).collect(),
     })
 }
@@ -133,8 +148,7 @@ fn corner(c: &ImageCorner) -> Corner {
 /// Where each picture is drawn to: none without `--draw`.
 fn drawings(args: &DetectArgs) -> Result<Vec<PathBuf>, Failure> {
     let Some(folder) = &args.draw else { return Ok(vec![]) };
-    fs::create_dir_all(folder)
-        .map_err(|e| Failure::input(folder.display(), format!("cannot be made: {e}")))?;
+    fs::create_dir_all(folder).map_err(|e| Failure::no_folder(folder, e))?;
     let mut taken: Vec<PathBuf> = vec![];
     for image in &args.images {
         let stem = image.file_stem().unwrap_or_default().to_string_lossy();
@@ -148,9 +162,12 @@ fn drawings(args: &DetectArgs) -> Result<Vec<PathBuf>, Failure> {
 }
 
 fn table(answer: &Answer, all: usize) -> String {
-    let line = |image: &Found| match &image.reason {
-        None => format!("{:>5} of {all} corners  {}\n", image.corners.len(), image.path.display()),
-        Some(reason) => format!("    - {}: {reason}\n", image.path.display()),
+    let line = |image: &Found| match (&image.reason, &image.error) {
+        (Some(reason), _) => format!("    - {}: {reason}\n", image.path.display()),
+        (_, Some(error)) => format!("    ! {error}\n"),
+        _ => {
+            format!("{:>5} of {all} corners  {}\n", image.corners.len(), image.path.display())
+        }
     };
     let found = answer.images.iter().filter(|i| i.found).count();
     let lines: String = answer.images.iter().map(line).collect();

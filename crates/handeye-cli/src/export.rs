@@ -24,6 +24,7 @@ pub fn run(args: &ExportArgs, manners: &Manners) -> Result<u8, Failure> {
         return Ok(0);
     }
     let formats = formats(&args.format)?;
+    check_out(args.out.as_deref(), &formats)?;
     let path = args.calibration.as_ref().ok_or_else(|| {
         Failure::Usage("which calibration? Name the calibration.json of a result".into())
     })?;
@@ -71,15 +72,25 @@ pub fn formats(names: &[String]) -> Result<Vec<Format>, Failure> {
     names.iter().map(named).collect()
 }
 
+/// Several formats go into a folder, and a name like `x.txt` means a file.
+fn check_out(out: Option<&Path>, formats: &[Format]) -> Result<(), Failure> {
+    let Some(out) = out.filter(|out| formats.len() > 1 && !out.is_dir()) else { return Ok(()) };
+    if out.extension().is_none() && !out.exists() {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "--out {}: {} formats do not fit into one file; name a folder (one that is there, or a \
+         name without an ending)",
+        out.display(),
+        formats.len()
+    )))
+}
+
 /// Reads a calibration.json.
 pub fn read_calibration(path: &Path) -> Result<Calibration, Failure> {
-    let text = fs::read_to_string(path).map_err(|e| {
-        Failure::input(path.display(), format!("cannot be read: {e}; check the name"))
-    })?;
-    serde_json::from_str(&text).map_err(|e| {
-        let what = format!("is no result of handeye: {e}; name a calibration.json");
-        Failure::input(path.display(), what)
-    })
+    let text = fs::read_to_string(path).map_err(|e| Failure::unreadable(path, &e))?;
+    let named = "is no calibration.json of handeye: ";
+    serde_json::from_str(&text).map_err(|e| Failure::in_json(path, &e, named))
 }
 
 fn list(manners: &Manners) {
@@ -108,7 +119,7 @@ fn check_verdict(
     let why = calibration.reasons.first().map_or(String::new(), |r| format!(" ({r})"));
     let what = format!("the verdict is {verdict}{why}");
     if !force {
-        return Err(Failure::input(path.display(), what + "; to export it all the same: --force"));
+        return Err(Failure::input(path, what + "; to export it all the same: --force"));
     }
     if !manners.quiet {
         eprintln!("warning [not-accepted]: {}: {what}; do not move a robot by it", path.display());
@@ -129,7 +140,7 @@ fn pose<'a>(
         let what = format!(
             "there is no transform to export; {free}; record more poses and calibrate again"
         );
-        Failure::input(place.display(), what)
+        Failure::input(place, what)
     })?;
     Ok(CameraPose {
         name: &calibration.name,
@@ -164,8 +175,7 @@ fn write_all(
     folder: &Path,
 ) -> Result<Vec<PathBuf>, Failure> {
     let pose = pose(place, calibration, frames)?;
-    fs::create_dir_all(folder)
-        .map_err(|e| Failure::input(folder.display(), format!("cannot be made: {e}")))?;
+    fs::create_dir_all(folder).map_err(|e| Failure::no_folder(folder, e))?;
     let write = |format: &Format| {
         let file = folder.join(format.file_name(pose.name));
         write_atomically(&file, &render(&pose, format))?;

@@ -1,6 +1,8 @@
 //! `handeye init`: a first manifest for a folder, with the questions that its files leave open.
 
-use handeye_io::{MANIFEST, handeye_init, write_atomically};
+use std::path::Path;
+
+use handeye_io::{MANIFEST, Question, first_manifest, write_atomically};
 use serde_json::json;
 
 use crate::{
@@ -13,26 +15,22 @@ pub fn run(args: &InitArgs, manners: &Manners) -> Result<u8, Failure> {
     let path = args.folder.join(MANIFEST);
     if path.exists() && !args.force {
         let what = "is there already; to write over it: --force";
-        return Err(Failure::input(path.display(), what));
+        return Err(Failure::in_the_way(path, what));
     }
-    let text = handeye_init(&args.folder)?;
-    write_atomically(&path, text.as_bytes())?;
-    let questions: Vec<(usize, &str)> = text
-        .lines()
-        .enumerate()
-        .filter_map(|(k, line)| Some((k + 1, line.split_once("QUESTION: ")?.1)))
-        .collect();
+    let first = first_manifest(&args.folder)?;
+    write_atomically(&path, first.text.as_bytes())?;
     if manners.json {
-        let entry =
-            |&(line, question): &(usize, &str)| json!({ "line": line, "question": question });
-        let questions: Vec<_> = questions.iter().map(entry).collect();
+        let entry = |q: &Question| json!({ "line": q.line, "question": q.text });
+        let questions: Vec<_> = first.questions.iter().map(entry).collect();
         output::json(&json!({ "manifest": path, "questions": questions }));
     } else {
-        let mut shown = format!("{} is written. Open questions:\n", path.display());
-        for (line, question) in questions {
-            shown += &format!("  line {line:>2}: {question}\n");
-        }
-        output::print(&shown);
+        output::print(&told(&path, &first.questions));
     }
     Ok(0)
+}
+
+fn told(path: &Path, questions: &[Question]) -> String {
+    let question = |q: &Question| output::wrapped(&format!("  line {:>3}  ", q.line), &q.text);
+    let all: String = questions.iter().map(question).collect();
+    format!("{} is written; answer in it:\n\n{all}", path.display())
 }

@@ -15,23 +15,38 @@ mod simulate;
 mod solve;
 mod target;
 
-use std::process::ExitCode;
+use std::{env, process::ExitCode};
 
 use clap::Parser;
+use serde_json::json;
 
 use args::{Command, Program};
 use failure::Failure;
 
 fn main() -> ExitCode {
-    let program = Program::parse();
+    let program = match Program::try_parse() {
+        Ok(program) => program,
+        Err(error) => return not_a_command(&error),
+    };
     match run(&program) {
         Ok(_) if output::lost() => ExitCode::FAILURE,
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
-            eprintln!("error: {failure}");
+            failure.tell(program.manners.json);
             ExitCode::from(failure.exit_code())
         }
     }
+}
+
+/// Help that was asked for, or a command line that is wrong.
+fn not_a_command(error: &clap::Error) -> ExitCode {
+    if error.use_stderr() && env::args_os().any(|word| word == "--json") {
+        let text = error.render().to_string();
+        let message = text.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ");
+        let words: Vec<&str> = message.split_whitespace().collect();
+        output::json(&json!({ "error": Failure::Usage(words.join(" ")).json() }));
+    }
+    error.exit()
 }
 
 fn run(program: &Program) -> Result<u8, Failure> {

@@ -27,6 +27,26 @@ pub fn print(text: &str) {
     }
 }
 
+/// Columns of a terminal that everybody has.
+const WIDTH: usize = 80;
+
+/// Lines of at most 80 columns; all but the first are indented as far as the first one's heading.
+pub fn wrapped(heading: &str, text: &str) -> String {
+    wrapped_to(heading, heading.chars().count(), text)
+}
+
+fn wrapped_to(heading: &str, indent: usize, text: &str) -> String {
+    let (mut lines, mut line) = (String::new(), heading.to_owned());
+    for (k, word) in text.split_whitespace().enumerate() {
+        if k > 0 && line.chars().count() + word.chars().count() > WIDTH {
+            lines += &format!("{}\n", line.trim_end());
+            line = " ".repeat(indent);
+        }
+        line += &format!("{word} ");
+    }
+    format!("{lines}{}\n", line.trim_end())
+}
+
 /// Whether something that was printed got lost, such as on a full disk.
 pub fn lost() -> bool {
     LOST.load(Ordering::Relaxed)
@@ -53,7 +73,7 @@ pub fn warnings(calibration: &Calibration, manners: &Manners) {
         return;
     }
     for warning in &calibration.warnings {
-        eprintln!("warning [{}]: {}", warning.code, warning.message);
+        eprint!("{}", wrapped_to(&format!("warning [{}]: ", warning.code), 2, &warning.message));
     }
 }
 
@@ -76,14 +96,15 @@ fn verdict(v: Verdict) -> String {
 
 /// The result for people, in 80 columns.
 pub fn summary(c: &Calibration) {
-    let mut text = format!("\n{}  {}\n", verdict(c.verdict), c.reasons.join("\n          "));
+    let mut text = format!("\n{}\n", verdict(c.verdict));
+    text += &c.reasons.iter().map(|reason| wrapped("  ", reason)).collect::<String>();
     text += &transform(c);
     text += &candidates(c);
     let used = c.captures.iter().filter(|k| k.used).count();
     if !c.captures.is_empty() {
         text += &format!("\n{used} of {} captures used", c.captures.len());
         if !c.rejected.is_empty() {
-            text += &format!("; left out: {}", c.rejected.join(", "));
+            text = text + "; " + wrapped("left out: ", &c.rejected.join(", ")).trim_end();
         }
         text += "\n";
     }
@@ -92,7 +113,7 @@ pub fn summary(c: &Calibration) {
 
 fn transform(c: &Calibration) -> String {
     let Some(pose) = &c.hand_eye.mount_from_camera else {
-        return format!("\nnot determined: {}\n", c.undetermined.join(", "));
+        return "\n".to_owned() + &wrapped("not determined: ", &c.undetermined.join(", "));
     };
     let (t, q) = (pose.translation() * 1e3, pose.iso().rotation.coords);
     let mut text = format!("\n{}  ({})\n", c.name, c.method);

@@ -29,12 +29,18 @@ struct InUnits {
     rms: f64,
     max: f64,
     axes: [f64; 3],
+    standard_deviation: f64,
 }
 
 impl InUnits {
     fn of(scatter: Scatter, unit: f64) -> Self {
         let axes = scatter.axes.map(|a| a * unit);
-        Self { rms: scatter.rms * unit, max: scatter.max * unit, axes }
+        Self {
+            rms: scatter.rms * unit,
+            max: scatter.max * unit,
+            axes,
+            standard_deviation: scatter.standard_deviation * unit,
+        }
     }
 }
 
@@ -97,7 +103,7 @@ fn check_twice(paths: &[PathBuf]) -> Result<(), Failure> {
         None => Ok(()),
         Some(k) => {
             let what = "is named twice; a result agrees with itself, which tells nothing";
-            Err(Failure::input(paths[k].display(), what))
+            Err(Failure::input(&paths[k], what))
         }
     }
 }
@@ -113,7 +119,7 @@ fn check_setups(paths: &[PathBuf], results: &[Calibration]) -> Result<(), Failur
                 paths[0].display(),
                 first.name
             );
-            Err(Failure::input(path.display(), what))
+            Err(Failure::input(path, what))
         }
     }
 }
@@ -121,7 +127,7 @@ fn check_setups(paths: &[PathBuf], results: &[Calibration]) -> Result<(), Failur
 fn repetition(path: &Path, result: &Calibration) -> Result<Repetition, Failure> {
     let mount_from_camera = result.hand_eye.mount_from_camera.ok_or_else(|| {
         let what = "holds no transform (the data did not determine it); leave it out";
-        Failure::input(path.display(), what)
+        Failure::input(path, what)
     })?;
     let covariance = result.hand_eye.covariance.mount_from_camera.as_ref().map(calibration::matrix);
     Ok(Repetition { mount_from_camera, covariance })
@@ -188,8 +194,8 @@ fn table(a: &Answer, count: usize) -> String {
     text +=
         &format!("  quaternion   {:11.7} {:11.7} {:11.7} {:11.7}   x y z w\n", q.x, q.y, q.z, q.w);
     text += &format!(
-        "\n  {:<31}{:>8}{:>8}  {:>9}{:>9}{:>9}\n",
-        "spread about the combined", "rms", "max", "x", "y", "z"
+        "\n  {:<27}{:>8}{:>8}{:>9}{:>8}{:>8}{:>10}\n",
+        "distance from the combined", "rms", "max", "rms x", "rms y", "rms z", "one alone"
     );
     text += &line("camera origin, mm", &a.spread.camera_origin_mm, 3);
     text += &line("0.5 m before the camera, mm", &a.spread.half_a_metre_before_camera_mm, 3);
@@ -218,16 +224,28 @@ fn sentence(a: &Answer) -> String {
         _ => "DISAGREE  they differ by more than they say",
     };
     format!(
-        "{verdict}\n       chi-square {:.1} at {} degrees of freedom, p = {:.2e}",
-        test.chi_square, test.degrees_of_freedom, test.p_value
+        "{verdict}\n       chi-square {:.1} at {} degrees of freedom, {}",
+        test.chi_square,
+        test.degrees_of_freedom,
+        chance(test.p_value)
     )
+}
+
+/// `p = 0.42`: as many digits as tell something.
+fn chance(p: f64) -> String {
+    match p {
+        p if p < 1e-4 => "p < 0.0001".into(),
+        p if p < 0.1 => format!("p = {p:.4}"),
+        p => format!("p = {p:.2}"),
+    }
 }
 
 fn line(name: &str, s: &InUnits, digits: usize) -> String {
     let [x, y, z] = s.axes;
     format!(
-        "  {name:<31}{:>8.digits$}{:>8.digits$}  {x:>9.digits$}{y:>9.digits$}{z:>9.digits$}\n",
-        s.rms, s.max
+        "  {name:<27}{:>8.digits$}{:>8.digits$}{x:>9.digits$}{y:>8.digits$}{z:>8.digits$}\
+         {:>10.digits$}\n",
+        s.rms, s.max, s.standard_deviation
     )
 }
 
@@ -245,5 +263,16 @@ fn shortened(path: &Path) -> String {
     match whole.len() > WIDTH {
         true => format!("..{}", whole[whole.len() - WIDTH + 2..].iter().collect::<String>()),
         false => whole.into_iter().collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::chance;
+
+    #[test]
+    fn a_chance_reads_like_a_number() {
+        let read = [1.0, 0.42, 0.0123, 1e-9].map(chance);
+        assert_eq!(read, ["p = 1.00", "p = 0.42", "p = 0.0123", "p < 0.0001"]);
     }
 }

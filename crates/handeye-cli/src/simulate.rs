@@ -1,13 +1,13 @@
 //! `handeye simulate`: a dataset whose truth is known.
 
-use std::{fs, path::PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use handeye::{
     Intrinsics, Setup, TargetModel,
     simulate::{Cell, CellNoise, DepthSensor, Optics, Viewing},
 };
-use handeye_io::simulated;
+use handeye_io::simulated::{self, ScanFormat, Writing};
 use serde_json::json;
 
 use crate::{args::Manners, failure::Failure, output};
@@ -15,7 +15,8 @@ use crate::{args::Manners, failure::Failure, output};
 /// Arguments of `simulate`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye simulate cell && handeye calibrate cell\n  handeye simulate cell --setup eye-to-hand --captures 20 --scans --seed 7\n  handeye simulate cell --charuco 12x9 --square-mm 25 --marker-mm 18 --width 1280 --height 960\n\nThe same options and seed give the same bytes. truth.json holds the answer."
+    after_help = "Examples:\n  handeye simulate cell && handeye calibrate cell\n  handeye simulate cell --setup eye-to-hand --captures 20 --scans --scan-format ply\n  handeye simulate cell --charuco 12x9 --square-mm 25 --marker-mm 18 \\\n      --width 1280 --height 960\n\nThe same options and seed give the same bytes. truth.json holds the answer.\n\
+A folder is written over only if it holds nothing but an earlier simulation, unedited."
 )]
 pub struct SimulateArgs {
     /// Folder for the dataset; it is made if need be.
@@ -74,6 +75,13 @@ pub struct SimulateArgs {
     /// The same for rotations, about each axis.
     #[arg(long, default_value_t = 0.03)]
     pub robot_deg: f64,
+    /// Error of the arm as it was built, smooth over the workspace and equal in equal poses (3-D
+    /// RMS); --robot-mm is independent in every pose.
+    #[arg(long, default_value_t = 0.0)]
+    pub robot_systematic_mm: f64,
+    /// The same for rotations, about each axis.
+    #[arg(long, default_value_t = 0.0)]
+    pub robot_systematic_deg: f64,
     /// Repeatability of the robot (3-D RMS).
     #[arg(long, default_value_t = 0.05)]
     pub repeatability_mm: f64,
@@ -95,16 +103,19 @@ pub struct SimulateArgs {
     /// No noise at all, of nothing.
     #[arg(long)]
     pub exact: bool,
-    /// Write depth images as well.
+    /// Write scans as well.
     #[arg(long, conflicts_with = "no_images")]
     pub scans: bool,
+    /// How scans are written; ply and pcd are organised clouds in metres.
+    #[arg(long, value_enum, default_value = "depth-png")]
+    pub scan_format: ScanFormatArg,
     /// Pixels of a scan per pixel of a picture: 1, 0.5, ...
     #[arg(long, default_value_t = 1.0)]
     pub scan_scale: f64,
     /// Lists of corners instead of pictures.
     #[arg(long)]
     pub no_images: bool,
-    /// Write into a folder that holds other files.
+    /// Write into a folder that holds other files, or files of it that were edited.
     #[arg(long)]
     pub force: bool,
 }
@@ -118,6 +129,27 @@ pub enum SetupArg {
     EyeToHand,
 }
 
+/// How scans are written.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum ScanFormatArg {
+    /// Depth images of 16 bits, 0.1 mm a unit.
+    DepthPng,
+    /// Organised PLY.
+    Ply,
+    /// Organised PCD.
+    Pcd,
+}
+
+impl From<ScanFormatArg> for ScanFormat {
+    fn from(arg: ScanFormatArg) -> Self {
+        match arg {
+            ScanFormatArg::DepthPng => ScanFormat::DepthPng,
+            ScanFormatArg::Ply => ScanFormat::Ply,
+            ScanFormatArg::Pcd => ScanFormat::Pcd,
+        }
+    }
+}
+
 /// Most captures, placements or touches: more are mistakes.
 const MOST: usize = 999;
 /// Largest side of a picture, px.
@@ -126,12 +158,13 @@ const LARGEST_PX: u32 = 10_000;
 pub fn run(args: &SimulateArgs, manners: &Manners) -> Result<u8, Failure> {
     let cell = cell(args)?;
     let recording = cell.record(args.seed).map_err(|e| Failure::Usage(e.to_string()))?;
-    if !simulated::clear(&args.out)? && !args.force && !is_empty(&args.out) {
-        let what = "is not empty, and not the output of an earlier simulation: name another \
-                    folder, or say --force";
-        return Err(Failure::input(args.out.display(), what));
+    if let Some(foreign) = simulated::foreign(&args.out).filter(|_| !args.force) {
+        let what = "was not written by `simulate`, or was edited since: name another folder for \
+                    the dataset, or say --force to write over what has the same name";
+        return Err(Failure::in_the_way(foreign, what));
     }
-    let names = simulated::write(&recording, &args.out, !args.no_images)?;
+    let writing = Writing { images: !args.no_images, scans: args.scan_format.into() };
+    let names = simulated::write(&recording, &args.out, writing)?;
     if manners.json {
         output::json(&json!({"folder": args.out, "files": names}));
     } else if !manners.quiet {
@@ -139,10 +172,6 @@ pub fn run(args: &SimulateArgs, manners: &Manners) -> Result<u8, Failure> {
         output::print(&format!("{} files in {folder}; the truth is in truth.json\n", names.len()));
     }
     Ok(0)
-}
-
-fn is_empty(folder: &std::path::Path) -> bool {
-    fs::read_dir(folder).map_or(!folder.exists(), |mut entries| entries.next().is_none())
 }
 
 fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
@@ -202,6 +231,8 @@ fn check(args: &SimulateArgs, placements: usize, touches: usize) -> Result<(), F
     let noise = [
         ("robot-mm", args.robot_mm),
         ("robot-deg", args.robot_deg),
+        ("robot-systematic-mm", args.robot_systematic_mm),
+        ("robot-systematic-deg", args.robot_systematic_deg),
         ("repeatability-mm", args.repeatability_mm),
         ("touch-mm", args.touch_mm),
         ("tip-mm", args.tip_mm),
@@ -228,6 +259,8 @@ fn noise(args: &SimulateArgs) -> CellNoise {
         robot_repeatability_rad: 0.0,
         robot_absolute_m: args.robot_mm * 1e-3,
         robot_absolute_rad: args.robot_deg.to_radians(),
+        robot_systematic_m: args.robot_systematic_mm * 1e-3,
+        robot_systematic_rad: args.robot_systematic_deg.to_radians(),
         corner_px: args.corner_px,
         touch_m: args.touch_mm * 1e-3,
         tip_m: args.tip_mm * 1e-3,

@@ -7,6 +7,7 @@ use handeye::{
     TargetPose, calibrate,
 };
 use serde::Deserialize;
+use serde_json::Value;
 
 use crate::{
     args::{Manners, SolveArgs},
@@ -56,8 +57,25 @@ pub fn method(name: &str) -> Result<Method, Failure> {
 }
 
 fn read(path: &Path) -> Result<Pairs, Failure> {
-    let text = fs::read_to_string(path).map_err(|e| Failure::input(path.display(), e))?;
-    serde_json::from_str(&text).map_err(|e| Failure::input(path.display(), e))
+    let text = fs::read_to_string(path).map_err(|e| Failure::unreadable(path, &e))?;
+    serde_json::from_str(&text).map_err(|e| {
+        let Some((number, id)) = broken_pair(&text, &e) else {
+            return Failure::in_json(path, &e, "");
+        };
+        let named = id.as_ref().map_or(String::new(), |id| format!(" ({id:?})"));
+        let failure = Failure::in_json(path, &e, &format!("pair {number}{named}: "));
+        failure.with_capture(&id.unwrap_or(number.to_string()))
+    })
+}
+
+/// Number and id of the pair that an error of the whole file comes from.
+fn broken_pair(text: &str, error: &serde_json::Error) -> Option<(usize, Option<String>)> {
+    let whole: Value = serde_json::from_str(text).ok()?;
+    let pairs = whole.get("pairs")?.as_array()?;
+    let broken = |pair: &Value| Pair::deserialize(pair).err();
+    let (k, own) = pairs.iter().enumerate().find_map(|(k, pair)| Some((k, broken(pair)?)))?;
+    let id = pairs[k].get("id").and_then(Value::as_str).map(String::from);
+    error.to_string().starts_with(&own.to_string()).then_some((k + 1, id))
 }
 
 fn session(pairs: Pairs, path: &Path) -> Result<Session, Failure> {
@@ -67,7 +85,7 @@ fn session(pairs: Pairs, path: &Path) -> Result<Session, Failure> {
         let capture = pair.id.unwrap_or_else(|| (k + 1).to_string());
         if !seen.insert(capture.clone()) {
             let what = format!("pair {}: the id {capture:?} is there twice", k + 1);
-            return Err(Failure::input(path.display(), what));
+            return Err(Failure::input(path, what).with_capture(&capture));
         }
         observations.push(Observation {
             capture,

@@ -14,7 +14,7 @@ use serde_json::json;
 
 use crate::{
     args::{Manners, TargetArgs},
-    failure::Failure,
+    failure::{Failure, Problem},
     output,
 };
 
@@ -65,9 +65,9 @@ impl Kind {
 
 fn refused(args: &TargetArgs, error: DrawingError) -> Failure {
     match (&args.target, error) {
-        (Some(file), error) => Failure::input(file.display(), error),
+        (Some(file), error) => Failure::input(file, error),
         (None, DrawingError::Target(error)) => Failure::Usage(error.to_string()),
-        (None, error) => Failure::Input(error.to_string()),
+        (None, error) => Failure::new(Problem::new("unusable", error.to_string())),
     }
 }
 
@@ -77,11 +77,10 @@ fn describe(out: &Path, target: &TargetModel) -> Result<PathBuf, Failure> {
     if path.exists() && !read_target(&path).is_ok_and(|there| there == *target) {
         let what =
             "is there already and describes another target; remove it, or choose another --out";
-        return Err(Failure::input(path.display(), what));
+        return Err(Failure::in_the_way(path, what));
     }
     if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {
-        fs::create_dir_all(folder)
-            .map_err(|e| Failure::input(folder.display(), format!("cannot be made: {e}")))?;
+        fs::create_dir_all(folder).map_err(|e| Failure::no_folder(folder, e))?;
     }
     Ok(path)
 }

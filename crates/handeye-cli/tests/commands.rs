@@ -71,23 +71,41 @@ fn broken_pairs_are_refused() {
     let inverse = with("02", &pose.replace('{', r#"{"to": "flange", "from": "base", "#));
     for (content, message) in [
         (file(&[&good, &good]), r#"p.json: pair 2: the id "01" is there twice"#),
-        (file(&[&good, &zero]), "p.json: rotation_xyzw has length 0, not 1: is it a quaternion?"),
-        (file(&[&good, &swapped]), "p.json: rotation_xyzw has length 1.414"),
-        (file(&[&good, &inverse]), "p.json: expected base_from_flange, found flange_from_base"),
-        (file(&[&good]).replace("in-hand", "on-hand"), "p.json: unknown variant `eye-on-hand`"),
-        (file(&[&good]).replace("1]", "NaN]"), "p.json: expected value"),
-        ("{".into(), "p.json: EOF while parsing"),
-        ("[]".into(), "p.json: invalid length 0"),
+        (
+            file(&[&good, &zero]),
+            r#"p.json:1: pair 2 ("02"): rotation_xyzw has length 0, not 1: is it a quaternion? (column "#,
+        ),
+        (file(&[&good, &swapped]), r#"p.json:1: pair 2 ("02"): rotation_xyzw has length 1.414"#),
+        (
+            file(&[&good, &inverse]),
+            r#"p.json:1: pair 2 ("02"): expected base_from_flange, found flange_from_base"#,
+        ),
+        (file(&[&good]).replace("in-hand", "on-hand"), "p.json:1: unknown variant `eye-on-hand`"),
+        (file(&[&good]).replace("1]", "NaN]"), "p.json:1: expected value"),
+        ("{".into(), "p.json:1: EOF while parsing"),
+        ("[]".into(), "p.json:1: invalid length 0"),
     ] {
         folder.put("p.json", &content);
         let run = handeye(&folder, &["solve", "p.json", "--json"]);
         assert_eq!(run.code, 1, "{content}: {}", run.stderr);
-        assert!(run.stdout.is_empty() && run.error().starts_with(message), "{}", run.stderr);
+        assert!(run.error().starts_with(message), "{}", run.stderr);
+        let error = &run.json()["error"];
+        assert_eq!((&error["message"], &error["file"]), (&run.error().into(), &"p.json".into()));
     }
 }
 
-const COMMANDS: [&str; 8] =
-    ["calibrate", "solve", "export", "init", "target", "repeat", "detect", "completions"];
+const COMMANDS: [&str; 10] = [
+    "calibrate",
+    "solve",
+    "export",
+    "init",
+    "target",
+    "repeat",
+    "detect",
+    "simulate",
+    "demo",
+    "completions",
+];
 
 #[test]
 fn the_help_of_every_command_has_an_example_and_fits_the_screen() {
@@ -95,6 +113,8 @@ fn the_help_of_every_command_has_an_example_and_fits_the_screen() {
     for name in COMMANDS {
         let run = handeye(&folder, &[name, "--help"]);
         assert_eq!(run.code, 0, "{name}");
+        let wide: Vec<&str> = run.stdout.lines().filter(|l| l.chars().count() > 80).collect();
+        assert!(wide.is_empty(), "{name}: {wide:?}");
         let example = format!("  handeye {name} ");
         assert!(run.stdout.contains("Example") && run.stdout.contains(&example), "{name}");
         assert!(run.stdout.contains("--json") && run.stdout.contains("--quiet"), "{name}");
@@ -252,8 +272,8 @@ fn results_that_cannot_be_compared_are_refused() {
             "other.json: is base_from_camera, but a.json is flange_from_camera; compare results of one cell",
         ),
         ("./a.json", "./a.json: is named twice; a result agrees with itself, which tells nothing"),
-        ("no.json", "no.json: is no result of handeye: missing field"),
-        ("none.json", "none.json: cannot be read: "),
+        ("no.json", "no.json:1: is no calibration.json of handeye: missing field"),
+        ("none.json", "none.json: does not exist; check the name"),
     ] {
         let run = handeye(&folder, &["repeat", "a.json", other]);
         assert_eq!(run.code, 1, "{other}");
@@ -318,11 +338,86 @@ fn corners_are_found_in_the_order_of_the_pictures() {
     }
     assert!(first["covariance_px2"][1][1].as_f64().unwrap() > 0.0);
     assert_eq!(folder.list("d"), ["board_corners.png", "dark_corners.png"]);
+}
 
+#[test]
+fn a_file_that_is_no_picture_leaves_the_corners_of_the_others() {
+    let folder = Folder::new();
+    board(&folder, "board.png");
+    folder.put("board.toml", "kind = \"checkerboard\"\ncolumns = 9\nrows = 6\nsquare_mm = 20.0\n");
     folder.put("text.png", "not a picture");
-    let run = handeye(&folder, &["detect", "board.png", "text.png", "--target", "board.toml"]);
+    let args = ["detect", "board.png", "text.png", "--target", "board.toml", "--json"];
+    let run = handeye(&folder, &args);
     assert_eq!(run.code, 1);
-    assert_eq!(run.error(), "text.png: is not a picture; PNG, JPEG, TIFF and BMP can be read");
+    let message = "text.png: is not a picture; PNG, JPEG, TIFF and BMP can be read";
+    assert_eq!(run.error(), message);
+    let answer = run.json();
+    assert_eq!(answer["images"][0]["corners"].as_array().unwrap().len(), 54);
+    let bad = json!({"path": "text.png", "found": false, "error": message, "corners": []});
+    assert_eq!(answer["images"][1], bad);
+    assert_eq!(answer["error"]["file"], "text.png");
+}
+
+#[test]
+fn an_end_without_an_answer_is_one_document_of_the_published_schema() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../handeye-io/schema/error.schema.json");
+    let schema: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let known = &schema["properties"]["error"]["properties"];
+    let folder = Folder::new();
+    folder.put("cell/handeye.toml", "setup = 1\n");
+    folder.put("bad.json", "{");
+    for (args, code, line) in [
+        (&["calibrate", "cell"][..], 1, Some(1)),
+        (&["calibrate", "nowhere"], 1, None),
+        (&["solve", "bad.json"], 1, Some(1)),
+        (&["solve", "none.json"], 1, None),
+        (&["export", "bad.json", "--format", "kuka"], 1, Some(1)),
+        (&["repeat", "bad.json", "none.json"], 1, Some(1)),
+        (&["detect", "a.png", "--target", "none.toml"], 1, None),
+        (&["target", "cell/handeye.toml", "--out", "b.pdf"], 1, None),
+        (&["init", "nowhere"], 1, None),
+        (&["simulate", "cell"], 1, None),
+        (&["demo", "--out", "bad.json"], 1, None),
+        (&["calibrate"], 2, None),
+        (&["solve", "bad.json", "--method", "magic"], 2, None),
+    ] {
+        let args: Vec<&str> = args.iter().copied().chain(["--json"]).collect();
+        let run = handeye(&folder, &args);
+        assert_eq!(run.code, code, "{args:?}: {}", run.stderr);
+        assert!(run.stderr.starts_with("error: "), "{args:?}: {}", run.stderr);
+        let document = run.json();
+        let error = document["error"].as_object().unwrap();
+        assert!(error.keys().all(|key| known.get(key).is_some()), "{args:?}: {document}");
+        let codes = known["code"]["enum"].as_array().unwrap();
+        assert!(codes.contains(&error["code"]), "{args:?}: {document}");
+        assert!(error["message"].as_str().is_some_and(|m| !m.is_empty()), "{args:?}");
+        if line.is_some() {
+            assert_eq!(error.get("line").and_then(Value::as_u64), line, "{args:?}: {document}");
+        }
+        assert_eq!(error.contains_key("file"), code == 1, "{args:?}: {document}");
+    }
+}
+
+#[test]
+fn a_picture_that_cannot_be_read_is_named_with_its_capture() {
+    let folder = Folder::new();
+    let args = ["simulate", "cell", "--width", "480", "--height", "320", "--captures", "3"];
+    assert_eq!(handeye(&folder, &args).code, 0);
+    folder.put("cell/images/002.png", "no picture any more");
+    let run = handeye(&folder, &["calibrate", "cell", "--json"]);
+    assert_eq!(run.code, 1);
+    let error = &run.json()["error"];
+    assert_eq!((&error["capture"], &error["file"]), (&"002".into(), &"cell/images/002.png".into()));
+}
+
+#[test]
+fn several_formats_do_not_make_a_folder_called_like_a_file() {
+    let folder = Folder::new();
+    solved(&folder, "a.json", 0.0);
+    let run = handeye(&folder, &["export", "a.json", "--format", "urdf,kuka", "--out", "x.txt"]);
+    assert_eq!(run.code, 2);
+    assert!(run.error().starts_with("--out x.txt: 2 formats do not fit into one file"));
+    assert!(!folder.0.join("x.txt").exists());
 }
 
 #[test]

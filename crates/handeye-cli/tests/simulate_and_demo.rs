@@ -39,14 +39,81 @@ fn a_simulation_does_not_overwrite_what_is_not_its_own() {
     fs::write(out.join("mine.txt"), "keep").unwrap();
     let name = out.to_str().unwrap();
     let (code, _, said) = handeye(&["simulate", name, "--no-images"]);
-    assert!(code == 1 && said.contains("not the output of an earlier simulation"), "{said}");
+    assert!(
+        code == 1 && said.contains("mine.txt: was not written by `simulate`, or was edited since"),
+        "{said}"
+    );
     assert_eq!(handeye(&["simulate", name, "--no-images", "--force"]).0, 0);
-    assert_eq!(handeye(&["simulate", name, "--no-images", "--captures", "9"]).0, 0);
+    let fewer = ["simulate", name, "--no-images", "--captures", "9", "--force"];
+    assert_eq!(handeye(&fewer).0, 0);
     assert_eq!(fs::read_dir(out.join("corners")).unwrap().count(), 9);
     let (code, json, _) = handeye(&["calibrate", name, "--json"]);
     let told: Value = serde_json::from_str(&json).unwrap();
     assert_eq!((code, &told["verdict"]), (0, &Value::from("accepted")));
     assert!(out.join("mine.txt").exists());
+    fs::remove_dir_all(out).unwrap();
+}
+
+#[test]
+fn an_edited_manifest_is_not_lost_to_another_simulation() {
+    let out = folder("edited");
+    let name = out.to_str().unwrap();
+    assert_eq!(handeye(&["simulate", name, "--no-images"]).0, 0);
+    assert_eq!(handeye(&["simulate", name, "--no-images"]).0, 0, "its own folder");
+    fs::write(out.join("handeye.toml"), "# mine").unwrap();
+    let (code, _, said) = handeye(&["simulate", name, "--no-images"]);
+    assert!(code == 1 && said.contains("handeye.toml: was not written"), "{said}");
+    assert_eq!(fs::read_to_string(out.join("handeye.toml")).unwrap(), "# mine");
+    fs::remove_dir_all(out).unwrap();
+}
+
+#[test]
+fn init_finds_everything_that_a_simulation_wrote() {
+    let out = folder("init");
+    let name = out.to_str().unwrap();
+    let cell = ["simulate", name, "--setup", "eye-to-hand", "--no-images"];
+    assert_eq!(handeye(&cell).0, 0);
+    fs::remove_file(out.join("handeye.toml")).unwrap();
+    let (code, told, _) = handeye(&["init", name]);
+    assert_eq!(code, 0, "{told}");
+    assert!(told.lines().skip(1).all(|line| line.chars().count() <= 80), "{told}");
+    let text = fs::read_to_string(out.join("handeye.toml")).unwrap();
+    for part in [
+        "poses = \"robot.csv\"  # 15 poses",
+        "notation = \"quaternion-xyzw\"\nlength_unit = \"m\"",
+        "[corners]\nfiles = \"corners/???.csv\"  # 15 files",
+        "[[placements]]\nid = \"place-2\"\ncorners = \"corners/place-2.csv\"",
+        "[touches]\nfile = \"touches.csv\"  # 12 touches\nkind = \"flange-pose\"",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let answered = text.replace("# setup = \"eye-in-hand\"", "setup = \"eye-to-hand\"");
+    let mut answered =
+        answered.replace("# columns = 11", "columns = 9").replace("# rows = 8", "rows = 6");
+    for line in [
+        "kind = \"checkerboard\"",
+        "square_mm",
+        "direction",
+        "pixel_origin",
+        "[touches.tip]",
+        "in_flange_mm",
+    ] {
+        answered = answered.replace(&format!("# {line}"), line);
+    }
+    fs::write(out.join("handeye.toml"), answered).unwrap();
+    let (code, _, said) = handeye(&["calibrate", name, "--json"]);
+    assert!(code != 1, "the answered manifest can be used: {said}");
+    fs::remove_dir_all(out).unwrap();
+}
+
+#[test]
+fn init_says_that_there_is_nothing() {
+    let out = folder("nothing");
+    fs::create_dir_all(&out).unwrap();
+    fs::write(out.join("notes.txt"), "no numbers here").unwrap();
+    let (code, told, said) = handeye(&["init", out.to_str().unwrap()]);
+    assert!(code == 1 && told.is_empty() && said.contains("nothing found here that"), "{said}");
+    assert!(!out.join("handeye.toml").exists());
     fs::remove_dir_all(out).unwrap();
 }
 

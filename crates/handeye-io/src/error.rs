@@ -132,6 +132,61 @@ pub enum Error {
         /// What the core said.
         source: handeye::Error,
     },
+    /// A folder without anything to calibrate from.
+    #[error("{}: nothing found here that the camera saw or the robot reported; put the captures' pictures (or scans, or lists of corners) and the robot's poses into the folder, or name the one that has them", folder.display())]
+    NothingFound {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// An error in what belongs to one capture.
+    #[error("{source}")]
+    Capture {
+        /// Its name.
+        id: String,
+        /// What is wrong.
+        source: Box<Error>,
+    },
+}
+
+impl Error {
+    /// Short fixed name, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Error::Read { .. } => "cannot-read",
+            Error::Write { .. } => "cannot-write",
+            Error::Malformed { .. } => "malformed",
+            Error::Undeclared { .. } => "undeclared",
+            Error::TooLarge { .. } => "too-large",
+            Error::CountMismatch { .. } => "count-mismatch",
+            Error::NoFiles { .. } => "no-files",
+            Error::Values { .. } => "unusable",
+            Error::NothingFound { .. } => "nothing-found",
+            Error::Capture { source, .. } => source.code(),
+        }
+    }
+
+    /// Where it is.
+    pub fn place(&self) -> Place {
+        match self {
+            Error::Read { path, .. } | Error::Write { path, .. } => Place::file(path),
+            Error::Malformed { place, .. }
+            | Error::Undeclared { place, .. }
+            | Error::TooLarge { place, .. }
+            | Error::CountMismatch { place, .. }
+            | Error::NoFiles { place, .. }
+            | Error::Values { place, .. } => place.clone(),
+            Error::NothingFound { folder } => Place::file(folder),
+            Error::Capture { source, .. } => source.place(),
+        }
+    }
+
+    /// The capture it belongs to, where it belongs to one.
+    pub fn capture(&self) -> Option<&str> {
+        match self {
+            Error::Capture { id, .. } => Some(id),
+            _ => None,
+        }
+    }
 }
 
 fn reading(source: &io::Error) -> String {

@@ -82,7 +82,7 @@ pub(crate) fn natural(a: &str, b: &str) -> Ordering {
 }
 
 /// Maximal runs of digits and of other characters.
-fn runs(name: &str) -> Vec<&str> {
+pub(crate) fn runs(name: &str) -> Vec<&str> {
     let mut runs = Vec::new();
     let mut start = 0;
     let digit = |i: usize| name.as_bytes()[i].is_ascii_digit();

@@ -33,6 +33,6 @@ pub use dataset::{
 pub use error::{Error, Place};
 pub use files::write_atomically;
 pub use image::{image_size, read_image};
-pub use init::handeye_init;
+pub use init::{FirstManifest, Question, first_manifest};
 pub use scan::{ScanOptions, read_scan};
 pub use target_file::{read_target, target_toml};

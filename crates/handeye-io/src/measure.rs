@@ -15,7 +15,7 @@ use handeye::{
     Base, Camera, Flange, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
     SurfaceCorner, Target, TargetPose, Warning,
     detect::{self, surface},
-    intrinsics,
+    intrinsics, lens,
 };
 
 use crate::{CaptureSource, Dataset, Error, Place, PlacementSource, error::malformed};
@@ -81,22 +81,19 @@ pub fn measure(
         .map(Shot::from)
         .chain(dataset.placements.iter().map(Shot::from))
         .collect();
-    let seen = look_at_all(dataset, &shots, progress)?;
+    let mut seen = look_at_all(dataset, &shots, progress)?;
     let mut warnings = dataset.warnings.clone();
     let (camera, camera_rms_px) = camera(dataset, &shots, &seen, &mut warnings)?;
-    let mut not_found = Vec::new();
-    for (shot, s) in shots.iter().zip(&seen) {
-        if let Some(reason) = &s.not_found {
-            not_found.push((shot.id.to_owned(), reason.clone()));
-        }
-        warn_missing(shot, s, &mut warnings);
-    }
+    shots.iter().zip(&seen).for_each(|(shot, s)| warn_missing(shot, s, &mut warnings));
     let excess = typical_excess(dataset, &seen, camera.as_ref());
     let poses: Vec<Vec<TargetPose>> = shots
         .iter()
-        .zip(&seen)
-        .map(|(shot, s)| target_poses(dataset, shot, s, camera.as_ref(), excess, &mut not_found))
+        .zip(&mut seen)
+        .map(|(shot, s)| target_poses(dataset, shot, s, camera.as_ref(), excess))
         .collect();
+    let captures = dataset.captures.iter().zip(&seen);
+    let not_found = captures.filter_map(|(c, s)| Some((c.id.clone(), s.not_found.clone()?)));
+    let not_found = not_found.collect();
     let session = session(dataset, seen, poses, camera);
     Ok(Measured { session, camera_rms_px, not_found, warnings })
 }
@@ -126,7 +123,7 @@ fn look_at_all(
         loop {
             let k = next.fetch_add(1, Ordering::Relaxed);
             let Some(shot) = shots.get(k) else { break };
-            let seen = look_at(dataset, shot);
+            let seen = look_at(dataset, shot).map_err(|e| of_capture(shot, e));
             if let Ok(mut slot) = slots[k].lock() {
                 *slot = Some(seen);
             }
@@ -141,6 +138,10 @@ fn look_at_all(
     });
     // results, and the first error, in the order of the captures
     slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
+}
+
+fn of_capture(shot: &Shot, source: Error) -> Error {
+    Error::Capture { id: shot.id.to_owned(), source: Box::new(source) }
 }
 
 fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
@@ -186,7 +187,7 @@ fn camera(
 ) -> Result<(Option<Intrinsics>, Option<f64>), Error> {
     if let Some(given) = dataset.intrinsics {
         check_size(&given, shots, seen)?;
-        return Ok((Some(given), None));
+        return Ok((Some(unbent(given, dataset, seen, warnings)), None));
     }
     let Some(target) = &dataset.target else { return Ok((None, None)) };
     let views: Vec<Vec<ImageCorner>> =
@@ -209,6 +210,29 @@ fn camera(
     Ok((Some(found.intrinsics), Some(found.rms_px)))
 }
 
+/// The camera as given, or with the radial distortion that was not declared and that the corners
+/// prove.
+fn unbent(
+    given: Intrinsics,
+    dataset: &Dataset,
+    seen: &[Seen],
+    warnings: &mut Vec<Warning>,
+) -> Intrinsics {
+    let views: Vec<Vec<ImageCorner>> = seen.iter().map(|s| s.corners.clone()).collect();
+    let target = dataset.target.as_ref();
+    let Some(bend) = target.and_then(|t| lens::bend(&views, t, &given)) else { return given };
+    warnings.push(Warning::new(
+        "camera-bends",
+        format!(
+            "the camera is given without distortion, but the target's corners show one: \
+             k1 = {:.3} +- {:.3} takes them from {:.3} to {:.3} px RMS and is used; calibrate the \
+             camera with a board all over the picture",
+            bend.k1, bend.sigma, bend.rms_given_px, bend.rms_px
+        ),
+    ));
+    bend.intrinsics
+}
+
 fn uncalibrated(dataset: &Dataset, error: &handeye::Error) -> Error {
     let what = format!("no [camera] given, and the views do not give it either: {error}");
     malformed(Place::file(&dataset.manifest), what, "add the camera's intrinsics to the manifest")
@@ -224,7 +248,7 @@ fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), 
                 camera.width, camera.height
             );
             let advice = "give `resized` in [camera], or intrinsics for this size";
-            return Err(malformed(Place::file(path), what, advice));
+            return Err(of_capture(shot, malformed(Place::file(path), what, advice)));
         }
     }
     Ok(())
@@ -249,10 +273,9 @@ fn typical_excess(dataset: &Dataset, seen: &[Seen], camera: Option<&Intrinsics>)
 fn target_poses(
     dataset: &Dataset,
     shot: &Shot,
-    seen: &Seen,
+    seen: &mut Seen,
     camera: Option<&Intrinsics>,
     excess: Option<f64>,
-    not_found: &mut Vec<(String, String)>,
 ) -> Vec<TargetPose> {
     if let Some(camera_from_target) = shot.pose {
         return vec![TargetPose { camera_from_target, covariance: None }];
@@ -264,7 +287,7 @@ fn target_poses(
     match detect::target_poses_with(&seen.corners, &seen.surface, target, camera, excess) {
         Ok(poses) => detect::with_symmetries(&poses, target),
         Err(error) => {
-            not_found.push((shot.id.to_owned(), error.to_string()));
+            seen.not_found = Some(error.to_string());
             vec![]
         }
     }
@@ -292,6 +315,7 @@ fn session(
             corners: s.corners,
             surface: s.surface,
             candidates,
+            not_seen: s.not_found,
         })
         .collect();
     Session {

@@ -686,10 +686,16 @@ fn init_asks_what_the_files_do_not_prove() {
         folder.write(&format!("images/img_{i}.png"), png(8, 8));
     }
     folder.write("poses.csv", POSES);
-    let text = handeye_io::handeye_init(&folder.0).unwrap();
+    let handeye_io::FirstManifest { text, questions } =
+        handeye_io::first_manifest(&folder.0).unwrap();
     assert!(text.contains("files = \"images/img_*.png\"  # 3 files"), "{text}");
     assert!(text.contains("poses = \"poses.csv\""), "{text}");
-    assert!(text.contains("# direction = \"base_from_flange\"  # QUESTION:"), "{text}");
+    assert!(text.contains("# direction = \"base_from_flange\"\n"), "{text}");
+    for question in questions {
+        let line = text.lines().nth(question.line - 1).unwrap();
+        let start = line.strip_prefix("# QUESTION: ").unwrap();
+        assert!(question.text.starts_with(start), "{line}");
+    }
     folder.write("handeye.toml", text);
     let message = folder.message(&Dataset::open(Path::new(&folder.0)).unwrap_err());
     assert!(message.starts_with("handeye.toml:"), "{message}");

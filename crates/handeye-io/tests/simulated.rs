@@ -12,7 +12,10 @@ use handeye::{
     calibration::Verdict,
     simulate::{Cell, CellNoise, DepthSensor},
 };
-use handeye_io::{Dataset, measure, simulated};
+use handeye_io::{
+    Dataset, measure,
+    simulated::{self, ScanFormat, Writing},
+};
 
 fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("handeye-{name}-{}", std::process::id()));
@@ -29,7 +32,11 @@ fn small(setup: Setup) -> Cell {
 }
 
 fn write(cell: &Cell, folder: &Path, with_images: bool) -> Vec<String> {
-    simulated::write(&cell.record(5).unwrap(), folder, with_images).unwrap()
+    write_as(cell, folder, Writing { images: with_images, scans: ScanFormat::DepthPng })
+}
+
+fn write_as(cell: &Cell, folder: &Path, writing: Writing) -> Vec<String> {
+    simulated::write(&cell.record(5).unwrap(), folder, writing).unwrap()
 }
 
 /// Translation error of the chosen answer, mm.
@@ -104,5 +111,47 @@ fn only_an_earlier_simulation_is_cleared() {
     let outside = r#"{"format": "handeye-simulation-1", "files": ["../x", "/etc/passwd"]}"#;
     fs::write(folder.join(simulated::TRUTH), outside).unwrap();
     assert!(simulated::clear(&folder).unwrap());
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn scans_of_every_format_hold_the_same_points() {
+    let cell = Cell {
+        captures: 2,
+        depth: Some(DepthSensor::default()),
+        scan_scale: 0.25,
+        ..small(Setup::EyeInHand)
+    };
+    let scans = [ScanFormat::DepthPng, ScanFormat::Ply, ScanFormat::Pcd].map(|scans| {
+        let folder = folder(&format!("scans-{scans:?}"));
+        write_as(&cell, &folder, Writing { images: true, scans });
+        let dataset = Dataset::open(&folder).unwrap();
+        let scan = dataset.scan(dataset.captures[1].scan.as_ref().unwrap()).unwrap();
+        fs::remove_dir_all(folder).unwrap();
+        scan
+    });
+    let [depth, ply, pcd] = &scans;
+    assert_eq!((ply.width(), ply.height()), (160, 120));
+    let bits = |s: &handeye::Scan| s.points().iter().flatten().map(|x| x.to_bits()).sum::<u32>();
+    assert_eq!(bits(ply), bits(pcd));
+    for (a, b) in depth.points().iter().zip(ply.points()) {
+        assert_eq!(a[2].is_nan(), b[2].is_nan());
+        assert!(a[2].is_nan() || (a[2] - b[2]).abs() < 1e-4, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn a_file_that_was_edited_or_added_is_noticed() {
+    let folder = folder("foreign");
+    assert_eq!(simulated::foreign(&folder), None);
+    write(&small(Setup::EyeToHand), &folder, false);
+    assert_eq!(simulated::foreign(&folder), None);
+    let manifest = folder.join("handeye.toml");
+    let text = fs::read_to_string(&manifest).unwrap();
+    fs::write(&manifest, text.clone() + "# mine\n").unwrap();
+    assert_eq!(simulated::foreign(&folder), Some(manifest.clone()));
+    fs::write(&manifest, text).unwrap();
+    fs::write(folder.join("corners/mine.txt"), "keep").unwrap();
+    assert_eq!(simulated::foreign(&folder), Some(folder.join("corners/mine.txt")));
     fs::remove_dir_all(folder).unwrap();
 }

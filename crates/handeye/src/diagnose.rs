@@ -189,13 +189,14 @@ pub fn axis_name(axis: &nalgebra::Vector3<f64>) -> String {
     format!("({:.2}, {:.2}, {:.2})", axis.x, axis.y, axis.z)
 }
 
-/// Points of the target as seen in all captures, in the camera frame.
+/// Points of the target as seen in all captures, in the camera frame, under a name.
 pub fn seen_volume(
     pairs: &[PosePair],
     corners: &[crate::Point<Target>],
+    name: &str,
 ) -> Option<predict::Volume> {
     let points = pairs
         .iter()
         .flat_map(|p| corners.iter().map(move |c| (p.camera_from_target * *c).vector()));
-    predict::Volume::around(points, "the box in which the camera saw the target")
+    predict::Volume::around(points, name)
 }

@@ -21,6 +21,7 @@ use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix6, SMatrix, SVector, Vector2, 
 
 use crate::detect::{homography, target_poses};
 use crate::lie::{self, hat};
+use crate::linalg::median;
 use crate::{
     Camera, Distortion, Error, ImageCorner, Intrinsics, Pose, Target, TargetModel, Warning,
 };
@@ -74,7 +75,7 @@ const FARTHEST: f64 = 5.0;
 const HUBER: f64 = 1.5;
 /// A distortion term must raise the log-likelihood by this multiple of Schwarz's price: residuals
 /// of neighbouring corners are not independent.
-const PRICE: f64 = 4.0;
+pub(crate) const PRICE: f64 = 4.0;
 /// Rounds of re-weighting.
 const ROUNDS: usize = 3;
 /// Most steps of one adjustment.
@@ -321,8 +322,7 @@ impl Adjustment {
     /// What the model leaves beyond the corners' variances, px² per axis, by the median.
     fn excess(&self) -> f64 {
         let residuals = median(self.squares(|_| true)) / CHI2_2_MEDIAN;
-        let own =
-            median(self.views.iter().flat_map(|v| v.corners.iter().map(|c| c.variance)).collect());
+        let own = median(self.views.iter().flat_map(|v| v.corners.iter().map(|c| c.variance)));
         (residuals - own).max(0.0)
     }
 
@@ -518,7 +518,7 @@ impl Adjustment {
 }
 
 fn warnings(views: &[ViewFit]) -> Vec<Warning> {
-    let typical = median(views.iter().map(|v| v.rms_px).filter(|r| r.is_finite()).collect());
+    let typical = median(views.iter().map(|v| v.rms_px).filter(|r| r.is_finite()));
     let one = |(index, view): (usize, &ViewFit)| {
         let number = index + 1;
         if view.camera_from_target.is_none() {
@@ -588,11 +588,6 @@ fn by_parameters(camera: &Intrinsics, point: &Vector3<f64>) -> SMatrix<f64, 2, 9
         Vector2::new(fx * (r2 + 2.0 * x * x), fy * 2.0 * x * y),
         Vector2::new(fx * x, fy * y) * powers[2],
     ])
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 fn root_mean(squares: &[f64]) -> f64 {

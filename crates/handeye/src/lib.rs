@@ -10,6 +10,7 @@ pub mod evaluate;
 pub mod frame;
 pub mod image;
 pub mod intrinsics;
+pub mod lens;
 pub mod lie;
 pub mod linalg;
 pub mod observation;

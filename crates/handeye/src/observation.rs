@@ -101,6 +101,8 @@ pub struct Placement {
     pub surface: Vec<SurfaceCorner>,
     /// The target's possible poses in its picture, as in [`Observation::candidates`].
     pub candidates: Vec<TargetPose>,
+    /// Why its picture shows no target, where it does not.
+    pub not_seen: Option<String>,
 }
 
 /// The tool tip on a corner of the target.

@@ -49,12 +49,15 @@ pub struct Agreement {
 /// Scatter about the mean.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scatter {
-    /// `sqrt(Σ d² / (n - 1))` of the distances to the mean.
+    /// `sqrt(Σ d² / n)` of the distances `d` to the mean.
     pub rms: f64,
     /// Largest of them.
     pub max: f64,
     /// The same root along each axis.
     pub axes: [f64; 3],
+    /// `sqrt(Σ d² / (n - 1))`: how far a single result is expected from the truth, as far as the
+    /// results scatter at random.
+    pub standard_deviation: f64,
 }
 
 /// Rounds of Gauss-Newton; nearby poses need three.
@@ -149,12 +152,14 @@ pub fn scatter_of_rotation(results: &[Repetition], mean: &Pose<Mount, Camera>) -
 
 fn scatter(differences: impl Iterator<Item = Vector3<f64>>) -> Scatter {
     let all: Vec<Vector3<f64>> = differences.collect();
-    let free = (all.len() as f64 - 1.0).max(1.0);
-    let root = |sum: f64| (sum / free).sqrt();
+    let count = (all.len() as f64).max(1.0);
+    let rms = |sum: f64| (sum / count).sqrt();
+    let sum: f64 = all.iter().map(|d| d.norm_squared()).sum();
     Scatter {
-        rms: root(all.iter().map(|d| d.norm_squared()).sum()),
+        rms: rms(sum),
         max: all.iter().map(|d| d.norm()).fold(0.0, f64::max),
-        axes: std::array::from_fn(|k| root(all.iter().map(|d| d[k] * d[k]).sum())),
+        axes: std::array::from_fn(|k| rms(all.iter().map(|d| d[k] * d[k]).sum())),
+        standard_deviation: (sum / (count - 1.0).max(1.0)).sqrt(),
     }
 }
 
@@ -250,7 +255,8 @@ mod tests {
         let far = Vector3::new(0.0, 0.0, 0.5);
         assert!(scatter_at(&Vector3::zeros(), &results, &truth()).rms < 1e-12);
         let at_far = scatter_at(&far, &results, &truth());
-        assert!((at_far.rms - 0.5e-3 * 2.0_f64.sqrt()).abs() < 1e-8);
+        assert!((at_far.rms - 0.5e-3).abs() < 1e-8, "no more than the largest");
+        assert!((at_far.standard_deviation - 0.5e-3 * 2.0_f64.sqrt()).abs() < 1e-8);
         assert!((at_far.max - 0.5e-3).abs() < 1e-8);
         assert!((scatter_of_rotation(&results, &truth()).max - 1e-3).abs() < 1e-12);
     }

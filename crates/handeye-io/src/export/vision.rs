@@ -1,5 +1,7 @@
 //! Vision libraries: OpenCV, Zivid, HALCON.
 
+use handeye::Setup;
+
 use super::{CameraPose, numbers, row_major};
 use crate::robot::Notation;
 
@@ -24,7 +26,8 @@ pub(super) fn zivid(pose: &CameraPose) -> String {
     )
 }
 
-/// HALCON's results have the camera as the parent: `child_from_parent`, as Rp+T, gba, point.
+/// HALCON's results have the camera as the parent: `camera_from_base` (its `BaseInCamPose`) or
+/// `camera_from_flange` (`ToolInCamPose`), as Rp+T, gba, point.
 pub(super) fn halcon(pose: &CameraPose) -> String {
     let inverse = pose.parent_from_child.inverse();
     let values = Notation::named("euler-xyz-intrinsic")
@@ -32,16 +35,26 @@ pub(super) fn halcon(pose: &CameraPose) -> String {
         .unwrap_or_default();
     format!(
         "# 3D POSE PARAMETERS: rotation and translation\n\n\
-         # {}: {} in {}\n\n\
+         # {}_from_{}: {} in {}, HALCON's {}\n\n\
          # Used representation type:\nf 0\n\n\
          # Rotation angles [deg] or Rodriguez-vector:\nr {}\n\n\
          # Translational vector (x y z [m]):\nt {}\n",
-        pose.name,
+        pose.child,
+        pose.parent,
         pose.parent,
         pose.child,
+        in_halcon(pose.setup),
         numbers(&values[3..], " "),
         numbers(&values[..3], " "),
     )
+}
+
+/// What HALCON's calibrate_hand_eye calls this pose.
+fn in_halcon(setup: Setup) -> &'static str {
+    match setup {
+        Setup::EyeInHand => "ToolInCamPose",
+        Setup::EyeToHand => "BaseInCamPose",
+    }
 }
 
 #[cfg(test)]
@@ -62,6 +75,9 @@ mod tests {
     #[test]
     fn halcon_has_the_camera_as_parent() {
         let text = halcon(&example());
+        let heading = "# camera_optical_frame_from_base_link: base_link in camera_optical_frame, \
+                       HALCON's BaseInCamPose\n";
+        assert!(text.contains(heading), "{text}");
         let line = |key: &str| -> Vec<f64> {
             let line = text.lines().find_map(|l| l.strip_prefix(key)).unwrap();
             line.split(' ').map(|w| w.parse().unwrap()).collect()

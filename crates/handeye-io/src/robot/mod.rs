@@ -1,20 +1,14 @@
 //! How robots write a pose. A notation is data: its columns, its units, and how its last numbers
-//! make a rotation; a file per maker says them. Reading and writing use the same data.
+//! make a rotation; `makers` and the files beside it say them. Reading and writing use the same data.
 
 mod abb;
-mod denso;
 mod dh;
-mod doosan;
 mod euler;
-mod fanuc;
 mod generic;
-mod kawasaki;
-mod kuka;
+mod makers;
 mod rotation;
-mod staubli;
 mod suspicion;
 mod universal_robots;
-mod yaskawa;
 
 use nalgebra::{Isometry3, Translation3};
 
@@ -106,15 +100,11 @@ impl Notation {
             "rotation-vector" => generic::rotation_vector(),
             "ur" => universal_robots::pose(),
             "ur-rpy" => universal_robots::rpy(),
-            "kuka" => kuka::notation(),
-            "fanuc" => fanuc::notation(),
             "abb" => abb::notation(),
-            "yaskawa" => yaskawa::notation(),
-            "kawasaki" => kawasaki::notation(),
-            "staubli" => staubli::notation(),
-            "doosan" => doosan::notation(),
-            "denso" => denso::notation(),
-            other => return generic::euler(other).ok_or_else(|| unknown(other)),
+            other => {
+                let found = makers::notation(other).or_else(|| generic::euler(other));
+                return found.ok_or_else(|| unknown(other));
+            }
         };
         Ok(found)
     }

@@ -357,13 +357,14 @@ fn volume(views: &Views, fit: &JointFit) -> Option<Volume> {
     if let Some(w) = &views.session.workspace {
         return Some(workspace_volume(views.session.setup, w, &fit.hand_eye.mount_from_camera));
     }
-    let corners: Vec<crate::Point<Target>> = match &views.session.target {
-        Some(target) => {
-            target.corners().iter().map(|c| views.target_from_corner.inverse() * *c).collect()
-        }
-        None => vec![crate::Point::new(0.0, 0.0, 0.0)],
+    let Some(target) = &views.session.target else {
+        let origin = [crate::Point::new(0.0, 0.0, 0.0)];
+        let name = "the box around the target's origin in all poses";
+        return diagnose::seen_volume(&pairs_of(views), &origin, name);
     };
-    diagnose::seen_volume(&pairs_of(views), &corners)
+    let corners: Vec<crate::Point<Target>> =
+        target.corners().iter().map(|c| views.target_from_corner.inverse() * *c).collect();
+    diagnose::seen_volume(&pairs_of(views), &corners, "the box in which the camera saw the target")
 }
 
 pub(super) fn workspace_volume(setup: Setup, w: &Workspace, x: &Pose<Mount, Camera>) -> Volume {

@@ -1,6 +1,6 @@
 //! Misfit of every capture and touch, and which way round the target lies.
 
-use super::{agreement::Views, joint::Joint};
+use super::{Session, agreement::Views, joint::Joint};
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
     TargetPose, Touch, Warning,
@@ -119,18 +119,39 @@ pub(super) fn pair_touches(
         session.placements.iter().map(|p| oriented(p, &session.touches, &x, target)).collect();
     let (paired, missing) =
         touches::pair_touches(session.setup, target, &chosen, &placements, &session.touches);
-    for k in missing {
-        let touch = &session.touches[k];
-        result.warnings.push(Warning::new(
-            "touch-without-view",
-            format!(
-                "touch of corner {} of placement {:?} left out: the camera shows no such corner \
-                 there; give the placement a picture or scan",
-                touch.corner, touch.placement
-            ),
-        ));
-    }
+    result.warnings.extend(without_view(session, &missing));
     paired
+}
+
+/// One warning for each placement whose touches pair with nothing; touches are sorted by placement.
+fn without_view(session: &Session, missing: &[usize]) -> Vec<Warning> {
+    let name = |k: &usize| &session.touches[*k].placement;
+    let one = |touches: &[usize]| {
+        let id = name(&touches[0]);
+        let seen = session.placements.iter().find(|p| p.id == *id);
+        let why = match seen.map(|p| &p.not_seen) {
+            Some(Some(reason)) => {
+                format!("its picture shows no target ({reason}); take it again, or another one")
+            }
+            Some(None) => {
+                "the camera saw nothing of it; give it a picture, corners or a pose".into()
+            }
+            None => "no view shows these corners; give the placement a picture".into(),
+        };
+        let corners: Vec<String> =
+            touches.iter().map(|k| session.touches[*k].corner.to_string()).collect();
+        let count = touches.len();
+        let (touches, corners) = (plural(count, "touch", "es"), corners.join(", "));
+        Warning::new(
+            "touch-without-view",
+            format!("placement {id}: {touches} left out (corner {corners}): {why}"),
+        )
+    };
+    missing.chunk_by(|a, b| name(a) == name(b)).map(one).collect()
+}
+
+fn plural(count: usize, word: &str, ending: &str) -> String {
+    if count == 1 { format!("1 {word}") } else { format!("{count} {word}{ending}") }
 }
 
 /// The observation with the reading that was chosen: its pose alone, its scan's corners renamed.

@@ -708,4 +708,29 @@ mod tests {
         let broken = GrayImage::new(64, 64, vec![f32::NAN; 4096]).unwrap();
         assert!(detect(&broken, &charuco(7, 5, false)).is_err());
     }
+
+    /// A checkerboard of whole black and white pixels, as a rasterised print has it.
+    fn raster(columns: usize, rows: usize, cell: f64, margin: f64) -> GrayImage {
+        let size = |n: usize| (2.0 * margin + cell * (n + 1) as f64).ceil() as usize;
+        let (width, height) = (size(columns), size(rows));
+        let index = |x: usize| ((x as f64 + 0.5 - margin) / cell).floor() as i64;
+        let grey = |x: usize, y: usize| {
+            let inside = |k: i64, n: usize| (0..=n as i64).contains(&k);
+            let board = inside(index(x), columns) && inside(index(y), rows);
+            if board && (index(x) + index(y)) % 2 == 0 { 0.0 } else { 255.0 }
+        };
+        let pixels = (0..width * height).map(|k| grey(k % width, k / width)).collect();
+        GrayImage::new(width, height, pixels).unwrap()
+    }
+
+    #[test]
+    fn a_perfectly_sharp_print_shows_all_corners() {
+        for cell in [20.0, 29.53, 47.24, 59.06, 118.11, 147.64, 177.17] {
+            for margin in [30.0, 59.37, 100.5] {
+                let image = raster(8, 5, cell, margin);
+                let found = detect(&image, &checkerboard(8, 5)).map(|c| c.len());
+                assert_eq!(found, Ok(40), "cells of {cell} px, margin of {margin} px");
+            }
+        }
+    }
 }

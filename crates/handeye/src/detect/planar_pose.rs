@@ -22,6 +22,7 @@ use nalgebra::{
 
 use super::homography;
 use crate::lie::{self, hat};
+use crate::linalg::median;
 use crate::{Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel, TargetPose};
 
 /// A pose of the target and how well it explains the picture.
@@ -492,12 +493,6 @@ fn translation(
         }
     }
     normal.cholesky().map(|c| c.solve(&right))
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut all: Vec<f64> = values.collect();
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Where `is_low` turns false, to 1e-12 of the interval.

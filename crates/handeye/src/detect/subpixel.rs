@@ -545,4 +545,36 @@ mod tests {
         let rough = RoughCorner { pixel: Vector2::new(3.0, 30.0), ..rough };
         assert_eq!(fit(&flat, &rough, &Erf::new()), Err(Unfit::AtTheEdge));
     }
+
+    /// A checkerboard of whole black and white pixels, as a rasterised print has it.
+    #[test]
+    fn perfectly_sharp_corners_are_all_found() {
+        let erf = Erf::new();
+        for cell in [8.0, 14.77, 29.53, 59.06, 147.64] {
+            let edge = |k: usize| 5.3 + cell * k as f64;
+            let size = edge(7).ceil() as usize + 5;
+            let index = |x: usize| ((x as f64 - edge(0)) / cell).floor() as i64;
+            let grey = |x: usize, y: usize| {
+                let board = |k: i64| (0..7).contains(&k);
+                let black = board(index(x)) && board(index(y)) && (index(x) + index(y)) % 2 == 0;
+                if black { 0.0 } else { 255.0 }
+            };
+            let pixels = (0..size * size).map(|k| grey(k % size, k / size)).collect();
+            let image = GrayImage::new(size, size, pixels).unwrap();
+            for (i, j) in (1..7).flat_map(|i| (1..7).map(move |j| (i, j))) {
+                let on_edge = |k: usize| edge(k).ceil() - 0.5;
+                let truth = Vector2::new(on_edge(i), on_edge(j));
+                for off in [(0.0, 0.0), (0.4, -0.3), (-0.5, 0.5), (0.7, 0.2)] {
+                    let rough = RoughCorner {
+                        pixel: truth + Vector2::new(off.0, off.1),
+                        along_x: Vector2::new(cell, 0.0),
+                        along_y: Vector2::new(0.0, cell),
+                        clean: 1.0,
+                    };
+                    let error = fit(&image, &rough, &erf).map(|f| (f.pixel - truth).norm());
+                    assert!(error.is_ok_and(|e| e < 0.05), "{cell} {i} {j} {off:?}: {error:?}");
+                }
+            }
+        }
+    }
 }

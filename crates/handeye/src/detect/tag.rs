@@ -254,6 +254,10 @@ const BAND_PX: (f64, f64) = (1.5, 6.0);
 /// The band ends this much before the corners, in cells, and in px more.
 const END_CELLS: f64 = 0.5;
 const END_PX: f64 = 1.5;
+/// Other edges are farther from the band than this many blurs.
+const CLEAR_BLURS: f64 = 3.0;
+/// Blur of a common picture, px, before it is measured.
+const USUAL_BLUR_PX: f64 = 0.6;
 /// Rounds in which the band follows the edge.
 const ROUNDS: usize = 3;
 /// Most steps of a fit.
@@ -262,6 +266,8 @@ const MOST_STEPS: usize = 30;
 const STEP_PX: f64 = 1e-4;
 /// Fewer pixels do not determine six parameters.
 const FEWEST_PIXELS: usize = 16;
+/// Pieces of a side whose offsets tell how straight it is.
+const PIECES: usize = 8;
 /// Blurs stay in this range, px.
 const BLUR_PX: (f64, f64) = (0.29, 4.0);
 /// Rounding to 8 bits alone leaves this variance.
@@ -280,6 +286,15 @@ struct Line {
     angle: f64,
     rho: f64,
     covariance: Matrix2<f64>,
+    wobble: Wobble,
+    blur_px: f64,
+}
+
+/// How far the pieces of an edge lie off its line, in their own variances.
+#[derive(Clone, Copy, Default)]
+struct Wobble {
+    squares: f64,
+    freedom: f64,
 }
 
 /// Corners from the edges of all sides.
@@ -287,18 +302,31 @@ fn refined(image: &GrayImage, start: Quad, cells: usize) -> Option<Vec<ImageCorn
     let erf = Erf::new();
     let mut quad = start;
     let mut corners = vec![];
+    let mut blur_px = USUAL_BLUR_PX;
     for _ in 0..ROUNDS {
-        let sides: Option<Vec<Line>> =
-            (0..4).map(|k| side(image, &quad[k], &quad[(k + 1) % 4], cells, &erf)).collect();
-        let sides = sides?;
+        let sides: Option<Vec<Line>> = (0..4)
+            .map(|k| side(image, [&quad[k], &quad[(k + 1) % 4]], cells, blur_px, &erf))
+            .collect();
+        let mut sides = sides?;
+        let wobble = wobble(&sides);
+        sides.iter_mut().for_each(|side| side.covariance *= wobble);
         let met: Option<Vec<ImageCorner>> =
             (0..4).map(|k| meet(k as u32, &sides[(k + 3) % 4], &sides[k])).collect();
         corners = met?;
         quad = std::array::from_fn(|k| corners[k].pixel);
+        blur_px = sides.iter().map(|side| side.blur_px).sum::<f64>() / 4.0;
     }
     let near = |k: usize| (quad[k] - start[k]).norm() < 2.0 + 0.1 * area(&start).sqrt();
     let known = |c: &ImageCorner| c.covariance.trace() < UNKNOWN_PX2;
     ((0..4).all(near) && corners.iter().all(known)).then_some(corners)
+}
+
+/// By how much larger the lines' covariances are than their pixels' noise says: light, print, paper
+/// and lens bend edges over many pixels. All four sides share it, at least 1.
+fn wobble(sides: &[Line]) -> f64 {
+    let squares: f64 = sides.iter().map(|side| side.wobble.squares).sum();
+    let freedom: f64 = sides.iter().map(|side| side.wobble.freedom).sum();
+    (squares / freedom.max(1.0)).max(1.0)
 }
 
 /// Where two lines meet: `N c = ρ + N m`, and `dc = N⁻¹ (dρᵢ - tᵢ·(c - mᵢ) dθᵢ)`.
@@ -326,14 +354,14 @@ struct Band {
 /// The edge from corner `a` to corner `b`; the tag is on the right of that way.
 fn side(
     image: &GrayImage,
-    a: &Vector2<f64>,
-    b: &Vector2<f64>,
+    [a, b]: [&Vector2<f64>; 2],
     cells: usize,
+    blur_px: f64,
     erf: &Erf,
 ) -> Option<Line> {
     let (middle, along) = ((a + b) * 0.5, (b - a).normalize());
     let outwards = Vector2::new(along.y, -along.x);
-    let band = gather(image, &middle, &outwards, (b - a).norm(), cells)?;
+    let band = gather(image, &middle, &outwards, (b - a).norm(), cells, blur_px)?;
     let (at, normal, cost) = band.descend(band.start(), erf)?;
     let freedom = band.pixels.len() as f64 - 6.0;
     let variance = (cost / freedom).max(ROUNDING_VARIANCE);
@@ -344,6 +372,8 @@ fn side(
         angle: outwards.y.atan2(outwards.x) + at[1],
         rho: at[0],
         covariance: inverse.fixed_view::<2, 2>(0, 0).into_owned(),
+        wobble: band.wobble(&at, variance, erf),
+        blur_px: at[4].exp(),
     })
 }
 
@@ -353,11 +383,13 @@ fn gather(
     outwards: &Vector2<f64>,
     length: f64,
     cells: usize,
+    blur_px: f64,
 ) -> Option<Band> {
     let cell = length / cells as f64;
     let along = Vector2::new(-outwards.y, outwards.x);
-    let width = (BAND_CELLS * cell).clamp(BAND_PX.0, BAND_PX.1);
-    let half = 0.5 * length - END_CELLS * cell - END_PX;
+    let clear = CLEAR_BLURS * blur_px;
+    let width = (BAND_CELLS * cell).min(cell - clear).clamp(BAND_PX.0, BAND_PX.1);
+    let half = 0.5 * length - (END_CELLS * cell + END_PX).max(clear);
     let reach = along.abs() * half.max(0.0) + outwards.abs() * width;
     let range = |centre: f64, reach: f64, size: usize| {
         let low = (centre - reach).floor().max(0.0) as usize;
@@ -411,6 +443,25 @@ impl Band {
             }
         }
         cost.is_finite().then_some((at, normal, cost))
+    }
+
+    /// Each piece's own offset `Σ jr / Σ j²` from the fitted line, squared, over its variance
+    /// `σ² / Σ j²`, with `j = ∂I/∂ρ`. The line has taken two of them.
+    fn wobble(&self, at: &Parameters, variance: f64, erf: &Erf) -> Wobble {
+        let half = self.pixels.iter().map(|p| p.0.abs()).fold(f64::MIN_POSITIVE, f64::max);
+        let mut sums = [(0.0, 0.0); PIECES];
+        for &(u, v, grey) in &self.pixels {
+            let (value, j) = model(at, u, v, erf);
+            let piece = (PIECES as f64 * 0.5 * (1.0 + u / half)) as usize;
+            let (jr, jj) = &mut sums[piece.min(PIECES - 1)];
+            *jr += j[0] * (grey - value);
+            *jj += j[0] * j[0];
+        }
+        let seen = || sums.iter().filter(|(_, jj)| *jj > 0.0);
+        Wobble {
+            squares: seen().map(|(jr, jj)| jr * jr / (jj * variance)).sum(),
+            freedom: (seen().count() as f64 - 2.0).max(0.0),
+        }
     }
 
     /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
@@ -494,6 +545,32 @@ mod tests {
         let mean = sum / count;
         println!("normalised error squared {mean:.2}");
         assert!((0.7..1.5).contains(&mean), "{mean}");
+    }
+
+    /// Root mean square of the corners' errors (px, per axis), and their mean square over their
+    /// covariances.
+    fn figures(optics: &Optics) -> (f64, f64) {
+        let (mut squares, mut normalised, mut count) = (0.0, 0.0, 0.0);
+        for k in 0..40 {
+            let scene = scene(NAMES[0], 7, 200 + k);
+            let found = detect(&scene.picture(optics, k), NAMES[0], 7).unwrap();
+            for (corner, (_, exact)) in found.iter().zip(scene.corners()) {
+                let e = corner.pixel - exact;
+                squares += e.norm_squared();
+                normalised += e.dot(&(corner.covariance.try_inverse().unwrap() * e));
+                count += 2.0;
+            }
+        }
+        ((squares / count).sqrt(), normalised / count)
+    }
+
+    #[test]
+    fn blur_and_noise_are_in_the_covariance() {
+        for (blur_px, noise) in [(0.4, 1.0), (0.8, 1.0), (0.8, 4.0), (1.5, 2.0)] {
+            let (rms, mean) = figures(&Optics { blur_px, noise, ..Optics::default() });
+            println!("blur {blur_px} noise {noise}: {rms:.4} px, normalised {mean:.2}");
+            assert!((0.7..1.5).contains(&mean), "blur {blur_px}, noise {noise}: {mean}");
+        }
     }
 
     #[test]

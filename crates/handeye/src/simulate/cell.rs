@@ -5,13 +5,16 @@
 //! `base_from_flange · exp(δ)`. Positions err by so many metres in three dimensions (root mean
 //! square), rotations by so many radians about each axis.
 
-use nalgebra::{Matrix2, Matrix3, Rotation3, Vector2, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector2, Vector3};
 
+use super::{
+    DepthSensor, Optics, Random,
+    recording::{Recording, Truth, placement_name},
+    robot_error::{SystematicError, reported},
+};
 use crate::{
-    Anchor, Base, Camera, Error, Flange, GrayImage, HandEye, ImageCorner, Intrinsics, Mount,
-    Observation, Placement, Point, Pose, Scan, Session, Setup, SurfaceCorner, Target, TargetModel,
-    Touch, detect, lie,
-    simulate::{DepthSensor, Optics, Random, Scene},
+    Anchor, Base, Camera, Error, Flange, HandEye, Intrinsics, Mount, Point, Pose, Session, Setup,
+    Target, TargetModel, Touch,
 };
 
 /// How wrong everything is that measures.
@@ -25,6 +28,11 @@ pub struct CellNoise {
     pub robot_absolute_m: f64,
     /// The same: rotation (rad, about each axis).
     pub robot_absolute_rad: f64,
+    /// How far the arm as it was built is from the one that its controller computes with: an error
+    /// that is smooth over the workspace, position (m, 3-D RMS).
+    pub robot_systematic_m: f64,
+    /// The same: rotation (rad, about each axis).
+    pub robot_systematic_rad: f64,
     /// Corners in the picture (px, each axis), where they are not detected in rendered pictures.
     pub corner_px: f64,
     /// How well the tip is led onto a corner (m, 3-D RMS).
@@ -40,6 +48,8 @@ impl CellNoise {
         robot_repeatability_rad: 0.0,
         robot_absolute_m: 0.0,
         robot_absolute_rad: 0.0,
+        robot_systematic_m: 0.0,
+        robot_systematic_rad: 0.0,
         corner_px: 0.0,
         touch_m: 0.0,
         tip_m: 0.0,
@@ -54,6 +64,8 @@ impl Default for CellNoise {
             robot_repeatability_rad: 0.0,
             robot_absolute_m: 0.5e-3,
             robot_absolute_rad: 0.03f64.to_radians(),
+            robot_systematic_m: 0.0,
+            robot_systematic_rad: 0.0,
             corner_px: 0.1,
             touch_m: 0.3e-3,
             tip_m: 0.0,
@@ -107,34 +119,6 @@ pub struct Cell {
     pub seed: u64,
 }
 
-/// What nobody in a real cell knows.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Truth {
-    /// Where camera and target sit.
-    pub hand_eye: HandEye,
-    /// Where the target is in every picture: captures first, then placements.
-    pub camera_from_target: Vec<Pose<Camera, Target>>,
-    /// Where the flange is in every capture.
-    pub base_from_flange: Vec<Pose<Base, Flange>>,
-    /// Tip minus where the robot believes it, in the flange (m).
-    pub tip_error: Vector3<f64>,
-}
-
-/// What the robot says in a cell, and the truth behind it. Pictures and scans are made when asked
-/// for, one at a time.
-#[derive(Debug, Clone)]
-pub struct Recording<'a> {
-    /// The cell.
-    pub cell: &'a Cell,
-    /// Where the robot says it is, in every capture.
-    pub base_from_flange: Vec<Pose<Base, Flange>>,
-    /// The touches.
-    pub touches: Vec<Touch>,
-    /// The truth.
-    pub truth: Truth,
-    seed: u64,
-}
-
 /// Views are drawn until the board is in the picture, this many times at most.
 const MOST_DRAWS: usize = 20_000;
 /// The board must be in the picture with this many pitches more on every side.
@@ -143,22 +127,18 @@ const MARGIN_PITCHES: f64 = 0.6;
 const LYING_TILT_RAD: f64 = 0.3;
 /// The tool is tilted against the board's normal by no more than this when it touches, rad.
 const TOOL_TILT_RAD: f64 = 0.3;
-/// Corners are never stated more precisely than this, px.
-const LEAST_CORNER_PX: f64 = 1e-3;
-/// 3D corners likewise, m.
-const LEAST_DEPTH_M: f64 = 1e-6;
-
 // each kind of noise has random numbers of its own: more captures leave the touches as they are
 const VIEWS: u64 = 1;
 const LYING: u64 = 2;
 const TOOL: u64 = 3;
 const ROBOT: u64 = 4;
 const PROBE: u64 = 5;
-const CORNERS: u64 = 6;
-const PICTURES: u64 = 7;
-const SCANS: u64 = 8;
+pub(super) const CORNERS: u64 = 6;
+pub(super) const PICTURES: u64 = 7;
+pub(super) const SCANS: u64 = 8;
+const ARM: u64 = 9;
 
-fn random(seed: u64, kind: u64, k: usize) -> Random {
+pub(super) fn random(seed: u64, kind: u64, k: usize) -> Random {
     Random::new(Random::new(seed ^ (kind << 56) ^ (k as u64 + 1).rotate_left(32)).bits())
 }
 
@@ -197,7 +177,9 @@ impl Cell {
         let base_from_flange: Vec<Pose<Base, Flange>> =
             camera_from_target[..self.captures].iter().map(|v| self.robot_at(v)).collect();
         let mut robot = random(seed, ROBOT, 0);
-        let reported = base_from_flange.iter().map(|p| self.reported(*p, &mut robot)).collect();
+        let arm = self.arm();
+        let reported =
+            base_from_flange.iter().map(|p| reported(p, &self.noise, &arm, &mut robot)).collect();
         let tip_error = direction(&mut random(self.seed, TOOL, 0)) * self.noise.tip_m;
         let hand_eye = self.hand_eye;
         let truth = Truth { hand_eye, camera_from_target, base_from_flange, tip_error };
@@ -302,13 +284,9 @@ impl Cell {
         self.setup.anchor_from_mount(anchor_from_mount.rename()).rename()
     }
 
-    /// What the robot says when it is there.
-    fn reported(&self, p: Pose<Base, Flange>, random: &mut Random) -> Pose<Base, Flange> {
-        let n = &self.noise;
-        let rotation = n.robot_absolute_rad.hypot(n.robot_repeatability_rad);
-        let position = n.robot_absolute_m.hypot(n.robot_repeatability_m) / 3f64.sqrt();
-        let (turn, shift) = (random.normal3() * rotation, random.normal3() * position);
-        p.retract(&lie::tangent(&turn, &shift))
+    /// What is wrong with the arm.
+    fn arm(&self) -> SystematicError {
+        SystematicError::draw(&self.noise, random(self.seed, ARM, 0))
     }
 
     /// Every touch of every board: its name, where it lies, and the corner.
@@ -353,121 +331,12 @@ impl Cell {
         let rotation = base_from_target.rotation() * held(&mut random(self.seed, TOOL, k + 1));
         let flange = tip_in_base - rotation * self.tip_in_flange.vector();
         let there: Pose<Base, Flange> = Pose::from_parts(&rotation, flange);
-        let says = self.reported(there, &mut probe);
+        let says = reported(&there, &self.noise, &self.arm(), &mut probe);
         let believed: Point<Flange> =
             Point::from_vector(self.tip_in_flange.vector() - truth.tip_error);
         let placement = placement.to_owned();
         Touch { placement, corner, in_base: says * believed, base_from_flange: Some(says) }
     }
-}
-
-impl Recording<'_> {
-    /// Where the robot believes the tip, in the flange.
-    pub fn believed_tip(&self) -> Point<Flange> {
-        Point::from_vector(self.cell.tip_in_flange.vector() - self.truth.tip_error)
-    }
-
-    /// The scene of picture `k`: captures first, then placements.
-    pub fn scene(&self, k: usize) -> Scene {
-        Scene {
-            target: self.cell.target.clone(),
-            camera_from_target: self.truth.camera_from_target[k],
-            intrinsics: self.cell.intrinsics,
-        }
-    }
-
-    /// Renders picture `k`.
-    pub fn picture(&self, k: usize) -> GrayImage {
-        self.scene(k).picture(&self.cell.optics, random(self.seed, PICTURES, k).bits())
-    }
-
-    /// Renders scan `k`, pixel-aligned with the picture; `None` without a 3D camera.
-    pub fn scan(&self, k: usize) -> Option<Scan> {
-        let sensor = self.cell.depth?;
-        let scene = Scene { intrinsics: self.cell.scan_intrinsics(), ..self.scene(k) };
-        Some(scene.scan(&sensor, random(self.seed, SCANS, k).bits()))
-    }
-
-    /// Corners of picture `k`, projected, with their noise.
-    pub fn corners(&self, k: usize) -> Vec<ImageCorner> {
-        let mut random = random(self.seed, CORNERS, k);
-        let sigma = self.cell.noise.corner_px;
-        let stated = Matrix2::identity() * sigma.max(LEAST_CORNER_PX).powi(2);
-        let mut corner = |(id, exact): (u32, Vector2<f64>)| {
-            let pixel = exact + Vector2::new(random.normal(), random.normal()) * sigma;
-            ImageCorner { id, pixel, covariance: stated }
-        };
-        self.scene(k).corners().into_iter().map(&mut corner).collect()
-    }
-
-    /// Corners of scan `k`: the depth, with its noise, on the rays of the corners in the picture.
-    pub fn surface(&self, k: usize, corners: &[ImageCorner]) -> Vec<SurfaceCorner> {
-        let Some(sensor) = self.cell.depth else { return vec![] };
-        let mut random = random(self.seed, SCANS, k);
-        let view = self.truth.camera_from_target[k];
-        let mut felt = |c: &ImageCorner| {
-            let ray = self.cell.intrinsics.ray(&c.pixel)?;
-            let z = depth_on(&view, &ray);
-            let sigma = sensor.sigma_at_1m * z * z;
-            let in_camera = Point::from_vector(ray * (z + sigma * random.normal()));
-            let covariance = self.felt_covariance(&ray, z, sigma, c);
-            Some(SurfaceCorner { id: c.id, in_camera, covariance })
-        };
-        corners.iter().filter_map(&mut felt).collect()
-    }
-
-    fn felt_covariance(&self, ray: &Vector3<f64>, z: f64, s: f64, c: &ImageCorner) -> Matrix3<f64> {
-        let camera = &self.cell.intrinsics;
-        let sideways = Vector2::new(z / camera.fx, z / camera.fy);
-        let mut covariance = ray * ray.transpose() * s.powi(2);
-        covariance += Matrix3::identity() * LEAST_DEPTH_M.powi(2);
-        (0..2).for_each(|i| covariance[(i, i)] += sideways[i].powi(2) * c.covariance[(i, i)]);
-        covariance
-    }
-
-    /// Everything as a session, without rendering.
-    pub fn session(&self) -> Session {
-        let cell = self.cell;
-        let observations = (0..cell.captures).map(|k| self.observation(k)).collect();
-        let placements = (0..cell.placements).map(|k| self.placement(k)).collect();
-        Session {
-            setup: cell.setup,
-            target: Some(cell.target.clone()),
-            camera: Some(cell.intrinsics),
-            observations,
-            placements,
-            touches: self.touches.clone(),
-            correspondences: vec![],
-            workspace: None,
-        }
-    }
-
-    fn observation(&self, k: usize) -> Observation {
-        let corners = self.corners(k);
-        let surface = self.surface(k, &corners);
-        let candidates = self.candidates(&corners, &surface);
-        let base_from_flange = self.base_from_flange[k];
-        let capture = format!("{:03}", k + 1);
-        Observation { capture, base_from_flange, corners, surface, candidates }
-    }
-
-    fn placement(&self, k: usize) -> Placement {
-        let corners = self.corners(self.cell.captures + k);
-        let surface = self.surface(self.cell.captures + k, &corners);
-        let candidates = self.candidates(&corners, &surface);
-        Placement { id: placement_name(k), corners, surface, candidates }
-    }
-
-    fn candidates(&self, c: &[ImageCorner], s: &[SurfaceCorner]) -> Vec<crate::TargetPose> {
-        let target = &self.cell.target;
-        detect::target_poses(c, s, target, &self.cell.intrinsics)
-            .map_or(vec![], |poses| detect::with_symmetries(&poses, target))
-    }
-}
-
-/// Name of placement `k`.
-pub fn placement_name(k: usize) -> String {
-    format!("place-{}", k + 1)
 }
 
 /// Places of camera and target in a usual cell, moved a little at random.
@@ -509,12 +378,6 @@ fn held(random: &mut Random) -> Matrix3<f64> {
     let rotation =
         Rotation3::new(Vector3::z() * turn) * Rotation3::new(tilt * (TOOL_TILT_RAD / 2f64.sqrt()));
     rotation.into_inner()
-}
-
-/// Depth (m) at which a ray `(x, y, 1)` meets the target's plane.
-fn depth_on(view: &Pose<Camera, Target>, ray: &Vector3<f64>) -> f64 {
-    let normal = view.rotation().column(2).into_owned();
-    normal.dot(&view.translation()) / normal.dot(ray)
 }
 
 /// Corners far from each other: each next one has the largest product of distances to those before

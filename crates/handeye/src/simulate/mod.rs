@@ -2,8 +2,12 @@
 
 pub mod cell;
 pub mod random;
+pub mod recording;
 pub mod render;
+mod robot_error;
+mod texture;
 
-pub use cell::{Cell, CellNoise, Recording, Truth, Viewing};
+pub use cell::{Cell, CellNoise, Viewing};
 pub use random::Random;
+pub use recording::{Recording, Truth};
 pub use render::{DepthSensor, Optics, Scene};

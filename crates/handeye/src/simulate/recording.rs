@@ -1,0 +1,160 @@
+//! What is measured in a cell, and the truth behind it.
+
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+
+use super::{
+    Cell, Scene,
+    cell::{CORNERS, PICTURES, SCANS, random},
+};
+use crate::{
+    Base, Camera, Flange, GrayImage, HandEye, ImageCorner, Observation, Placement, Point, Pose,
+    Scan, Session, SurfaceCorner, Target, Touch, detect,
+};
+
+/// What nobody in a real cell knows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    /// Where camera and target sit.
+    pub hand_eye: HandEye,
+    /// Where the target is in every picture: captures first, then placements.
+    pub camera_from_target: Vec<Pose<Camera, Target>>,
+    /// Where the flange is in every capture.
+    pub base_from_flange: Vec<Pose<Base, Flange>>,
+    /// Tip minus where the robot believes it, in the flange (m).
+    pub tip_error: Vector3<f64>,
+}
+
+/// What the robot says in a cell, and the truth behind it. Pictures and scans are made when asked
+/// for, one at a time.
+#[derive(Debug, Clone)]
+pub struct Recording<'a> {
+    /// The cell.
+    pub cell: &'a Cell,
+    /// Where the robot says it is, in every capture.
+    pub base_from_flange: Vec<Pose<Base, Flange>>,
+    /// The touches.
+    pub touches: Vec<Touch>,
+    /// The truth.
+    pub truth: Truth,
+    pub(super) seed: u64,
+}
+
+/// Corners are never stated more precisely than this, px.
+const LEAST_CORNER_PX: f64 = 1e-3;
+/// 3D corners likewise, m.
+const LEAST_DEPTH_M: f64 = 1e-6;
+
+impl Recording<'_> {
+    /// Where the robot believes the tip, in the flange.
+    pub fn believed_tip(&self) -> Point<Flange> {
+        Point::from_vector(self.cell.tip_in_flange.vector() - self.truth.tip_error)
+    }
+
+    /// The scene of picture `k`: captures first, then placements.
+    pub fn scene(&self, k: usize) -> Scene {
+        Scene {
+            target: self.cell.target.clone(),
+            camera_from_target: self.truth.camera_from_target[k],
+            intrinsics: self.cell.intrinsics,
+        }
+    }
+
+    /// Renders picture `k`.
+    pub fn picture(&self, k: usize) -> GrayImage {
+        self.scene(k).picture(&self.cell.optics, random(self.seed, PICTURES, k).bits())
+    }
+
+    /// Renders scan `k`, pixel-aligned with the picture; `None` without a 3D camera.
+    pub fn scan(&self, k: usize) -> Option<Scan> {
+        let sensor = self.cell.depth?;
+        let scene = Scene { intrinsics: self.cell.scan_intrinsics(), ..self.scene(k) };
+        Some(scene.scan(&sensor, random(self.seed, SCANS, k).bits()))
+    }
+
+    /// Corners of picture `k`, projected, with their noise.
+    pub fn corners(&self, k: usize) -> Vec<ImageCorner> {
+        let mut random = random(self.seed, CORNERS, k);
+        let sigma = self.cell.noise.corner_px;
+        let stated = Matrix2::identity() * sigma.max(LEAST_CORNER_PX).powi(2);
+        let mut corner = |(id, exact): (u32, Vector2<f64>)| {
+            let pixel = exact + Vector2::new(random.normal(), random.normal()) * sigma;
+            ImageCorner { id, pixel, covariance: stated }
+        };
+        self.scene(k).corners().into_iter().map(&mut corner).collect()
+    }
+
+    /// Corners of scan `k`: the depth, with its noise, on the rays of the corners in the picture.
+    pub fn surface(&self, k: usize, corners: &[ImageCorner]) -> Vec<SurfaceCorner> {
+        let Some(sensor) = self.cell.depth else { return vec![] };
+        let mut random = random(self.seed, SCANS, k);
+        let view = self.truth.camera_from_target[k];
+        let mut felt = |c: &ImageCorner| {
+            let ray = self.cell.intrinsics.ray(&c.pixel)?;
+            let z = depth_on(&view, &ray);
+            let sigma = sensor.sigma_at_1m * z * z;
+            let in_camera = Point::from_vector(ray * (z + sigma * random.normal()));
+            let covariance = self.felt_covariance(&ray, z, sigma, c);
+            Some(SurfaceCorner { id: c.id, in_camera, covariance })
+        };
+        corners.iter().filter_map(&mut felt).collect()
+    }
+
+    fn felt_covariance(&self, ray: &Vector3<f64>, z: f64, s: f64, c: &ImageCorner) -> Matrix3<f64> {
+        let camera = &self.cell.intrinsics;
+        let sideways = Vector2::new(z / camera.fx, z / camera.fy);
+        let mut covariance = ray * ray.transpose() * s.powi(2);
+        covariance += Matrix3::identity() * LEAST_DEPTH_M.powi(2);
+        (0..2).for_each(|i| covariance[(i, i)] += sideways[i].powi(2) * c.covariance[(i, i)]);
+        covariance
+    }
+
+    /// Everything as a session, without rendering.
+    pub fn session(&self) -> Session {
+        let cell = self.cell;
+        let observations = (0..cell.captures).map(|k| self.observation(k)).collect();
+        let placements = (0..cell.placements).map(|k| self.placement(k)).collect();
+        Session {
+            setup: cell.setup,
+            target: Some(cell.target.clone()),
+            camera: Some(cell.intrinsics),
+            observations,
+            placements,
+            touches: self.touches.clone(),
+            correspondences: vec![],
+            workspace: None,
+        }
+    }
+
+    fn observation(&self, k: usize) -> Observation {
+        let corners = self.corners(k);
+        let surface = self.surface(k, &corners);
+        let candidates = self.candidates(&corners, &surface);
+        let base_from_flange = self.base_from_flange[k];
+        let capture = format!("{:03}", k + 1);
+        Observation { capture, base_from_flange, corners, surface, candidates }
+    }
+
+    fn placement(&self, k: usize) -> Placement {
+        let corners = self.corners(self.cell.captures + k);
+        let surface = self.surface(self.cell.captures + k, &corners);
+        let candidates = self.candidates(&corners, &surface);
+        Placement { id: placement_name(k), corners, surface, candidates, not_seen: None }
+    }
+
+    fn candidates(&self, c: &[ImageCorner], s: &[SurfaceCorner]) -> Vec<crate::TargetPose> {
+        let target = &self.cell.target;
+        detect::target_poses(c, s, target, &self.cell.intrinsics)
+            .map_or(vec![], |poses| detect::with_symmetries(&poses, target))
+    }
+}
+
+/// Name of placement `k`.
+pub fn placement_name(k: usize) -> String {
+    format!("place-{}", k + 1)
+}
+
+/// Depth (m) at which a ray `(x, y, 1)` meets the target's plane.
+fn depth_on(view: &Pose<Camera, Target>, ray: &Vector3<f64>) -> f64 {
+    let normal = view.rotation().column(2).into_owned();
+    normal.dot(&view.translation()) / normal.dot(ray)
+}
