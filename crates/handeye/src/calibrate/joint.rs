@@ -60,7 +60,7 @@ pub(super) fn fit(
     let mut fit = refine::fit_joint(&problem, &start.hand_eye, known).ok()?;
     let left_out = leave_out_wrong(&mut problem, &mut touches, &mut fit, known);
     let wrong_tip = free_wrong_tip(&mut problem, &mut fit, known);
-    let conflict = conflict(&problem, &fit);
+    let conflict = conflict(&problem, &fit, wrong_tip.is_some());
     if let Some(conflict) = conflict
         && conflict.strength > 0.0
     {
@@ -84,7 +84,9 @@ fn free_wrong_tip(
     let (h, g) = score(&without, &fixed, &tip(TIP_PRIOR))?;
     let (d2, rank) = significance(&h, &g);
     let p_value = ChiSquared::new(f64::from(rank)).ok()?.sf(d2);
-    if p_value > WRONG_TIP {
+    let (h_systematic, g_systematic) = score(&without, &fixed, &systematic(1.0))?;
+    let as_systematic = most_gain(&h_systematic, &g_systematic, &STRENGTHS);
+    if p_value > WRONG_TIP || most_gain(&h, &g, &TIP_SIZES) < as_systematic {
         return None;
     }
     problem.extras = tip(WRONG_TIP_PRIOR).to_vec();
@@ -159,19 +161,26 @@ fn worst_touch(problem: &Problem, fit: &JointFit) -> Option<(usize, usize)> {
 
 /// Strengths of a systematic difference that are tried.
 const STRENGTHS: [f64; 6] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0];
-/// A systematic difference is only taken in when it makes the data this much more likely
-/// (logarithm): rarer than one set in twenty without one.
-const GAIN: f64 = 2.0;
+/// Beside a wrong tip, a systematic difference must raise the logarithm of the likelihood by more.
+const EXPLAINED_GAIN: f64 = 3.0;
+/// Sizes of a tip's error that are tried, m.
+const TIP_SIZES: [f64; 6] = [0.25e-3, 0.5e-3, 1e-3, 2e-3, 5e-3, 20e-3];
+
+/// By how much an unknown of the likeliest size raises the logarithm of the likelihood.
+fn most_gain(h: &DMatrix<f64>, g: &DVector<f64>, sizes: &[f64]) -> f64 {
+    sizes.iter().map(|s| gain(h, g, *s)).fold(f64::NEG_INFINITY, f64::max)
+}
 
 /// Tests whether views and touches agree, and finds the systematic difference that explains best
 /// why not.
-fn conflict(problem: &Problem, fit: &JointFit) -> Option<Conflict> {
+fn conflict(problem: &Problem, fit: &JointFit, explained: bool) -> Option<Conflict> {
     let (h, g) = score(problem, fit, &systematic(1.0))?;
     let (d2, rank) = significance(&h, &g);
     let p_value = ChiSquared::new(f64::from(rank)).ok()?.sf(d2);
     let gains = STRENGTHS.map(|s| gain(&h, &g, s));
     let best = (0..gains.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b]))?;
-    let strength = if gains[best] > GAIN { STRENGTHS[best] } else { 0.0 };
+    // a tip that had to be found leaves little that could tell a second difference from noise
+    let strength = if explained && gains[best] < EXPLAINED_GAIN { 0.0 } else { STRENGTHS[best] };
     Some(Conflict { p_value, strength })
 }
 
@@ -209,6 +218,8 @@ fn score(
     Some((own - &through * cross.transpose(), -gradient))
 }
 
+/// Chance of a disagreement between views and touches below which it is called systematic.
+const CONFLICT: f64 = 1e-3;
 /// A tip is named as wrong when the data say so with less than this chance of error.
 const WRONG_TIP: f64 = 1e-3;
 
@@ -308,7 +319,7 @@ impl Joint {
                 ),
             ));
         }
-        if conflict.strength > 0.0 {
+        if conflict.strength > 0.0 && conflict.p_value < CONFLICT {
             result.warnings.push(Warning::new(
                 "views-and-touches-disagree",
                 format!(

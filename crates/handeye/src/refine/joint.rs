@@ -75,10 +75,12 @@ pub struct JointFit {
 /// Most rounds of step and noise update.
 const MOST_ROUNDS: usize = 100;
 /// The noise has converged when no standard deviation changes by more than this part.
-const SIGMA_CHANGE: f64 = 1e-4;
+const SIGMA_CHANGE: f64 = 3e-4;
 /// The unknowns have converged when the squared step, in units of their own information, is below
-/// this.
-const STEP: f64 = 1e-14;
+/// this. One more step follows, which squares the rest.
+const STEP: f64 = 1e-8;
+/// A step longer than this, in the same units, comes from a start and not from noise.
+const FAR: f64 = 1.0;
 /// Captures' worth of prior belief in the first noise level.
 pub const PRIOR_VIEWS: f64 = 2.0;
 /// Touches' worth of prior belief in the first level of their noise.
@@ -182,21 +184,24 @@ impl State {
     }
 }
 
-/// Steps and noise updates in turn, until neither moves.
+/// Steps and noise updates side by side, until neither moves; then one last step.
 fn climb(problem: &Problem, mut state: State, prior: &NoiseModel, known: &KnownNoise) -> JointFit {
     let mut system = System::at(problem, &state);
-    for _ in 0..MOST_ROUNDS {
+    for round in 0..MOST_ROUNDS {
         let moved = system.advance(problem, &mut state);
+        // far from the answer the misfit is not noise
+        let changed = if round == 0 && moved > FAR {
+            f64::INFINITY
+        } else {
+            system.update_noise(&mut state.noise, prior, known)
+        };
         system = System::at(problem, &state);
-        let changed = system.update_noise(&mut state.noise, prior, known);
         if moved < STEP && changed < SIGMA_CHANGE {
             break;
         }
-        if changed > 0.0 {
-            system = System::at(problem, &state);
-        }
     }
-    system.finish(problem, state)
+    system.advance(problem, &mut state);
+    System::at(problem, &state).finish(problem, state)
 }
 
 /// The level of the misfit, shared between the sources.

@@ -220,12 +220,6 @@ impl NoiseModel {
     pub fn covariance(&self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
         covariance(&factor(view, hand_eye, setup), &columns(view), &self.variances())
     }
-
-    /// Information of a view's misfit.
-    pub(super) fn weight(&self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
-        let covariance = self.covariance(view, hand_eye, setup);
-        linalg::invert_spd(&covariance).unwrap_or_else(Matrix6::zeros)
-    }
 }
 
 /// `B Θ Bᵀ`, kept away from zero: exact data have no noise at all.
