@@ -1,7 +1,7 @@
 //! Which mistake explains bad data: inversion, scale, exchange, stale poses.
 
 use crate::{
-    Pose, PosePair, Setup, Target, predict,
+    HandEye, Pose, PosePair, Setup, Target, predict,
     refine::{self, Extra, ExtraKind, JointFit, Problem, TARGET_SCALE, View, noise::KnownNoise},
     solve::consensus::{self, Consensus, Readings},
 };
@@ -91,8 +91,8 @@ pub struct TargetScale {
     pub p_value: f64,
 }
 
-/// Finds the size of the target that fits best. The noise is estimated at that size: a wrong size
-/// would otherwise pass for noise and hide itself.
+/// Finds the size of the target that fits best. The noise is estimated again at that size: a wrong
+/// size would otherwise pass for noise and hide itself.
 pub fn target_scale(
     views: &[View],
     at: &JointFit,
@@ -101,28 +101,26 @@ pub fn target_scale(
 ) -> Option<TargetScale> {
     use statrs::distribution::{ContinuousCDF, FisherSnedecor};
     let size = Extra { kind: ExtraKind::Camera(TARGET_SCALE), prior_sigma: 1.0 };
-    let scaling = |v: &View| View { by_camera: Some(by_scale(v)), ..*v };
-    let problem = Problem {
-        setup,
-        views: views.iter().map(scaling).collect(),
-        boards: vec![],
-        extras: vec![size],
+    let fit_scale = |views: &[View], start: &HandEye| {
+        let scaling = |v: &View| View { by_camera: Some(by_scale(v)), ..*v };
+        let views = views.iter().map(scaling).collect();
+        let problem = Problem { setup, views, boards: vec![], extras: vec![size] };
+        let fit = refine::fit_joint(&problem, start, known).ok()?;
+        Some((1.0 + fit.extra(size.kind)?.0, fit.extra(size.kind)?.1, fit))
     };
-    let found = refine::fit_joint(&problem, &at.hand_eye, known).ok()?;
-    let (more, sigma) = found.extra(size.kind)?;
-    let dof = at.degrees_of_freedom - 1.0;
-    let p_value = FisherSnedecor::new(1.0, dof).ok()?.sf((more / sigma).powi(2));
-    Some(TargetScale { value: 1.0 + more, sigma, p_value })
+    let (first, _, coarse) = fit_scale(views, &at.hand_eye)?;
+    if !(SCALES.0..SCALES.1).contains(&first) {
+        return None;
+    }
+    let (more, sigma, fit) = fit_scale(&rescaled(views, first), &coarse.hand_eye)?;
+    let (value, sigma) = (first * more, first * sigma);
+    let dof = fit.degrees_of_freedom - 1.0;
+    let p_value = FisherSnedecor::new(1.0, dof).ok()?.sf(((value - 1.0) / sigma).powi(2));
+    Some(TargetScale { value, sigma, p_value })
 }
 
-/// A larger target is farther away: `t (1 + s) = t + R (Rᵀ t) s`.
-fn by_scale(view: &View) -> nalgebra::SMatrix<f64, 6, { refine::pose_fit::CAMERA }> {
-    let c = &view.pair.camera_from_target;
-    let mut by = nalgebra::SMatrix::<f64, 6, { refine::pose_fit::CAMERA }>::zeros();
-    let outward = c.rotation().transpose() * c.translation();
-    by.fixed_view_mut::<3, 1>(3, TARGET_SCALE).copy_from(&outward);
-    by
-}
+/// Sizes of the target, over the declared one, that are worth a second look.
+const SCALES: (f64, f64) = (0.2, 5.0);
 
 /// Views as they would be with a target `s` times as large.
 pub fn rescaled(views: &[View], s: f64) -> Vec<View> {
@@ -133,6 +131,15 @@ pub fn rescaled(views: &[View], s: f64) -> Vec<View> {
         view.pair.camera_from_target = Pose::claim(iso);
     }
     all
+}
+
+/// A larger target is farther away: `t (1 + s) = t + R (Rᵀ t) s`.
+fn by_scale(view: &View) -> nalgebra::SMatrix<f64, 6, { refine::pose_fit::CAMERA }> {
+    let c = &view.pair.camera_from_target;
+    let mut by = nalgebra::SMatrix::<f64, 6, { refine::pose_fit::CAMERA }>::zeros();
+    let outward = c.rotation().transpose() * c.translation();
+    by.fixed_view_mut::<3, 1>(3, TARGET_SCALE).copy_from(&outward);
+    by
 }
 
 /// A capture whose picture fits another capture's robot pose: `(picture, robot pose)`.

@@ -14,7 +14,7 @@ use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::View;
-use crate::{HandEye, Setup, lie, linalg};
+use crate::{HandEye, Setup, lie};
 
 /// One source of error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
