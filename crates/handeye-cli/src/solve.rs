@@ -99,6 +99,7 @@ fn session(pairs: Pairs, path: &Path) -> Result<Session, Failure> {
         });
     }
     Ok(Session {
+        camera_from_views: false,
         setup: pairs.setup,
         target: None,
         camera: None,

@@ -254,20 +254,9 @@ fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), 
     Ok(())
 }
 
-/// Fewest pictures that tell what is typical.
-const FEWEST_TYPICAL: usize = 4;
-
-/// What lens model and print leave in the corners of all pictures, px: the median.
 fn typical_excess(dataset: &Dataset, seen: &[Seen], camera: Option<&Intrinsics>) -> Option<f64> {
     let (target, camera) = (dataset.target.as_ref()?, camera?);
-    let mut all: Vec<f64> = seen
-        .iter()
-        .filter(|s| !s.corners.is_empty())
-        .filter_map(|s| detect::target_poses(&s.corners, &[], target, camera).ok())
-        .filter_map(|poses| poses.first().map(|p| p.excess_px))
-        .collect();
-    all.sort_by(f64::total_cmp);
-    (all.len() >= FEWEST_TYPICAL).then(|| all[all.len() / 2])
+    detect::typical_excess(seen.iter().map(|s| s.corners.as_slice()), target, camera)
 }
 
 fn target_poses(
@@ -320,6 +309,7 @@ fn session(
         .collect();
     Session {
         setup: dataset.setup,
+        camera_from_views: dataset.intrinsics.is_none(),
         target: dataset.target.clone(),
         camera,
         observations,

@@ -4,7 +4,8 @@ use nalgebra::{Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Anchor, Base, Camera, Flange, Mount, Pose, Setup, Target, Warning, predict::PredictedTre,
+    Anchor, Base, Camera, Flange, Intrinsics, Mount, Pose, Setup, Target, Warning,
+    predict::PredictedTre,
 };
 
 /// Whether the answer can be used.
@@ -170,6 +171,34 @@ pub struct Scale {
     pub sigma: f64,
 }
 
+/// The camera as the calibration found it, where it was free.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct CameraResult {
+    /// Its parameters.
+    pub intrinsics: Intrinsics,
+    /// Standard deviation of `fx`, px.
+    pub sigma_fx: f64,
+    /// Standard deviation of `fy`, px.
+    pub sigma_fy: f64,
+    /// Standard deviation of `cx`, px.
+    pub sigma_cx: f64,
+    /// Standard deviation of `cy`, px.
+    pub sigma_cy: f64,
+}
+
+/// Depth that scans read: `z_read = scale z + bias_mm`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DepthResult {
+    /// Factor; one is right.
+    pub scale: f64,
+    /// Its standard deviation.
+    pub sigma_scale: f64,
+    /// Offset, mm.
+    pub bias_mm: f64,
+    /// Its standard deviation, mm.
+    pub sigma_bias_mm: f64,
+}
+
 /// A finished calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
@@ -217,6 +246,12 @@ pub struct Calibration {
     pub scale: f64,
     /// Size of the target as the robot sees it, for comparison.
     pub target_scale: Option<Scale>,
+    /// The camera, where its parameters were part of the fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraResult>,
+    /// The depth of scans, where it was part of the fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth: Option<DepthResult>,
     /// What to know.
     pub warnings: Vec<Warning>,
 }

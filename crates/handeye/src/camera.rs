@@ -14,7 +14,7 @@
 //!
 //! D. Brown 1971; J. Kannala and S. Brandt, IEEE TPAMI 28(8), 2006.
 
-use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix2x3, SMatrix, SVector, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
@@ -49,6 +49,9 @@ pub struct Intrinsics {
     /// Lens distortion.
     pub distortion: Distortion,
 }
+
+/// Parameters that a calibration fits: `fx fy cx cy k1 k2 p1 p2 k3`.
+pub const PARAMETERS: usize = 9;
 
 /// Undistortion stops when the step is below this (normalised units, about 1e-9 px).
 const UNDISTORT_STEP: f64 = 1e-13;
@@ -153,6 +156,54 @@ impl Intrinsics {
         }
         let (at, _) = self.distort(&n);
         ((d - at).norm() < 1e-9).then_some(n)
+    }
+
+    /// Derivative of a point's pixel by `fx fy cx cy k1 k2 p1 p2 k3`; those of the distortion are
+    /// Brown-Conrady's, and zero for a lens of another model.
+    pub fn by_parameters(&self, point: &Vector3<f64>) -> SMatrix<f64, 2, PARAMETERS> {
+        let n = Vector2::new(point.x / point.z, point.y / point.z);
+        let (d, _) = self.distort(&n);
+        let mut j = SMatrix::<f64, 2, PARAMETERS>::zeros();
+        (j[(0, 0)], j[(1, 1)], j[(0, 2)], j[(1, 3)]) = (d.x, d.y, 1.0, 1.0);
+        if let Distortion::KannalaBrandt(_) = self.distortion {
+            return j;
+        }
+        let k = match self.distortion {
+            Distortion::BrownConrady(k) => k,
+            _ => [0.0; 12],
+        };
+        let (x, y, r2) = (n.x, n.y, n.norm_squared());
+        let bottom = 1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+        let (fx, fy) = (self.fx, self.fy);
+        let radial = Vector2::new(fx * x, fy * y) * (r2 / bottom);
+        j.set_column(4, &radial);
+        j.set_column(5, &(radial * r2));
+        j.set_column(6, &Vector2::new(fx * 2.0 * x * y, fy * (r2 + 2.0 * y * y)));
+        j.set_column(7, &Vector2::new(fx * (r2 + 2.0 * x * x), fy * 2.0 * x * y));
+        j.set_column(8, &(radial * r2 * r2));
+        j
+    }
+
+    /// The camera with these differences added to [`Self::by_parameters`]' parameters.
+    pub fn moved(&self, d: &SVector<f64, PARAMETERS>) -> Self {
+        let added = |mut k: [f64; 12]| {
+            (0..5).for_each(|i| k[i] += d[4 + i]);
+            k
+        };
+        let distortion = match self.distortion {
+            Distortion::None if d.rows(4, 5).iter().all(|x| *x == 0.0) => Distortion::None,
+            Distortion::None => Distortion::BrownConrady(added([0.0; 12])),
+            Distortion::BrownConrady(k) => Distortion::BrownConrady(added(k)),
+            Distortion::KannalaBrandt(k) => Distortion::KannalaBrandt(k),
+        };
+        Self {
+            fx: self.fx + d[0],
+            fy: self.fy + d[1],
+            cx: self.cx + d[2],
+            cy: self.cy + d[3],
+            distortion,
+            ..*self
+        }
     }
 
     /// Ray `(X/Z, Y/Z, 1)` through a pixel.

@@ -1,8 +1,10 @@
 //! Which mistake explains bad data: inversion, scale, exchange, stale poses.
 
 use crate::{
-    HandEye, Pose, PosePair, Setup, Target, predict,
-    refine::{self, Extra, ExtraKind, JointFit, Problem, TARGET_SCALE, View, noise::KnownNoise},
+    HandEye, Pose, PosePair, Setup, Target,
+    detect::sight::{CAMERA, Sight, TARGET_SCALE},
+    predict,
+    refine::{self, Extra, ExtraKind, JointFit, Problem, View, noise::KnownNoise},
     solve::consensus::{self, Consensus, Readings},
 };
 
@@ -100,9 +102,9 @@ pub fn target_scale(
     setup: Setup,
 ) -> Option<TargetScale> {
     use statrs::distribution::{ContinuousCDF, FisherSnedecor};
-    let size = Extra { kind: ExtraKind::Camera(TARGET_SCALE), prior_sigma: 1.0 };
+    let size = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), 1.0);
     let fit_scale = |views: &[View], start: &HandEye| {
-        let scaling = |v: &View| View { by_camera: Some(by_scale(v)), ..*v };
+        let scaling = |v: &View| View { sight: Some(by_scale(v).into()), ..v.clone() };
         let views = views.iter().map(scaling).collect();
         let problem = Problem { setup, views, boards: vec![], extras: vec![size] };
         let fit = refine::fit_joint(&problem, start, known).ok()?;
@@ -134,12 +136,12 @@ pub fn rescaled(views: &[View], s: f64) -> Vec<View> {
 }
 
 /// A larger target is farther away: `t (1 + s) = t + R (Rᵀ t) s`.
-fn by_scale(view: &View) -> nalgebra::SMatrix<f64, 6, { refine::pose_fit::CAMERA }> {
+fn by_scale(view: &View) -> Sight {
     let c = &view.pair.camera_from_target;
-    let mut by = nalgebra::SMatrix::<f64, 6, { refine::pose_fit::CAMERA }>::zeros();
+    let mut by = nalgebra::SMatrix::<f64, 6, CAMERA>::zeros();
     let outward = c.rotation().transpose() * c.translation();
     by.fixed_view_mut::<3, 1>(3, TARGET_SCALE).copy_from(&outward);
-    by
+    Sight::moving(by)
 }
 
 /// A capture whose picture fits another capture's robot pose: `(picture, robot pose)`.

@@ -4,7 +4,7 @@ use crate::{
     Error, HandEye, Intrinsics, Observation, PosePair, Setup, TargetModel,
     calibration::{Diversity, Misfit},
     predict::Volume,
-    refine::{self, View, noise::KnownNoise},
+    refine::{self, View},
     solve::{self, Method, motions},
 };
 
@@ -15,8 +15,6 @@ pub enum Estimator {
     ClosedForm(Method),
     /// Least squares over both unknowns; 1 rad of misfit costs as much as 0.1 m.
     LeastSquares,
-    /// Maximum likelihood, noise of robot and camera estimated where it is not known.
-    MaximumLikelihood(KnownNoise),
 }
 
 /// Weight of rotation against translation in plain least squares, m per rad.
@@ -27,19 +25,11 @@ impl Estimator {
     ///
     /// # Errors
     /// As [`solve::solve`].
-    pub fn estimate(
-        &self,
-        views: &[View],
-        start: &HandEye,
-        setup: Setup,
-    ) -> Result<HandEye, Error> {
+    pub fn estimate(&self, views: &[View], start: &HandEye) -> Result<HandEye, Error> {
         let pairs = || views.iter().map(|v| v.pair).collect::<Vec<_>>();
         match self {
             Estimator::ClosedForm(method) => solve::solve(&pairs(), *method),
             Estimator::LeastSquares => Ok(refine::fit_fixed_weights(views, start, METRES_PER_RAD)),
-            Estimator::MaximumLikelihood(known) => {
-                refine::fit_views(views, start, known, setup).map(|f| f.hand_eye)
-            }
         }
     }
 }
@@ -57,20 +47,15 @@ pub fn folds(count: usize) -> Vec<Vec<usize>> {
 
 /// The misfit (rad, m) of every capture under an answer that was made without it; `None` where the
 /// captures that remain do not determine one.
-pub fn held_out(
-    estimator: &Estimator,
-    views: &[View],
-    start: &HandEye,
-    setup: Setup,
-) -> Vec<Option<(f64, f64)>> {
+pub fn held_out(estimator: &Estimator, views: &[View], start: &HandEye) -> Vec<Option<(f64, f64)>> {
     let mut found = vec![None; views.len()];
     if views.len() <= solve::FEWEST_POSES {
         return found;
     }
     for fold in folds(views.len()) {
         let rest: Vec<View> =
-            (0..views.len()).filter(|i| !fold.contains(i)).map(|i| views[i]).collect();
-        let Ok(answer) = estimator.estimate(&rest, start, setup) else { continue };
+            (0..views.len()).filter(|i| !fold.contains(i)).map(|i| views[i].clone()).collect();
+        let Ok(answer) = estimator.estimate(&rest, start) else { continue };
         for i in fold {
             found[i] = Some(loop_misfit(&answer, &views[i].pair));
         }
@@ -168,12 +153,8 @@ mod tests {
     #[test]
     fn exact_captures_have_no_held_out_error() {
         let views: Vec<View> = exact_pairs(&truths()[0], 8).into_iter().map(View::bare).collect();
-        for estimator in [
-            Estimator::ClosedForm(Method::Shah),
-            Estimator::LeastSquares,
-            Estimator::MaximumLikelihood(KnownNoise::default()),
-        ] {
-            let found = rms(&held_out(&estimator, &views, &truths()[0], Setup::EyeInHand));
+        for estimator in [Estimator::ClosedForm(Method::Shah), Estimator::LeastSquares] {
+            let found = rms(&held_out(&estimator, &views, &truths()[0]));
             assert!(found.translation_rms_mm.unwrap() < 1e-6, "{estimator:?}");
         }
     }

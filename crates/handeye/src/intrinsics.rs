@@ -405,7 +405,7 @@ impl Adjustment {
         self.fix(&mut reduced, &mut right);
         let shared = reduced.cholesky()?.solve(&right);
         let mut next = self.clone();
-        next.camera = moved_camera(&self.camera, &shared);
+        next.camera = self.camera.moved(&shared);
         for ((view, block), inverse) in next.views.iter_mut().zip(&normals.blocks).zip(inverses) {
             let delta = -inverse * (block.gradient + block.cross.transpose() * shared);
             view.pose *= lie::exp(&delta);
@@ -536,22 +536,6 @@ fn warnings(views: &[ViewFit]) -> Vec<Warning> {
     views.iter().enumerate().filter_map(one).collect()
 }
 
-fn moved_camera(camera: &Intrinsics, d: &Shared) -> Intrinsics {
-    let mut k = match camera.distortion {
-        Distortion::BrownConrady(k) => k,
-        _ => [0.0; 12],
-    };
-    (0..5).for_each(|i| k[i] += d[4 + i]);
-    Intrinsics {
-        fx: camera.fx + d[0],
-        fy: camera.fy + d[1],
-        cx: camera.cx + d[2],
-        cy: camera.cy + d[3],
-        distortion: Distortion::BrownConrady(k),
-        ..*camera
-    }
-}
-
 fn residual(camera: &Intrinsics, pose: &Isometry3<f64>, corner: &Corner) -> Option<Vector2<f64>> {
     let point = pose * nalgebra::Point3::from(corner.in_target);
     Some(camera.project(&point.coords)? - corner.pixel)
@@ -568,26 +552,7 @@ fn linearised(camera: &Intrinsics, pose: &Isometry3<f64>, corner: &Corner) -> Op
     let turned = by_point * r;
     by_pose.fixed_view_mut::<2, 3>(0, 0).copy_from(&(-turned * hat(&corner.in_target)));
     by_pose.fixed_view_mut::<2, 3>(0, 3).copy_from(&turned);
-    Some((pixel - corner.pixel, by_parameters(camera, &point), by_pose))
-}
-
-fn by_parameters(camera: &Intrinsics, point: &Vector3<f64>) -> SMatrix<f64, 2, 9> {
-    let n = Vector2::new(point.x / point.z, point.y / point.z);
-    let (d, _) = camera.distort(&n);
-    let (x, y, r2) = (n.x, n.y, n.norm_squared());
-    let (fx, fy) = (camera.fx, camera.fy);
-    let powers = [r2, r2 * r2, r2 * r2 * r2];
-    SMatrix::<f64, 2, 9>::from_columns(&[
-        Vector2::new(d.x, 0.0),
-        Vector2::new(0.0, d.y),
-        Vector2::new(1.0, 0.0),
-        Vector2::new(0.0, 1.0),
-        Vector2::new(fx * x, fy * y) * powers[0],
-        Vector2::new(fx * x, fy * y) * powers[1],
-        Vector2::new(fx * 2.0 * x * y, fy * (r2 + 2.0 * y * y)),
-        Vector2::new(fx * (r2 + 2.0 * x * x), fy * 2.0 * x * y),
-        Vector2::new(fx * x, fy * y) * powers[2],
-    ])
+    Some((pixel - corner.pixel, camera.by_parameters(&point), by_pose))
 }
 
 fn root_mean(squares: &[f64]) -> f64 {
@@ -721,7 +686,7 @@ mod tests {
         for k in 0..9 {
             let mut d = Shared::zeros();
             d[k] = 1e-5;
-            let at = |d: Shared| residual(&moved_camera(&camera, &d), &pose, &corner).unwrap();
+            let at = |d: Shared| residual(&camera.moved(&d), &pose, &corner).unwrap();
             assert!(((at(d) - at(-d)) / 2e-5 - by_shared.column(k)).norm() < 1e-4, "{k}");
         }
         for k in 0..6 {

@@ -112,7 +112,7 @@ fn view(
             camera_from_target: readings.camera_from_target[k],
         },
         covariance: o.candidates[k].covariance.map(|c| carry * c * carry.transpose()),
-        by_camera: None,
+        sight: None,
     }
 }
 

@@ -2,7 +2,11 @@
 
 use nalgebra::Vector3;
 
-use super::{agreement::Views, captures};
+use super::{
+    agreement::Views,
+    captures,
+    optics::{self, Optics},
+};
 use crate::{
     Placement, Pose, PosePair, Setup, Target, TargetModel, Touch, lie,
     refine::{JointFit, TouchedBoard, TouchedCorner, View},
@@ -16,7 +20,7 @@ pub(super) struct Boards {
 }
 
 /// Boards that were touched and that the camera saw.
-pub(super) fn boards(views: &Views, fit: &JointFit) -> Boards {
+pub(super) fn boards(views: &Views, fit: &JointFit, optics: &Optics) -> Boards {
     let session = views.session;
     let Some(target) = &session.target else { return Boards { boards: vec![], touches: vec![] } };
     let mut found = Boards { boards: vec![], touches: vec![] };
@@ -27,7 +31,7 @@ pub(super) fn boards(views: &Views, fit: &JointFit) -> Boards {
         }
         Setup::EyeToHand => {
             for placement in &session.placements {
-                let Some(seen) = seen(placement, views, fit, target) else { continue };
+                let Some(seen) = seen(placement, views, fit, target, optics) else { continue };
                 let own: Vec<usize> = (0..session.touches.len())
                     .filter(|&k| session.touches[k].placement == placement.id)
                     .collect();
@@ -63,17 +67,21 @@ fn seen(
     views: &Views,
     fit: &JointFit,
     target: &TargetModel,
+    optics: &Optics,
 ) -> Option<View> {
     let x = &fit.hand_eye.mount_from_camera;
     let chosen = captures::oriented(placement, &views.session.touches, x, target);
     let pose = chosen.candidates.first()?;
     let carry = lie::adjoint(views.target_from_corner.inverse().iso());
+    let own = &pose.camera_from_target;
+    let sight = (!optics.extras.is_empty())
+        .then(|| optics::sight_of_placement(views.session, &chosen.corners, &chosen.surface, own));
     let unused: Pose<crate::Anchor, crate::Mount> = Pose::identity();
     let about_corner: Pose<crate::Camera, Target> =
         pose.camera_from_target * views.target_from_corner;
     Some(View {
         pair: PosePair { anchor_from_mount: unused, camera_from_target: about_corner },
         covariance: pose.covariance.map(|c| carry * c * carry.transpose()),
-        by_camera: None,
+        sight: sight.flatten().map(|s| s.carried(&carry).into()),
     })
 }

@@ -6,7 +6,8 @@ use super::{
     Config,
     agreement::Views,
     boards, captures,
-    joint::{self, Joint},
+    joint::{self, Joint, held_out_views},
+    optics::{self, Optics},
     verdict,
 };
 use crate::{
@@ -24,12 +25,17 @@ use crate::{
 pub(super) fn estimate<'a>(
     mut views: Views<'a>,
     found: &Consensus,
+    optics: &Optics,
     config: &Config,
     result: &mut Calibration,
 ) -> Option<Views<'a>> {
     let setup = views.session.setup;
     result.diversity = Some(evaluate::diversity(&pairs_of(&views)));
-    let mut fit = match refine::fit_views(&views.views, &found.hand_eye, &config.known, setup) {
+    if !optics.extras.is_empty() {
+        views.views = optics::with_sights(&views);
+    }
+    let problem = joint::views_problem(setup, &views.views, &optics.extras);
+    let mut fit = match refine::fit_joint(&problem, &found.hand_eye, &config.known) {
         Ok(fit) => fit,
         Err(error) => {
             result.reasons.push(error.to_string());
@@ -40,10 +46,17 @@ pub(super) fn estimate<'a>(
     captures::orient_target(&mut views, &mut fit);
     result.undetermined = diagnose::undetermined(&fit, setup);
     result.error_budget = verdict::budget(&fit);
+    optics.report(views.session, &fit, result);
     verdict::judge_scale(&views, &fit, config, result);
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
-    let joint = joint::fit(&views, &boards::boards(&views, &fit), &fit, &config.known);
+    let joint = joint::fit(
+        &views,
+        &boards::boards(&views, &fit, optics),
+        &optics.extras,
+        &fit,
+        &config.known,
+    );
     if let Some(joint) = &joint {
         result.error_budget = verdict::budget(&joint.fit);
         joint.warn(&views, result);
@@ -109,13 +122,18 @@ impl Judge<'_> {
             .map(|m| (format!("closed-form-{}", m.name()), Estimator::ClosedForm(m)))
             .collect();
         all.push(("least-squares".into(), Estimator::LeastSquares));
-        all.push((likeliest.into(), Estimator::MaximumLikelihood(config.known)));
         if let Some(method) = config.method {
             all.retain(|(_, e)| *e == Estimator::ClosedForm(method));
         }
-        all.into_iter()
-            .filter_map(|(name, estimator)| self.view_candidate(fit, name, &estimator))
-            .collect()
+        let by_estimator = |(name, estimator)| self.view_candidate(fit, name, &estimator);
+        let mut judged: Vec<Judged> = all.into_iter().filter_map(by_estimator).collect();
+        if config.method.is_none() {
+            let problem =
+                joint::views_problem(self.views.session.setup, &self.views.views, &fit.extras);
+            let left_out = held_out_views(&problem, fit, &self.known);
+            judged.push(self.judged(fit, likeliest.into(), &fit.hand_eye, left_out));
+        }
+        judged
     }
 
     /// One candidate from views alone.
@@ -125,28 +143,37 @@ impl Judge<'_> {
         name: String,
         estimator: &Estimator,
     ) -> Option<Judged> {
-        let (views, setup) = (self.views, self.views.session.setup);
-        let answer = match estimator {
-            Estimator::MaximumLikelihood(_) => fit.hand_eye,
-            other => other.estimate(&views.views, &fit.hand_eye, setup).ok()?,
-        };
+        let views = self.views;
+        let answer = estimator.estimate(&views.views, &fit.hand_eye).ok()?;
+        let left_out = evaluate::held_out(estimator, &views.views, &fit.hand_eye);
+        Some(self.judged(fit, name, &answer, left_out))
+    }
+
+    /// An answer from views, and what it missed when each was left out.
+    fn judged(
+        &self,
+        fit: &JointFit,
+        name: String,
+        answer: &HandEye,
+        left_out: Vec<Option<(f64, f64)>>,
+    ) -> Judged {
+        let views = self.views;
         let x = answer.mount_from_camera;
         let tre = self.tre(&x);
-        let left_out = evaluate::held_out(estimator, &views.views, &fit.hand_eye, setup);
         let held_out = evaluate::rms(&left_out);
         let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
         let covariance = stated_covariance(fit);
         let candidate = Candidate {
             name,
-            hand_eye: stored(views, &answer, covariance.as_ref()),
-            in_sample: evaluate::in_sample(&answer, &views.views),
+            hand_eye: stored(views, answer, covariance.as_ref()),
+            in_sample: evaluate::in_sample(answer, &views.views),
             held_out,
             touch_rms_mm: touch_rms,
             held_out_mm: touch_rms.or(held_out.translation_rms_mm),
             predicted_tre_mm: tre.as_ref().map(|t| t.rms),
             note: None,
         };
-        Some(Judged { candidate, tre, held_out: left_out })
+        Judged { candidate, tre, held_out: left_out }
     }
 
     /// The fit of everything.
@@ -154,7 +181,7 @@ impl Judge<'_> {
         let fit = &joint.fit;
         let x = fit.hand_eye.mount_from_camera;
         let tre = self.tre(&x);
-        let left_out = joint.held_out_views(&self.known);
+        let left_out = held_out_views(&joint.problem, fit, &self.known);
         let held_out = evaluate::rms(&left_out);
         let touch_held_out = joint.held_out_touches(&self.known).map(|m| m * 1e3);
         let candidate = Candidate {

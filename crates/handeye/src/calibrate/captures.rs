@@ -67,7 +67,7 @@ fn turn_all(views: &mut Views, fit: &mut JointFit, old_from_new: &Pose<Target, T
     for view in &mut views.views {
         view.pair.camera_from_target = view.pair.camera_from_target * turn;
         view.covariance = view.covariance.map(|c| carry * c * carry.transpose());
-        view.by_camera = view.by_camera.map(|by| carry * by);
+        view.sight = view.sight.take().map(|s| s.carried(&carry).into());
     }
     fit.hand_eye = fit.hand_eye.retarget(turn);
     let n = fit.information.nrows();
@@ -99,6 +99,7 @@ pub(super) fn oriented(
     for corner in &mut placement.surface {
         corner.id = map.get(corner.id as usize).copied().unwrap_or(corner.id);
     }
+    placement.corners = detect::relabelled(&placement.corners, &map);
     placement.candidates = vec![best];
     placement
 }
@@ -167,7 +168,7 @@ fn as_chosen(o: &Observation, v: &View, views: &Views, target: &TargetModel) -> 
 }
 
 /// The chosen pose of a view, about the target's own origin.
-fn own_pose(v: &View, views: &Views) -> Pose<Camera, Target> {
+pub(super) fn own_pose(v: &View, views: &Views) -> Pose<Camera, Target> {
     v.pair.camera_from_target * views.target_from_corner.inverse()
 }
 

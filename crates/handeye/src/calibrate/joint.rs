@@ -6,11 +6,11 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::{agreement::Views, boards::Boards};
 use crate::{
-    Warning,
+    Setup, Warning,
     calibration::Calibration,
     evaluate,
     refine::{
-        self, Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard,
+        self, Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, View,
         extra::{SYSTEMATIC, TIP_PRIOR, systematic, tip},
         joint,
     },
@@ -40,10 +40,16 @@ pub(super) struct Conflict {
     pub strength: f64,
 }
 
-/// Fits views and touches together.
+/// Views alone.
+pub(super) fn views_problem(setup: Setup, views: &[View], extras: &[Extra]) -> Problem {
+    Problem { setup, views: views.to_vec(), boards: vec![], extras: extras.to_vec() }
+}
+
+/// Fits views and touches together; `extras` are free beside the tip.
 pub(super) fn fit(
     views: &Views,
     boards: &Boards,
+    extras: &[Extra],
     start: &JointFit,
     known: &KnownNoise,
 ) -> Option<Joint> {
@@ -51,7 +57,7 @@ pub(super) fn fit(
         setup: views.session.setup,
         views: views.views.clone(),
         boards: boards.boards.clone(),
-        extras: tip(TIP_PRIOR).to_vec(),
+        extras: [extras, &tip(TIP_PRIOR)].concat(),
     };
     if problem.boards.is_empty() {
         return None;
@@ -79,7 +85,9 @@ fn free_wrong_tip(
     fit: &mut JointFit,
     known: &KnownNoise,
 ) -> Option<WrongTip> {
-    let without = Problem { extras: vec![], ..problem.clone() };
+    let others: Vec<Extra> =
+        problem.extras.iter().filter(|e| !matches!(e.kind, ExtraKind::Tip(_))).copied().collect();
+    let without = Problem { extras: others.clone(), ..problem.clone() };
     let fixed = joint::refit(&without, fit, known);
     let (h, g) = score(&without, &fixed, &tip(TIP_PRIOR))?;
     let (d2, rank) = significance(&h, &g);
@@ -89,7 +97,7 @@ fn free_wrong_tip(
     if p_value > WRONG_TIP || most_gain(&h, &g, &TIP_SIZES) < as_systematic {
         return None;
     }
-    problem.extras = tip(WRONG_TIP_PRIOR).to_vec();
+    problem.extras = [others.as_slice(), &tip(WRONG_TIP_PRIOR)].concat();
     *fit = joint::refit(problem, fit, known);
     let offset = Vector3::from_fn(|k, _| fit.extra(ExtraKind::Tip(k)).map_or(0.0, |e| e.0));
     let in_flange =
@@ -231,24 +239,6 @@ impl Joint {
         root_mean_square(misfits.map(|e| e.norm_squared()))
     }
 
-    /// Misfit (rad, m) of every view under a fit made without it.
-    pub(super) fn held_out_views(&self, known: &KnownNoise) -> Vec<Option<(f64, f64)>> {
-        let views = &self.problem.views;
-        let mut found = vec![None; views.len()];
-        if views.len() <= crate::solve::FEWEST_POSES {
-            return found;
-        }
-        for fold in evaluate::folds(views.len()) {
-            let rest = (0..views.len()).filter(|i| !fold.contains(i)).map(|i| views[i]).collect();
-            let problem = Problem { views: rest, ..self.problem.clone() };
-            let refitted = joint::refit(&problem, &self.fit, known);
-            for i in fold {
-                found[i] = Some(evaluate::loop_misfit(&refitted.hand_eye, &views[i].pair));
-            }
-        }
-        found
-    }
-
     /// RMS distance (m) of tip and corner over touches left out of the fit: one board at a time
     /// where there are several, one touch at a time otherwise.
     pub(super) fn held_out_touches(&self, known: &KnownNoise) -> Option<f64> {
@@ -342,6 +332,29 @@ pub(super) struct WrongTip {
     pub in_flange: bool,
     /// Chance of an estimate as large when the tip is right.
     pub p_value: f64,
+}
+
+/// Misfit (rad, m) of every view under a fit made without it.
+pub(super) fn held_out_views(
+    problem: &Problem,
+    fit: &JointFit,
+    known: &KnownNoise,
+) -> Vec<Option<(f64, f64)>> {
+    let views = &problem.views;
+    let mut found = vec![None; views.len()];
+    if views.len() <= crate::solve::FEWEST_POSES {
+        return found;
+    }
+    for fold in evaluate::folds(views.len()) {
+        let kept = (0..views.len()).filter(|i| !fold.contains(i));
+        let rest = kept.map(|i| views[i].clone()).collect();
+        let refitted = joint::refit(&Problem { views: rest, ..problem.clone() }, fit, known);
+        for i in fold {
+            let pair = views[i].with(&refitted.extras, &refitted.values);
+            found[i] = Some(evaluate::loop_misfit(&refitted.hand_eye, &pair));
+        }
+    }
+    found
 }
 
 fn root_mean_square(squares: impl Iterator<Item = f64>) -> Option<f64> {

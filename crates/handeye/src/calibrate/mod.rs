@@ -10,6 +10,7 @@ mod boards;
 mod candidates;
 mod captures;
 mod joint;
+mod optics;
 mod points;
 mod sources;
 mod verdict;
@@ -24,6 +25,7 @@ use crate::{
 };
 
 pub use captures::relabelling;
+use optics::Optics;
 
 /// Everything that was measured in one cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +36,8 @@ pub struct Session {
     pub target: Option<TargetModel>,
     /// The camera, where pictures were used.
     pub camera: Option<Intrinsics>,
+    /// Whether the camera was calibrated from these very views.
+    pub camera_from_views: bool,
     /// Captures, in any order.
     pub observations: Vec<Observation>,
     /// Boards lying in the cell (eye-to-hand).
@@ -83,15 +87,34 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
     }
     Ok(sources::best_source(&session, |session| {
         let mut result = empty(session);
-        from_views(session, config, &mut result);
+        from_views(session, (session, &Optics::default(), 0), config, &mut result);
         verdict::conclude(config, &mut result);
         result
     }))
 }
 
-fn from_views(session: &Session, config: &Config, result: &mut Calibration) {
+/// Most looks at camera and depth; the second settles it.
+const OPTICS_ROUNDS: usize = 3;
+
+/// Calibrates from `session`, which is `given` with camera and depth moved by `optics`.
+fn from_views(
+    given: &Session,
+    (session, optics, round): (&Session, &Optics, usize),
+    config: &Config,
+    result: &mut Calibration,
+) {
     let Some((views, found)) = agreement::agree(session, config, result) else { return };
-    let Some(views) = candidates::estimate(views, &found, config, result) else { return };
+    if round < OPTICS_ROUNDS
+        && let Some((moved, next)) = optics::look(given, &views, &found.hand_eye, optics, config)
+    {
+        let mut again = empty(session);
+        from_views(given, (&moved, &next, round + 1), config, &mut again);
+        if again.chosen.is_some() {
+            *result = again;
+            return;
+        }
+    }
+    let Some(views) = candidates::estimate(views, &found, optics, config, result) else { return };
     captures::report_captures(&views, result);
 }
 
@@ -164,6 +187,8 @@ fn empty(session: &Session) -> Calibration {
         time_offset_s: 0.0,
         scale: 1.0,
         target_scale: None,
+        camera: None,
+        depth: None,
         warnings: vec![],
     }
 }

@@ -10,12 +10,15 @@ mod labelling;
 pub mod markers;
 pub mod planar_pose;
 mod pyramid;
+pub mod sight;
 pub mod subpixel;
 pub mod surface;
 pub mod tag;
 
 pub use board::{NotFound, detect};
 pub use planar_pose::{
-    PosedTarget, relabelled, symmetry_turn, target_poses, target_poses_with, with_symmetries,
+    PosedTarget, relabelled, symmetry_turn, target_poses, target_poses_with, typical_excess,
+    with_symmetries,
 };
+pub use sight::{Sight, sighted};
 pub use surface::{Missing, lift};

@@ -111,6 +111,25 @@ pub fn target_poses_with(
     Ok(kept)
 }
 
+/// Fewest pictures that tell what is typical.
+const FEWEST_TYPICAL: usize = 4;
+
+/// What lens model and print leave in the corners of all pictures of one camera, px: the median.
+/// `None` where the pictures are too few to tell.
+pub fn typical_excess<'a>(
+    pictures: impl IntoIterator<Item = &'a [ImageCorner]>,
+    target: &TargetModel,
+    intrinsics: &Intrinsics,
+) -> Option<f64> {
+    let excess = |corners: &[ImageCorner]| {
+        let poses = target_poses(corners, &[], target, intrinsics).ok()?;
+        poses.first().map(|p| p.excess_px)
+    };
+    let mut all: Vec<f64> = pictures.into_iter().filter_map(excess).collect();
+    all.sort_by(f64::total_cmp);
+    (all.len() >= FEWEST_TYPICAL).then(|| all[all.len() / 2])
+}
+
 /// The poses under every labelling that looks the same, see [`TargetModel::symmetries`]: for each
 /// pose the given labelling first.
 pub fn with_symmetries(poses: &[PosedTarget], target: &TargetModel) -> Vec<TargetPose> {
@@ -148,36 +167,36 @@ pub fn symmetry_turn(target: &TargetModel, map: &[u32]) -> Pose<Target, Target> 
 }
 
 /// A corner in the picture, with its place on the board.
-struct Seen {
-    id: u32,
-    in_target: Vector3<f64>,
-    pixel: Vector2<f64>,
-    covariance: Matrix2<f64>,
-    weight: f64,
+pub(super) struct Seen {
+    pub id: u32,
+    pub in_target: Vector3<f64>,
+    pub pixel: Vector2<f64>,
+    pub covariance: Matrix2<f64>,
+    pub weight: f64,
 }
 
 /// A corner in the scan.
-struct Felt {
-    in_target: Vector3<f64>,
-    in_camera: Vector3<f64>,
-    information: Matrix3<f64>,
-    weight: f64,
+pub(super) struct Felt {
+    pub in_target: Vector3<f64>,
+    pub in_camera: Vector3<f64>,
+    pub information: Matrix3<f64>,
+    pub weight: f64,
 }
 
-struct Fit<'a> {
-    seen: Vec<Seen>,
-    felt: Vec<Felt>,
-    intrinsics: &'a Intrinsics,
+pub(super) struct Fit<'a> {
+    pub seen: Vec<Seen>,
+    pub felt: Vec<Felt>,
+    pub intrinsics: &'a Intrinsics,
     /// `τ²`, px².
     excess: f64,
     /// What other pictures say it is.
-    typical_excess: Option<f64>,
+    pub typical_excess: Option<f64>,
     /// Factor on the covariances of the 3D corners.
-    felt_scale: f64,
+    pub felt_scale: f64,
 }
 
 impl<'a> Fit<'a> {
-    fn new(
+    pub fn new(
         corners: &[ImageCorner],
         surface: &[SurfaceCorner],
         target: &TargetModel,
@@ -229,7 +248,7 @@ impl<'a> Fit<'a> {
     }
 
     /// Robust fit, then a plain one without the corners that do not belong.
-    fn polish(&mut self, start: Isometry3<f64>) -> Option<PosedTarget> {
+    pub fn polish(&mut self, start: Isometry3<f64>) -> Option<PosedTarget> {
         (self.excess, self.felt_scale) = (0.0, 1.0);
         self.reweight(|_| 1.0);
         let mut pose = self.minimise(start)?;
@@ -279,7 +298,7 @@ impl<'a> Fit<'a> {
         (median(all) / CHI2_2_MEDIAN.sqrt()).max(1.0)
     }
 
-    fn information(&self, corner: &Seen) -> Matrix2<f64> {
+    pub fn information(&self, corner: &Seen) -> Matrix2<f64> {
         let whole = corner.covariance + Matrix2::identity() * self.excess;
         whole.try_inverse().unwrap_or_else(Matrix2::zeros)
     }
@@ -426,7 +445,7 @@ fn felt_distance(pose: &Isometry3<f64>, corner: &Felt) -> f64 {
 }
 
 /// `T p` and its derivative by `δ` of `T exp(δ)`: `R [-[p]ₓ, I]`.
-fn moved(pose: &Isometry3<f64>, p: &Vector3<f64>) -> (Vector3<f64>, Matrix3x6<f64>) {
+pub(super) fn moved(pose: &Isometry3<f64>, p: &Vector3<f64>) -> (Vector3<f64>, Matrix3x6<f64>) {
     let r = pose.rotation.to_rotation_matrix().into_inner();
     let mut j = Matrix3x6::zeros();
     j.fixed_view_mut::<3, 3>(0, 0).copy_from(&(-r * hat(p)));

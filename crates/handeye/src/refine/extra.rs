@@ -1,11 +1,11 @@
-//! Unknowns beside `X` and `Y`, each with a prior: `x ~ N(0, σ²)`.
+//! Unknowns beside `X` and `Y`, each with a prior: `x ~ N(x₀, σ²)`.
 
 use nalgebra::DVector;
 
 /// What the unknown changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExtraKind {
-    /// A parameter of the camera or the target, by its place in [`super::sight`].
+    /// A parameter of the camera or the target, by its number in [`crate::detect::sight`].
     Camera(usize),
     /// Where the tip is beyond where the robot believes it, axis of the flange (m); of the base
     /// where no flange pose was recorded at contact.
@@ -19,8 +19,17 @@ pub enum ExtraKind {
 pub struct Extra {
     /// What it changes.
     pub kind: ExtraKind,
-    /// Standard deviation of what is believed of it beforehand; the belief is zero.
+    /// What is believed of it beforehand.
+    pub prior_mean: f64,
+    /// Standard deviation of that belief.
     pub prior_sigma: f64,
+}
+
+impl Extra {
+    /// An unknown that is believed to be zero.
+    pub fn about_zero(kind: ExtraKind, prior_sigma: f64) -> Self {
+        Self { kind, prior_mean: 0.0, prior_sigma }
+    }
 }
 
 /// Size of a systematic difference of unit strength: rotation (rad) and position (m) per axis, at
@@ -32,12 +41,12 @@ pub const TIP_PRIOR: f64 = 0.5e-3;
 
 /// Three coordinates of the tip.
 pub fn tip(prior_sigma: f64) -> [Extra; 3] {
-    std::array::from_fn(|k| Extra { kind: ExtraKind::Tip(k), prior_sigma })
+    std::array::from_fn(|k| Extra::about_zero(ExtraKind::Tip(k), prior_sigma))
 }
 
 /// Six coordinates of a systematic difference of this strength.
 pub fn systematic(strength: f64) -> [Extra; 6] {
-    std::array::from_fn(|k| Extra { kind: ExtraKind::Systematic(k), prior_sigma: strength })
+    std::array::from_fn(|k| Extra::about_zero(ExtraKind::Systematic(k), strength))
 }
 
 /// The value of an unknown; zero where it is not free.

@@ -8,8 +8,12 @@
 //! ```text
 //! view i:   r_i = log(C_i⁻¹ X⁻¹ A_i⁻¹ Y)           V_i = Σ_k θ_k G_ik
 //! board b:  e_b = tip - corner (super::touched)      V_b likewise
-//! minimise  Σ rᵀ V⁻¹ r + Σ (x/σ)²                    by Levenberg-Marquardt
+//! minimise  Σ rᵀ V⁻¹ r + Σ ((x - x₀)/σ)² + Σ (cᵀ S_i c + 2 s_iᵀ c)/θ_picture
 //! ```
+//!
+//! by Levenberg-Marquardt. `C_i` and the touched boards move with the camera's parameters `c`, which
+//! are among the `x`; what the corners of a view say about these themselves is the last sum
+//! ([`crate::detect::sight`]).
 //!
 //! Given those, restricted maximum likelihood (REML) moves the `θ`: with `u = V⁻¹ r`, `J` the
 //! Jacobian and `H = Σ Jᵀ V⁻¹ J`, the score of `log θ_k` is
@@ -24,12 +28,13 @@
 //! D. Harville, *Maximum likelihood approaches to variance component estimation*, JASA 72, 1977;
 //! M. Ulrich and M. Hillemann, *Uncertainty-aware hand-eye calibration*, IEEE T-RO 40, 2024.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, OMatrix, SMatrix, SVector, U6, Vector6};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::{
     extra::{Extra, ExtraKind},
-    noise::{self, COLUMNS, Factor, KnownNoise, NoiseModel, Sigma, Source},
-    pose_fit::{self, Matrix12, Vector12, View},
+    noise::{KnownNoise, NoiseModel, Source},
+    pose_fit::{self, Matrix12, View},
+    system::{State, System},
     touched::{self, TouchRows, TouchedBoard},
 };
 use crate::{Error, HandEye, Setup, lie, linalg};
@@ -78,13 +83,15 @@ const MOST_ROUNDS: usize = 100;
 const SIGMA_CHANGE: f64 = 3e-4;
 /// The unknowns have converged when the squared step, in units of their own information, is below
 /// this. One more step follows, which squares the rest.
-const STEP: f64 = 1e-8;
+pub(super) const STEP: f64 = 1e-8;
 /// A step longer than this, in the same units, comes from a start and not from noise.
 const FAR: f64 = 1.0;
 /// Captures' worth of prior belief in the first noise level.
-pub const PRIOR_VIEWS: f64 = 2.0;
+pub(super) const PRIOR_VIEWS: f64 = 2.0;
 /// Touches' worth of prior belief in the first level of their noise.
-const PRIOR_TOUCHES: f64 = 2.0;
+pub(super) const PRIOR_TOUCHES: f64 = 2.0;
+/// Least standard deviation, far below any instrument.
+pub(super) const LEAST_SIGMA: f64 = 1e-12;
 /// Weight of rotation against translation in the fit whose misfit gives the first noise level,
 /// m per rad.
 const FIRST_WEIGHT: f64 = 0.3;
@@ -161,29 +168,6 @@ fn carried_values(problem: &Problem, near: &JointFit) -> DVector<f64> {
     DVector::from_iterator(problem.extras.len(), problem.extras.iter().map(value))
 }
 
-/// Where the fit stands.
-#[derive(Debug, Clone)]
-struct State {
-    hand_eye: HandEye,
-    values: DVector<f64>,
-    noise: NoiseModel,
-}
-
-impl State {
-    fn new(problem: &Problem, hand_eye: HandEye, noise: NoiseModel) -> Self {
-        Self { hand_eye, values: DVector::zeros(problem.extras.len()), noise }
-    }
-
-    fn moved(&self, step: &DVector<f64>) -> Self {
-        let twelve = Vector12::from_fn(|i, _| step[i]);
-        Self {
-            hand_eye: pose_fit::moved(&self.hand_eye, &twelve),
-            values: &self.values + step.rows(12, self.values.len()),
-            noise: self.noise.clone(),
-        }
-    }
-}
-
 /// Steps and noise updates side by side, until neither moves; then one last step.
 fn climb(problem: &Problem, mut state: State, prior: &NoiseModel, known: &KnownNoise) -> JointFit {
     let mut system = System::at(problem, &state);
@@ -235,14 +219,16 @@ fn levelled(
     mut noise: NoiseModel,
     known: &KnownNoise,
 ) -> NoiseModel {
-    let views_only = Problem { boards: vec![], extras: vec![], ..problem.clone() };
+    let camera = |e: &&Extra| matches!(e.kind, ExtraKind::Camera(_));
+    let extras = problem.extras.iter().filter(camera).copied().collect();
+    let views_only = Problem { boards: vec![], extras, ..problem.clone() };
     let mut state = State::new(&views_only, *start, noise.clone());
     for _ in 0..2 {
         System::at(&views_only, &state).advance(&views_only, &mut state);
     }
-    let cost = System::at(&views_only, &state).cost;
+    let cost = System::at(&views_only, &state).cost_of_poses();
     let dof = 6.0 * problem.views.len() as f64 - 12.0;
-    let level = (cost / dof.max(6.0)).sqrt().max(1e-6);
+    let level = (cost.max(0.0) / dof.max(6.0)).sqrt().max(1e-6);
     for s in &mut noise.sigmas {
         if !matches!(s.source, Source::Picture | Source::Touch) && known.sigma(s.source).is_none() {
             s.sigma *= level;
@@ -280,7 +266,7 @@ const LARGEST_TOUCH: f64 = 0.25e-3;
 
 /// The sources that act on this problem.
 fn acting(problem: &Problem) -> impl Iterator<Item = Source> {
-    let seen = |b: &TouchedBoard| b.seen.is_some_and(|v| v.covariance.is_none());
+    let seen = |b: &TouchedBoard| b.seen.as_ref().is_some_and(|v| v.covariance.is_none());
     let bare =
         problem.views.iter().any(|v| v.covariance.is_none()) || problem.boards.iter().any(seen);
     let pictured = problem.views.iter().any(|v| v.covariance.is_some());
@@ -291,347 +277,6 @@ fn acting(problem: &Problem) -> impl Iterator<Item = Source> {
         Source::Touch => touched,
         _ => bare,
     })
-}
-
-/// One block of equations, divided by the root of its covariance.
-struct ViewBlock {
-    residual: Vector6<f64>,
-    jacobian: OMatrix<f64, U6, Dyn>,
-    factor: Factor,
-    columns: [Source; COLUMNS],
-    root: Matrix6<f64>,
-}
-
-struct BoardBlock {
-    rows: TouchRows,
-    cholesky: Cholesky<f64, Dyn>,
-}
-
-/// Normal equations at one point.
-struct System {
-    h: DMatrix<f64>,
-    g: DVector<f64>,
-    cost: f64,
-    log_determinant: f64,
-    views: Vec<ViewBlock>,
-    boards: Vec<BoardBlock>,
-}
-
-type Variances = [f64; Source::ALL.len()];
-
-impl System {
-    fn at(problem: &Problem, state: &State) -> Self {
-        let p = 12 + problem.extras.len();
-        let variances = state.noise.variances();
-        let mut system = Self {
-            h: DMatrix::zeros(p, p),
-            g: DVector::zeros(p),
-            cost: 0.0,
-            log_determinant: 0.0,
-            views: Vec::with_capacity(problem.views.len()),
-            boards: vec![],
-        };
-        for view in &problem.views {
-            system.add_view(view_block(problem, view, state, &variances));
-        }
-        for board in &problem.boards {
-            system.add_board(board_block(problem, board, state, &variances));
-        }
-        system.add_priors(problem, state);
-        system
-    }
-
-    fn add_view(&mut self, block: ViewBlock) {
-        self.h.gemm_tr(1.0, &block.jacobian, &block.jacobian, 1.0);
-        self.g.gemv_tr(1.0, &block.jacobian, &block.residual, 1.0);
-        self.cost += block.residual.norm_squared();
-        self.log_determinant += 2.0 * block.root.diagonal().iter().map(|d| d.ln()).sum::<f64>();
-        self.views.push(block);
-    }
-
-    fn add_board(&mut self, block: BoardBlock) {
-        let u = block.cholesky.solve(&block.rows.residual);
-        let vj = block.cholesky.solve(&block.rows.jacobian);
-        self.h.gemm_tr(1.0, &block.rows.jacobian, &vj, 1.0);
-        self.g.gemv_tr(1.0, &block.rows.jacobian, &u, 1.0);
-        self.cost += block.rows.residual.dot(&u);
-        let root = block.cholesky.l_dirty();
-        self.log_determinant += 2.0 * root.diagonal().iter().map(|d| d.ln()).sum::<f64>();
-        self.boards.push(block);
-    }
-
-    fn add_priors(&mut self, problem: &Problem, state: &State) {
-        for (k, extra) in problem.extras.iter().enumerate() {
-            let weight = extra.prior_sigma.powi(-2);
-            self.h[(12 + k, 12 + k)] += weight;
-            self.g[12 + k] += weight * state.values[k];
-            self.cost += weight * state.values[k].powi(2);
-        }
-    }
-
-    /// One damped step that lowers the cost; its squared length in units of the information.
-    fn advance(&self, problem: &Problem, state: &mut State) -> f64 {
-        let mut damping = 0.0;
-        for _ in 0..20 {
-            if let Some(step) = self.step(damping) {
-                let length = step.dot(&(&self.h * &step));
-                let next = state.moved(&step);
-                let there = self.cost_at(problem, &next);
-                if there <= self.cost * (1.0 + 1e-12) || length < STEP {
-                    *state = next;
-                    return length;
-                }
-            }
-            damping = if damping == 0.0 { 1e-4 } else { damping * 10.0 };
-        }
-        0.0
-    }
-
-    fn step(&self, damping: f64) -> Option<DVector<f64>> {
-        let mut h = self.h.clone();
-        (0..h.nrows()).for_each(|k| h[(k, k)] *= 1.0 + damping);
-        let (scaled, scale) = linalg::scaled(&h)?;
-        let cholesky = Cholesky::new(scaled)?;
-        let solve =
-            |g: &DVector<f64>| cholesky.solve(&g.component_mul(&scale)).component_mul(&scale);
-        let step = solve(&self.g);
-        // one round of refinement of the linear solution
-        let rest = &self.g - &h * &step;
-        Some(-(&step + solve(&rest)))
-    }
-
-    /// The cost elsewhere, for the weights of here.
-    fn cost_at(&self, problem: &Problem, state: &State) -> f64 {
-        let mut cost = 0.0;
-        for (view, block) in problem.views.iter().zip(&self.views) {
-            let r = view_misfit(problem, view, state);
-            let white = block.root.solve_lower_triangular(&r);
-            cost += white.map_or(f64::INFINITY, |w| w.norm_squared());
-        }
-        let variances = state.noise.variances();
-        for (board, block) in problem.boards.iter().zip(&self.boards) {
-            let rows = touched::rows(
-                board,
-                &state.hand_eye,
-                &problem.extras,
-                &state.values,
-                &variances,
-                problem.setup,
-            );
-            cost += rows.residual.dot(&block.cholesky.solve(&rows.residual));
-        }
-        let prior = |(e, x): (&Extra, &f64)| (x / e.prior_sigma).powi(2);
-        cost + problem.extras.iter().zip(&state.values).map(prior).sum::<f64>()
-    }
-
-    /// One step of Fisher's scoring on every component that is not known; the largest relative
-    /// change of a standard deviation.
-    fn update_noise(&self, noise: &mut NoiseModel, prior: &NoiseModel, known: &KnownNoise) -> f64 {
-        let Some(covariance) = linalg::inverse_spd(&self.h) else { return 0.0 };
-        let moments = self.moments(&covariance);
-        let free: Vec<usize> = (0..noise.sigmas.len())
-            .filter(|&k| known.sigma(noise.sigmas[k].source).is_none())
-            .collect();
-        let n = free.len();
-        let (mut score, mut information) = (DVector::zeros(n), DMatrix::zeros(n, n));
-        for (row, &k) in free.iter().enumerate() {
-            let Sigma { source, sigma, .. } = noise.sigmas[k];
-            let theta = sigma * sigma;
-            let first = prior.sigmas[k].sigma.powi(2);
-            let belief = prior_equations(source);
-            let i = source.index();
-            score[row] = 0.5 * theta * (moments.found[i] - moments.expected[i])
-                + 0.5 * belief * (first / theta - 1.0);
-            information[(row, row)] += 0.5 * belief * (first / theta).max(1.0);
-            for (column, &l) in free.iter().enumerate() {
-                let other = noise.sigmas[l];
-                let t = moments.information[(i, other.source.index())];
-                information[(row, column)] += 0.5 * theta * other.sigma.powi(2) * t;
-            }
-        }
-        let Some(inverse) = linalg::inverse_spd(&information) else { return 0.0 };
-        let step = &inverse * score;
-        let mut largest: f64 = 0.0;
-        for (row, &k) in free.iter().enumerate() {
-            let s = &mut noise.sigmas[k];
-            let change = (0.5 * step[row].clamp(-2.0, 2.0)).exp();
-            s.sigma = (s.sigma * change).max(LEAST_SIGMA);
-            s.uncertainty = Some(0.5 * inverse[(row, row)].max(0.0).sqrt());
-            if s.sigma > LEAST_SIGMA {
-                largest = largest.max((change - 1.0).abs());
-            }
-        }
-        largest
-    }
-
-    /// Both sides of the REML equations, and their information, by number of the source.
-    fn moments(&self, covariance: &DMatrix<f64>) -> Moments {
-        let mut sum = Moments::default();
-        for block in &self.views {
-            sum.add_view(block, covariance);
-        }
-        for block in &self.boards {
-            sum.add_board(block, covariance);
-        }
-        sum
-    }
-
-    fn finish(self, problem: &Problem, state: State) -> JointFit {
-        let covariance = linalg::inverse_spd(&self.h);
-        let rows = self.boards.iter().map(|b| b.rows.residual.len()).sum::<usize>();
-        let equations = 6 * self.views.len() + rows;
-        let log_h = Cholesky::new(self.h.clone()).map_or(f64::INFINITY, |c| {
-            2.0 * c.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>()
-        });
-        let log_prior: f64 = problem.extras.iter().map(|e| 2.0 * e.prior_sigma.ln()).sum();
-        JointFit {
-            hand_eye: state.hand_eye,
-            extras: problem.extras.clone(),
-            values: state.values,
-            covariance,
-            information: self.h,
-            gradient: self.g,
-            noise: state.noise,
-            chi_squared: self.cost,
-            degrees_of_freedom: equations as f64 - 12.0,
-            log_likelihood: -0.5 * (self.log_determinant + log_h + log_prior + self.cost),
-        }
-    }
-}
-
-/// Least standard deviation, far below any instrument.
-const LEAST_SIGMA: f64 = 1e-12;
-
-fn prior_equations(source: Source) -> f64 {
-    source.axes() * if source == Source::Touch { PRIOR_TOUCHES } else { PRIOR_VIEWS }
-}
-
-#[derive(Default)]
-struct Moments {
-    found: SVector<f64, 8>,
-    expected: SVector<f64, 8>,
-    information: SMatrix<f64, 8, 8>,
-}
-
-impl Moments {
-    fn add_view(&mut self, block: &ViewBlock, covariance: &DMatrix<f64>) {
-        let u = block.factor.transpose() * block.residual;
-        let traces = block.factor.transpose() * block.factor;
-        // p x columns
-        let through = block.jacobian.tr_mul(&block.factor);
-        let spent = covariance * &through;
-        for (c, source) in block.columns.iter().enumerate() {
-            let i = source.index();
-            self.found[i] += u[c] * u[c];
-            self.expected[i] += traces[(c, c)] - through.column(c).dot(&spent.column(c));
-            for (d, other) in block.columns.iter().enumerate() {
-                self.information[(i, other.index())] += traces[(c, d)].powi(2);
-            }
-        }
-    }
-
-    fn add_board(&mut self, block: &BoardBlock, covariance: &DMatrix<f64>) {
-        let inverse = block.cholesky.inverse();
-        let u = &inverse * &block.rows.residual;
-        let vj = &inverse * &block.rows.jacobian;
-        let products: Vec<DMatrix<f64>> =
-            block.rows.shapes.iter().map(|(_, g)| &inverse * g).collect();
-        for ((source, g), product) in block.rows.shapes.iter().zip(&products) {
-            let i = source.index();
-            self.found[i] += u.dot(&(g * &u));
-            self.expected[i] += product.trace() - (covariance * vj.tr_mul(&(g * &vj))).trace();
-            for ((other, _), second) in block.rows.shapes.iter().zip(&products) {
-                let trace = product.component_mul(&second.transpose()).sum();
-                self.information[(i, other.index())] += trace;
-            }
-        }
-    }
-}
-
-fn systematic_in_camera(problem: &Problem, state: &State) -> Option<Matrix6<f64>> {
-    let systematic = |e: &Extra| matches!(e.kind, ExtraKind::Systematic(_));
-    if problem.setup == Setup::EyeInHand || !problem.extras.iter().any(systematic) {
-        return None;
-    }
-    let (mut sum, mut count) = (nalgebra::Vector3::zeros(), 0.0);
-    for board in &problem.boards {
-        let Some(seen) = &board.seen else { continue };
-        let c = seen.with(&problem.extras, &state.values).camera_from_target;
-        for corner in &board.corners {
-            sum += c.iso().transform_vector(&corner.in_target) + c.translation();
-            count += 1.0;
-        }
-    }
-    Some(touched::systematic_carry(&(sum / f64::max(count, 1.0))))
-}
-
-/// `X` as the views see it: with the systematic difference, where the mount is the base.
-fn seen_hand_eye(problem: &Problem, state: &State) -> (HandEye, Option<Matrix6<f64>>) {
-    let carry = systematic_in_camera(problem, state);
-    let Some(carry) = carry else { return (state.hand_eye, None) };
-    let at = |k| super::extra::value(&problem.extras, &state.values, ExtraKind::Systematic(k));
-    let delta = carry * Vector6::from_fn(|k, _| at(k));
-    let mount_from_camera = state.hand_eye.mount_from_camera.retract(&delta);
-    (HandEye { mount_from_camera, ..state.hand_eye }, Some(carry))
-}
-
-fn view_misfit(problem: &Problem, view: &View, state: &State) -> Vector6<f64> {
-    let (hand_eye, _) = seen_hand_eye(problem, state);
-    pose_fit::misfit(&hand_eye, &view.with(&problem.extras, &state.values))
-}
-
-fn view_block(problem: &Problem, view: &View, state: &State, variances: &Variances) -> ViewBlock {
-    let (hand_eye, carry) = seen_hand_eye(problem, state);
-    let pair = view.with(&problem.extras, &state.values);
-    let view = View { pair, ..*view };
-    let (r, j) = pose_fit::misfit_with_jacobian(&hand_eye, &pair);
-    let factor = noise::factor(&view, &hand_eye, problem.setup);
-    let columns = noise::columns(&view);
-    let covariance = noise::covariance(&factor, &columns, variances);
-    let root = covariance.cholesky().map_or_else(Matrix6::identity, |c| c.l());
-    let white = |m: &OMatrix<f64, U6, Dyn>| {
-        let mut m = m.clone();
-        root.solve_lower_triangular_mut(&mut m);
-        m
-    };
-    let mut jacobian = OMatrix::<f64, U6, Dyn>::zeros(12 + problem.extras.len());
-    jacobian.fixed_view_mut::<6, 12>(0, 0).copy_from(&j);
-    let by_x: Matrix6<f64> = j.fixed_view::<6, 6>(0, 0).into_owned();
-    let by_c = (!problem.extras.is_empty()).then(|| -lie::left_jacobian_inverse(&r));
-    for (k, extra) in problem.extras.iter().enumerate() {
-        let column = match (extra.kind, &carry, &by_c) {
-            (ExtraKind::Camera(which), _, Some(by_c)) => by_c * view.by_camera(which),
-            // to first order: the exact derivative of exp(carry δ) differs by the square of δ
-            (ExtraKind::Systematic(axis), Some(carry), _) => by_x * carry.column(axis),
-            _ => continue,
-        };
-        jacobian.column_mut(12 + k).copy_from(&column);
-    }
-    let mut white_factor = factor;
-    root.solve_lower_triangular_mut(&mut white_factor);
-    let mut residual = r;
-    root.solve_lower_triangular_mut(&mut residual);
-    ViewBlock { residual, jacobian: white(&jacobian), factor: white_factor, columns, root }
-}
-
-fn board_block(
-    problem: &Problem,
-    board: &TouchedBoard,
-    state: &State,
-    variances: &Variances,
-) -> BoardBlock {
-    let rows = touched::rows(
-        board,
-        &state.hand_eye,
-        &problem.extras,
-        &state.values,
-        variances,
-        problem.setup,
-    );
-    let n = rows.covariance.nrows();
-    let cholesky = Cholesky::new(rows.covariance.clone())
-        .unwrap_or_else(|| Cholesky::pack_dirty(DMatrix::identity(n, n)));
-    BoardBlock { rows, cholesky }
 }
 
 impl JointFit {

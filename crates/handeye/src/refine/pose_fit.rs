@@ -7,46 +7,42 @@
 //!
 //! with `X = mount_from_camera`, `Y = anchor_from_target`, all perturbed on the right.
 
+use std::sync::Arc;
+
 use nalgebra::{DVector, Matrix6, SMatrix, SVector, Vector6};
 
 use super::extra::{Extra, ExtraKind};
-use crate::{HandEye, PosePair, lie, linalg};
+use crate::{HandEye, PosePair, detect::Sight, lie, linalg};
 
 /// One capture as the fit sees it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct View {
     /// Robot pose and target pose.
     pub pair: PosePair,
     /// Covariance of the target pose, in the Target frame; `None` when unknown.
     pub covariance: Option<Matrix6<f64>>,
-    /// How the target pose moves (perturbed on the right) with the parameters of camera and target
-    /// of [`super::sight`]; `None` where it cannot.
-    pub by_camera: Option<SMatrix<f64, 6, CAMERA>>,
+    /// How the target pose depends on camera and target, and what the corners say about these.
+    pub sight: Option<Arc<Sight>>,
 }
-
-/// Parameters of camera and target that a target pose may depend on.
-pub const CAMERA: usize = 12;
-/// Number of the parameter that makes the target larger.
-pub const TARGET_SCALE: usize = 0;
 
 impl View {
     /// A pose that came from elsewhere, of unknown covariance.
     pub fn bare(pair: PosePair) -> Self {
-        Self { pair, covariance: None, by_camera: None }
+        Self { pair, covariance: None, sight: None }
     }
 
     /// How the target pose moves with one parameter.
     pub(super) fn by_camera(&self, which: usize) -> Vector6<f64> {
-        self.by_camera.map_or_else(Vector6::zeros, |m| m.column(which).into())
+        self.sight.as_ref().map_or_else(Vector6::zeros, |s| s.by_camera.column(which).into())
     }
 
     /// The pair at other values of the camera's parameters.
-    pub(super) fn with(&self, extras: &[Extra], values: &DVector<f64>) -> PosePair {
-        let Some(by_camera) = &self.by_camera else { return self.pair };
+    pub(crate) fn with(&self, extras: &[Extra], values: &DVector<f64>) -> PosePair {
+        let Some(sight) = &self.sight else { return self.pair };
         let mut step = Vector6::zeros();
         for (extra, value) in extras.iter().zip(values) {
             if let ExtraKind::Camera(which) = extra.kind {
-                step += by_camera.column(which) * *value;
+                step += sight.by_camera.column(which) * *value;
             }
         }
         let camera_from_target = self.pair.camera_from_target.retract(&step);

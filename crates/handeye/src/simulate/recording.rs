@@ -114,6 +114,7 @@ impl Recording<'_> {
         let observations = (0..cell.captures).map(|k| self.observation(k)).collect();
         let placements = (0..cell.placements).map(|k| self.placement(k)).collect();
         Session {
+            camera_from_views: false,
             setup: cell.setup,
             target: Some(cell.target.clone()),
             camera: Some(cell.intrinsics),

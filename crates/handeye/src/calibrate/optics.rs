@@ -1,0 +1,335 @@
+//! The camera's own parameters and the scale of its depth, found with the robot's help.
+//!
+//! A camera that was calibrated from these very views is as unsure as they are: its parameters stay
+//! free in the fit. One that was given is believed, unless the whole of views and robot poses says
+//! with confidence that it is off; the same holds for the depth of scans. What is found moves the
+//! camera, all targets are posed anew, and the fit is linearised there again.
+
+use nalgebra::SVector;
+
+use super::{
+    Config, Session,
+    agreement::Views,
+    captures,
+    joint::{held_out_views, views_problem},
+};
+use crate::{
+    Camera, Distortion, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel, Warning,
+    calibration::{Calibration, CameraResult, DepthResult},
+    camera::PARAMETERS,
+    detect::{
+        self,
+        sight::{DEPTH_BIAS, DEPTH_SCALE, LENS, Sight, corrected},
+    },
+    evaluate,
+    refine::{self, Extra, ExtraKind, JointFit, View},
+};
+
+/// What of camera and depth is free, and how far it has moved from what was given.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Optics {
+    /// The unknowns; beliefs are relative to where camera and depth stand now.
+    pub extras: Vec<Extra>,
+    lens: SVector<f64, PARAMETERS>,
+    depth_scale: f64,
+    depth_bias_m: f64,
+}
+
+/// Gain of the logarithm of the likelihood that moves a camera, or a depth, that was given.
+const GAIN: f64 = 6.0;
+/// Captures left out may be missed by this factor more, no more: noise.
+const HELD_OUT_SLACK: f64 = 1.02;
+/// A move below this part of its standard deviation needs no further look.
+const SETTLED: f64 = 0.1;
+/// Fewest views that say anything about a lens beside the poses.
+const FEWEST_VIEWS: usize = 6;
+
+/// Beliefs about a camera that was given: focal length (share), principal point (share of the
+/// width), and the distortion terms.
+const GIVEN_FOCAL: f64 = 0.01;
+const GIVEN_CENTRE: f64 = 0.01;
+const GIVEN_DISTORTION: [f64; 5] = [0.05, 0.1, 2e-3, 2e-3, 0.1];
+/// The same for one that these views alone have calibrated: nothing beyond what they say.
+const OWN_FOCAL: f64 = 0.3;
+const OWN_CENTRE: f64 = 0.2;
+const OWN_DISTORTION: f64 = 1.0;
+/// Beliefs about the depth of scans: scale, and bias in m.
+const GIVEN_DEPTH: (f64, f64) = (3e-3, 1e-3);
+
+/// The lens' unknowns about the camera as it was given.
+fn lens(camera: &Intrinsics, own: bool) -> Vec<Extra> {
+    let width = f64::from(camera.width.max(1)).max(camera.cx);
+    let (focal, centre) = if own { (OWN_FOCAL, OWN_CENTRE) } else { (GIVEN_FOCAL, GIVEN_CENTRE) };
+    let mut all = vec![focal * camera.fx, focal * camera.fy, centre * width, centre * width];
+    if let Distortion::BrownConrady(k) = camera.distortion {
+        for (i, given) in GIVEN_DISTORTION.iter().enumerate() {
+            // terms that the calibration from the views did not pay for stay out
+            all.push(if !own {
+                *given
+            } else if k[i] == 0.0 {
+                0.0
+            } else {
+                OWN_DISTORTION
+            });
+        }
+    }
+    let unknown = |(i, sigma): (usize, f64)| Extra::about_zero(ExtraKind::Camera(LENS + i), sigma);
+    all.into_iter().enumerate().filter(|(_, sigma)| *sigma > 0.0).map(unknown).collect()
+}
+
+fn depth() -> Vec<Extra> {
+    vec![
+        Extra::about_zero(ExtraKind::Camera(DEPTH_SCALE), GIVEN_DEPTH.0),
+        Extra::about_zero(ExtraKind::Camera(DEPTH_BIAS), GIVEN_DEPTH.1),
+    ]
+}
+
+/// Looks whether camera or depth must move; the session as it is then, or `None` where all stays.
+pub(super) fn look(
+    given: &Session,
+    views: &Views,
+    start: &crate::HandEye,
+    optics: &Optics,
+    config: &Config,
+) -> Option<(Session, Optics)> {
+    let (camera, _) = (views.session.camera.as_ref()?, views.session.target.as_ref()?);
+    if views.views.len() < FEWEST_VIEWS {
+        return None;
+    }
+    let sighted = with_sights(views);
+    let mut next = optics.clone();
+    if optics.extras.is_empty() {
+        next.extras = what_to_free(given, &sighted, camera, start, config)?;
+    }
+    let fit = fitted(views, &sighted, &next.extras, start, config)?;
+    let far = |(k, e): (usize, &Extra)| {
+        let sigma = fit.extra(e.kind).map_or(0.0, |x| x.1).max(f64::MIN_POSITIVE);
+        (fit.values[k] / sigma).abs()
+    };
+    let farthest = next.extras.iter().enumerate().map(far).fold(0.0, f64::max);
+    if farthest < SETTLED && !optics.extras.is_empty() {
+        return None;
+    }
+    next.take(&fit);
+    let session = next.applied(given)?;
+    Some((session, next))
+}
+
+fn fitted(
+    views: &Views,
+    sighted: &[View],
+    extras: &[Extra],
+    start: &crate::HandEye,
+    config: &Config,
+) -> Option<JointFit> {
+    let problem = views_problem(views.session.setup, sighted, extras);
+    refine::fit_joint(&problem, start, &config.known).ok()
+}
+
+/// Which unknowns the data ask for.
+fn what_to_free(
+    given: &Session,
+    sighted: &[View],
+    camera: &Intrinsics,
+    start: &crate::HandEye,
+    config: &Config,
+) -> Option<Vec<Extra>> {
+    let own = given.camera_from_views;
+    let always = if own { lens(camera, true) } else { vec![] };
+    let mut sets = vec![always.clone()];
+    if !own {
+        sets.push(lens(camera, false));
+    }
+    if given.observations.iter().any(|o| !o.surface.is_empty()) {
+        let with_depth = |set: &Vec<Extra>| [set.clone(), depth()].concat();
+        let more: Vec<Vec<Extra>> = sets.iter().map(with_depth).collect();
+        sets.extend(more);
+    }
+    let fit = |extras: &[Extra]| {
+        let problem = views_problem(given.setup, sighted, extras);
+        let fit = refine::fit_joint(&problem, start, &config.known).ok()?;
+        Some((problem, fit))
+    };
+    let (first_problem, first) = fit(&always)?;
+    let mut best = (first.log_likelihood + GAIN, None);
+    for set in &sets[1..] {
+        let Some((problem, found)) = fit(set) else { continue };
+        // each unknown group must pay for itself: fewer are tried first
+        if found.log_likelihood > best.0 {
+            best = (found.log_likelihood + GAIN, Some((set, problem, found)));
+        }
+    }
+    let Some((set, problem, found)) = best.1 else {
+        return (!always.is_empty()).then_some(always);
+    };
+    let missed = |p: &refine::Problem, f: &JointFit| {
+        evaluate::rms(&held_out_views(p, f, &config.known)).translation_rms_mm
+    };
+    let (before, after) = (missed(&first_problem, &first), missed(&problem, &found));
+    let worse = after.zip(before).is_some_and(|(a, b)| a > HELD_OUT_SLACK * b);
+    if worse { (!always.is_empty()).then_some(always) } else { Some(set.clone()) }
+}
+
+impl Optics {
+    /// Moves to where the fit puts camera and depth.
+    fn take(&mut self, fit: &JointFit) {
+        let at = |which: usize| fit.extra(ExtraKind::Camera(which)).map_or(0.0, |x| x.0);
+        self.lens += SVector::from_fn(|i, _| at(LENS + i));
+        let (scale, bias) = (at(DEPTH_SCALE), at(DEPTH_BIAS));
+        self.depth_bias_m += (1.0 + self.depth_scale) * bias;
+        self.depth_scale = (1.0 + self.depth_scale) * (1.0 + scale) - 1.0;
+        for extra in &mut self.extras {
+            extra.prior_mean = match extra.kind {
+                ExtraKind::Camera(DEPTH_SCALE) => -self.depth_scale,
+                ExtraKind::Camera(DEPTH_BIAS) => -self.depth_bias_m,
+                ExtraKind::Camera(which) => -self.lens[which - LENS],
+                _ => 0.0,
+            };
+        }
+    }
+
+    /// The session as camera and depth are now.
+    fn applied(&self, given: &Session) -> Option<Session> {
+        let mut session = given.clone();
+        let camera = given.camera?.moved(&self.lens);
+        let target = given.target.as_ref()?;
+        camera.check().ok()?;
+        session.camera = Some(camera);
+        let correct = |s: &[SurfaceCorner]| corrected(s, self.depth_scale, self.depth_bias_m);
+        session.observations.iter_mut().for_each(|o| o.surface = correct(&o.surface));
+        session.placements.iter_mut().for_each(|p| p.surface = correct(&p.surface));
+        let excess = excess(&session, target, &camera);
+        let posed = |corners: &[_], surface: &[_]| {
+            let poses =
+                detect::target_poses_with(corners, surface, target, &camera, excess).ok()?;
+            Some(detect::with_symmetries(&poses, target))
+        };
+        for o in session.observations.iter_mut().filter(|o| !o.corners.is_empty()) {
+            o.candidates = posed(&o.corners, &o.surface)?;
+        }
+        for p in session.placements.iter_mut().filter(|p| !p.corners.is_empty()) {
+            p.candidates = posed(&p.corners, &p.surface)?;
+        }
+        Some(session)
+    }
+
+    /// Reports what camera and depth turned out to be.
+    pub(super) fn report(&self, session: &Session, fit: &JointFit, result: &mut Calibration) {
+        let at = |which: usize| fit.extra(ExtraKind::Camera(which));
+        if self.is_free(LENS)
+            && let Some(camera) = session.camera
+        {
+            let rest = SVector::from_fn(|i, _| at(LENS + i).map_or(0.0, |x| x.0));
+            let intrinsics = camera.moved(&rest);
+            let sigma = |i: usize| at(LENS + i).map_or(0.0, |x| x.1);
+            result.camera = Some(CameraResult {
+                intrinsics,
+                sigma_fx: sigma(0),
+                sigma_fy: sigma(1),
+                sigma_cx: sigma(2),
+                sigma_cy: sigma(3),
+            });
+            if !session.camera_from_views {
+                result.warnings.push(camera_warning(&intrinsics, &self.lens, sigma(0)));
+            }
+        }
+        if self.is_free(DEPTH_SCALE)
+            && let (Some((s, sigma)), Some((b, sigma_b))) = (at(DEPTH_SCALE), at(DEPTH_BIAS))
+        {
+            let scale = (1.0 + self.depth_scale) * (1.0 + s) - 1.0;
+            let bias_mm = (self.depth_bias_m + (1.0 + self.depth_scale) * b) * 1e3;
+            let depth = DepthResult {
+                scale: 1.0 + scale,
+                sigma_scale: sigma,
+                bias_mm,
+                sigma_bias_mm: sigma_b * 1e3,
+            };
+            result.warnings.push(depth_warning(&depth));
+            result.depth = Some(depth);
+        }
+    }
+
+    fn is_free(&self, which: usize) -> bool {
+        self.extras.iter().any(|e| e.kind == ExtraKind::Camera(which))
+    }
+}
+
+fn camera_warning(now: &Intrinsics, moved: &SVector<f64, PARAMETERS>, sigma: f64) -> Warning {
+    Warning::new(
+        "camera-refined",
+        format!(
+            "pictures and robot poses fit together only with another lens than the one given: fx \
+             {:.2} px instead of {:.2} (+- {sigma:.2}), cx {:.1} instead of {:.1}; it is used here \
+             and stands in the result: use it for pictures too, or calibrate the camera again",
+            now.fx,
+            now.fx - moved[0],
+            now.cx,
+            now.cx - moved[2],
+        ),
+    )
+}
+
+fn depth_warning(depth: &DepthResult) -> Warning {
+    Warning::new(
+        "depth-off",
+        format!(
+            "scans read {:+.3} +- {:.3} % and {:+.2} +- {:.2} mm off in depth: the answer takes it \
+             into account, but points of this camera must be corrected, z = (z' - {:.3} mm)/{:.5}; \
+             let it warm up, and calibrate its depth",
+            (depth.scale - 1.0) * 100.0,
+            depth.sigma_scale * 100.0,
+            depth.bias_mm,
+            depth.sigma_bias_mm,
+            depth.bias_mm,
+            depth.scale
+        ),
+    )
+}
+
+fn excess(session: &Session, target: &TargetModel, camera: &Intrinsics) -> Option<f64> {
+    let pictures = session.observations.iter().map(|o| o.corners.as_slice());
+    let placed = session.placements.iter().map(|p| p.corners.as_slice());
+    detect::typical_excess(pictures.chain(placed).filter(|c| !c.is_empty()), target, camera)
+}
+
+/// The views, each with what its corners know of camera and depth.
+pub(super) fn with_sights(views: &Views) -> Vec<View> {
+    let (Some(target), Some(camera)) = (&views.session.target, &views.session.camera) else {
+        return views.views.clone();
+    };
+    let excess = excess(views.session, target, camera);
+    let one = |(o, v): (&&Observation, &View)| {
+        let own = captures::own_pose(v, views);
+        let map = captures::relabelling(o, &own, target);
+        let sight = sight_of(o, &map, target, camera, excess, &own);
+        let carry = crate::lie::adjoint(views.target_from_corner.inverse().iso());
+        View { sight: sight.map(|s| s.carried(&carry).into()), ..v.clone() }
+    };
+    views.used.iter().zip(&views.views).map(one).collect()
+}
+
+fn sight_of(
+    o: &Observation,
+    map: &[u32],
+    target: &TargetModel,
+    camera: &Intrinsics,
+    excess: Option<f64>,
+    pose: &Pose<Camera, Target>,
+) -> Option<Sight> {
+    let corners = detect::relabelled(&o.corners, map);
+    let renamed = |c: &SurfaceCorner| Some(SurfaceCorner { id: *map.get(c.id as usize)?, ..*c });
+    let surface: Vec<SurfaceCorner> = o.surface.iter().filter_map(renamed).collect();
+    detect::sighted(&corners, &surface, target, camera, excess, pose).map(|(_, sight)| sight)
+}
+
+/// What the picture of a placement knows of camera and depth.
+pub(super) fn sight_of_placement(
+    session: &Session,
+    corners: &[crate::ImageCorner],
+    surface: &[SurfaceCorner],
+    pose: &Pose<Camera, Target>,
+) -> Option<Sight> {
+    let (target, camera) = (session.target.as_ref()?, session.camera.as_ref()?);
+    let excess = excess(session, target, camera);
+    detect::sighted(corners, surface, target, camera, excess, pose).map(|(_, sight)| sight)
+}

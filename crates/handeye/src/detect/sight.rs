@@ -1,0 +1,148 @@
+//! How a target's pose, and how well it explains its corners, depend on camera and scale.
+//!
+//! In one view, with `ξ` the motion of the target's pose, `c` that of the parameters of camera and
+//! target, and corners as residuals `ρ + J_ξ ξ + J_c c` of weight `W`, the best pose moves with `c`,
+//! and what the corners themselves say about `c` is a parabola:
+//!
+//! ```text
+//! ξ(c) = -H_ξξ⁻¹ H_ξc c          S = H_cc - H_cξ H_ξξ⁻¹ H_ξc          s = g_c - H_cξ H_ξξ⁻¹ g_ξ
+//! ```
+//!
+//! So a fit over many views keeps one pose a view, and yet knows all corners. The model of a scan:
+//! it reads `z' = (1 + scale) z + bias` along the ray.
+
+use nalgebra::{Isometry3, Matrix6, SMatrix, SVector, Vector3};
+
+use super::planar_pose::{Fit, PosedTarget, moved};
+use crate::{Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel};
+
+/// Number of parameters of camera and target that a target pose may depend on.
+pub const CAMERA: usize = 12;
+/// The target is larger by this share.
+pub const TARGET_SCALE: usize = 0;
+/// Depths in scans are too large by this share.
+pub const DEPTH_SCALE: usize = 1;
+/// Depths in scans are too large by this (m).
+pub const DEPTH_BIAS: usize = 2;
+/// The first of the lens' parameters, [`Intrinsics::by_parameters`].
+pub const LENS: usize = 3;
+
+/// What one view knows beyond its best pose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sight {
+    /// How the best target pose, perturbed on the right, moves with the parameters.
+    pub by_camera: SMatrix<f64, 6, CAMERA>,
+    /// Information of the view's own corners on the parameters, its pose being free.
+    pub information: SMatrix<f64, CAMERA, CAMERA>,
+    /// Gradient of half the view's own cost by the parameters.
+    pub gradient: SVector<f64, CAMERA>,
+}
+
+impl Sight {
+    /// A view of which only this is known: how its pose moves.
+    pub fn moving(by_camera: SMatrix<f64, 6, CAMERA>) -> Self {
+        Self { by_camera, information: SMatrix::zeros(), gradient: SVector::zeros() }
+    }
+
+    /// The same for a pose in another frame of the target: `carry = Ad(new_from_old)`.
+    pub fn carried(&self, carry: &Matrix6<f64>) -> Self {
+        Self { by_camera: carry * self.by_camera, ..self.clone() }
+    }
+}
+
+/// The best pose near `start`, and what the view knows beyond it. `None` where corners are too few.
+pub fn sighted(
+    corners: &[ImageCorner],
+    surface: &[SurfaceCorner],
+    target: &TargetModel,
+    intrinsics: &Intrinsics,
+    typical_excess_px: Option<f64>,
+    start: &Pose<Camera, Target>,
+) -> Option<(PosedTarget, Sight)> {
+    let mut fit = Fit::new(corners, surface, target, intrinsics).ok()?;
+    fit.typical_excess = typical_excess_px.map(|px| px * px);
+    let posed = fit.polish(*start.iso())?;
+    let sight = sight(&fit, posed.pose.camera_from_target.iso(), &target.reference().vector())?;
+    Some((posed, sight))
+}
+
+const ALL: usize = 6 + CAMERA;
+
+/// Eliminates the pose from the equations of one view.
+fn sight(fit: &Fit, pose: &Isometry3<f64>, reference: &Vector3<f64>) -> Option<Sight> {
+    let mut h = SMatrix::<f64, ALL, ALL>::zeros();
+    let mut g = SVector::<f64, ALL>::zeros();
+    for corner in fit.seen.iter().filter(|c| c.weight > 0.0) {
+        let (r, j) = by_picture(fit, pose, &corner.in_target, reference)?;
+        let w = fit.information(corner) * corner.weight;
+        let weighted = j.transpose() * w;
+        h += weighted * j;
+        g += weighted * (r - corner.pixel);
+    }
+    for corner in fit.felt.iter().filter(|c| c.weight > 0.0) {
+        let (point, j) = by_scan(pose, &corner.in_target, &corner.in_camera, reference);
+        let weighted = j.transpose() * (corner.information * (corner.weight / fit.felt_scale));
+        h += weighted * j;
+        g += weighted * (point - corner.in_camera);
+    }
+    let own: Matrix6<f64> = h.fixed_view::<6, 6>(0, 0).into_owned();
+    let cross = h.fixed_view::<6, CAMERA>(0, 6).into_owned();
+    let by_camera = -own.cholesky()?.solve(&cross);
+    Some(Sight {
+        by_camera,
+        information: h.fixed_view::<CAMERA, CAMERA>(6, 6) + cross.transpose() * by_camera,
+        gradient: g.fixed_rows::<CAMERA>(6) + by_camera.transpose() * g.fixed_rows::<6>(0),
+    })
+}
+
+type Rows<const N: usize> = (SVector<f64, N>, SMatrix<f64, N, ALL>);
+
+/// Pixel of a corner and its derivative by pose and parameters.
+fn by_picture(
+    fit: &Fit,
+    pose: &Isometry3<f64>,
+    in_target: &Vector3<f64>,
+    reference: &Vector3<f64>,
+) -> Option<Rows<2>> {
+    let (point, by_pose) = moved(pose, in_target);
+    let (pixel, by_point) = fit.intrinsics.project_with_jacobian(&point)?;
+    let mut j = SMatrix::<f64, 2, ALL>::zeros();
+    j.fixed_view_mut::<2, 6>(0, 0).copy_from(&(by_point * by_pose));
+    let by_scale = by_point * (pose.rotation * (in_target - reference));
+    j.fixed_view_mut::<2, 1>(0, 6 + TARGET_SCALE).copy_from(&by_scale);
+    j.fixed_view_mut::<2, 9>(0, 6 + LENS).copy_from(&fit.intrinsics.by_parameters(&point));
+    Some((pixel, j))
+}
+
+/// Place of a corner in the camera frame, and the derivative of its misfit in the scan.
+fn by_scan(
+    pose: &Isometry3<f64>,
+    in_target: &Vector3<f64>,
+    measured: &Vector3<f64>,
+    reference: &Vector3<f64>,
+) -> Rows<3> {
+    let (point, by_pose) = moved(pose, in_target);
+    let mut j = SMatrix::<f64, 3, ALL>::zeros();
+    j.fixed_view_mut::<3, 6>(0, 0).copy_from(&by_pose);
+    let column = |k: usize, j: &mut SMatrix<f64, 3, ALL>, by: Vector3<f64>| {
+        j.fixed_view_mut::<3, 1>(0, 6 + k).copy_from(&by);
+    };
+    column(TARGET_SCALE, &mut j, pose.rotation * (in_target - reference));
+    column(DEPTH_SCALE, &mut j, *measured);
+    column(DEPTH_BIAS, &mut j, measured / measured.z.max(f64::MIN_POSITIVE));
+    (point, j)
+}
+
+/// A scan's corners with the depth that a scan of this scale and bias should have read.
+pub fn corrected(surface: &[SurfaceCorner], scale: f64, bias_m: f64) -> Vec<SurfaceCorner> {
+    let one = |c: &SurfaceCorner| {
+        let p = c.in_camera.vector();
+        let factor = (1.0 - bias_m / p.z) / (1.0 + scale);
+        SurfaceCorner {
+            in_camera: crate::Point::from_vector(p * factor),
+            covariance: c.covariance * factor.powi(2),
+            ..*c
+        }
+    };
+    surface.iter().map(one).collect()
+}
