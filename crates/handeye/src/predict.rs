@@ -80,16 +80,23 @@ pub fn tre(
     covariance: &Matrix6<f64>,
     offset: impl Fn(&Vector3<f64>) -> Vector3<f64>,
 ) -> PredictedTre {
-    let moments: Vec<(f64, f64)> = volume
-        .points
-        .iter()
-        .map(|p| {
-            let s = point_covariance(p, covariance);
-            let b = offset(p);
-            // mean and variance of the squared length of N(b, s)
-            (s.trace() + b.norm_squared(), 2.0 * (s * s).trace() + 4.0 * b.dot(&(s * b)))
-        })
-        .collect();
+    let spread: Vec<Matrix3<f64>> =
+        volume.points.iter().map(|p| point_covariance(p, covariance)).collect();
+    tre_of_points(volume, &spread, offset)
+}
+
+/// As [`tre`], where the covariance of each point (m²) is known.
+pub fn tre_of_points(
+    volume: &Volume,
+    spread: &[Matrix3<f64>],
+    offset: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+) -> PredictedTre {
+    let moment = |(p, s): (&Vector3<f64>, &Matrix3<f64>)| {
+        let b = offset(p);
+        // mean and variance of the squared length of N(b, s)
+        (s.trace() + b.norm_squared(), 2.0 * (s * s).trace() + 4.0 * b.dot(&(s * b)))
+    };
+    let moments: Vec<(f64, f64)> = volume.points.iter().zip(spread).map(moment).collect();
     let mean = moments.iter().map(|m| m.0).sum::<f64>() / moments.len().max(1) as f64;
     PredictedTre {
         rms: mean.sqrt() * 1e3,

@@ -1,6 +1,6 @@
 //! Every way to the answer, side by side, and the choice between them.
 
-use nalgebra::Matrix6;
+use nalgebra::{Matrix3, Matrix6};
 
 use super::{
     Config,
@@ -62,8 +62,15 @@ pub(super) fn estimate<'a>(
         joint.warn(&views, result);
     }
     let best = joint.as_ref().map_or(&fit, |j| &j.fit);
-    let judge =
-        Judge { views: &views, volume: &volume, paired: &paired, known: config.known, best };
+    let spread = inflation(best).and_then(|f| optics::spread(&views, best, &volume, f));
+    let judge = Judge {
+        views: &views,
+        volume: &volume,
+        paired: &paired,
+        known: config.known,
+        best,
+        spread,
+    };
     let mut candidates = judge.view_candidates(&fit, joint.is_some(), config);
     candidates.extend(judge.touch_candidates(&fit, config, result));
     if config.method.is_none() {
@@ -85,9 +92,15 @@ struct Judged {
 /// Covariance of X and Y in their own frames, widened for noise estimated from few captures, and
 /// for data that fit worse than their noise says.
 fn stated_covariance(fit: &JointFit) -> Option<refine::pose_fit::Matrix12> {
+    fit.pose_covariance().zip(inflation(fit)).map(|(c, factor)| c * factor)
+}
+
+/// Factor on covariances, for noise estimated from few captures and for misfit.
+fn inflation(fit: &JointFit) -> Option<f64> {
     let dof = fit.degrees_of_freedom;
     let misfit = if dof > 0.0 { (fit.chi_squared / dof).max(1.0) } else { 1.0 };
-    fit.pose_covariance().map(|c| c * (misfit * touches::small_sample(dof)))
+    let factor = misfit * touches::small_sample(dof);
+    factor.is_finite().then_some(factor)
 }
 
 fn blocks(covariance: &refine::pose_fit::Matrix12) -> (Matrix6<f64>, Matrix6<f64>) {
@@ -106,13 +119,14 @@ struct Judge<'a> {
     paired: &'a [TouchPairs],
     known: refine::KnownNoise,
     best: &'a JointFit,
+    /// Covariance of each point of the volume, m².
+    spread: Option<Vec<Matrix3<f64>>>,
 }
 
 impl Judge<'_> {
     fn tre(&self, x: &Pose<Mount, Camera>) -> Option<predict::PredictedTre> {
-        let covariance = stated_covariance(self.best)?;
         let offset = predict::difference(&self.best.hand_eye.mount_from_camera, x);
-        Some(predict::tre(self.volume, &blocks(&covariance).0, offset))
+        Some(predict::tre_of_points(self.volume, self.spread.as_ref()?, offset))
     }
 
     fn view_candidates(&self, fit: &JointFit, touched: bool, config: &Config) -> Vec<Judged> {
@@ -391,7 +405,16 @@ fn volume(views: &Views, fit: &JointFit) -> Option<Volume> {
     };
     let corners: Vec<crate::Point<Target>> =
         target.corners().iter().map(|c| views.target_from_corner.inverse() * *c).collect();
-    diagnose::seen_volume(&pairs_of(views), &corners, "the box in which the camera saw the target")
+    let name = "the box in which the camera saw the target";
+    let mut volume = diagnose::seen_volume(&pairs_of(views), &corners, name)?;
+    if let Some(camera) = &views.session.camera {
+        let seen: Vec<_> =
+            volume.points.iter().copied().filter(|p| optics::in_picture(camera, p)).collect();
+        if !seen.is_empty() {
+            volume.points = seen;
+        }
+    }
+    Some(volume)
 }
 
 pub(super) fn workspace_volume(setup: Setup, w: &Workspace, x: &Pose<Mount, Camera>) -> Volume {

@@ -5,7 +5,7 @@
 //! with confidence that it is off; the same holds for the depth of scans. What is found moves the
 //! camera, all targets are posed anew, and the fit is linearised there again.
 
-use nalgebra::SVector;
+use nalgebra::{Matrix3, Matrix3xX, SVector, Vector2, Vector3};
 
 use super::{
     Config, Session,
@@ -22,7 +22,9 @@ use crate::{
         sight::{DEPTH_BIAS, DEPTH_SCALE, LENS, Sight, corrected},
     },
     evaluate,
+    predict::Volume,
     refine::{self, Extra, ExtraKind, JointFit, View},
+    register::rigid_fit::point_jacobian,
 };
 
 /// What of camera and depth is free, and how far it has moved from what was given.
@@ -332,4 +334,78 @@ pub(super) fn sight_of_placement(
     let (target, camera) = (session.target.as_ref()?, session.camera.as_ref()?);
     let excess = excess(session, target, camera);
     detect::sighted(corners, surface, target, camera, excess, pose).map(|(_, sight)| sight)
+}
+
+/// Step of the numerical derivative by a lens parameter, as part of its standard deviation.
+const DERIVATIVE_STEP: f64 = 1e-2;
+
+/// Covariance (m²), in camera axes, of where points of the camera land. What pictures locate moves
+/// with the lens: a point keeps its pixel, and its distance follows its size in the picture. What
+/// scans locate moves with their depth. Both errors go along with that of `X`.
+pub(super) fn spread(
+    views: &Views,
+    fit: &JointFit,
+    volume: &Volume,
+    factor: f64,
+) -> Option<Vec<Matrix3<f64>>> {
+    let covariance = fit.covariance.as_ref()?;
+    let scanned = views.session.observations.iter().any(|o| !o.surface.is_empty());
+    let camera = views.session.camera.as_ref();
+    let moves = |which: usize| scanned == (which < LENS);
+    let free: Vec<(usize, usize)> = (fit.extras.iter().enumerate())
+        .filter_map(|(k, e)| match e.kind {
+            ExtraKind::Camera(which) if moves(which) => Some((12 + k, which)),
+            _ => None,
+        })
+        .collect();
+    let rows: Vec<usize> = (0..6).chain(free.iter().map(|(row, _)| *row)).collect();
+    let own = covariance.select_rows(&rows).select_columns(&rows) * factor;
+    let one = |p: &Vector3<f64>| {
+        let mut j = Matrix3xX::zeros(rows.len());
+        j.fixed_columns_mut::<6>(0).copy_from(&point_jacobian(p));
+        for (k, (row, which)) in free.iter().enumerate() {
+            let sigma = covariance[(*row, *row)].sqrt();
+            let column = match *which {
+                DEPTH_SCALE => -p,
+                DEPTH_BIAS => -p / p.z,
+                lens => camera.and_then(|c| by_lens(c, p, lens - LENS, sigma)).unwrap_or_default(),
+            };
+            j.set_column(6 + k, &column);
+        }
+        let spread = &j * &own * j.transpose();
+        Matrix3::from_fn(|a, b| spread[(a, b)])
+    };
+    Some(volume.points.iter().map(one).collect())
+}
+
+/// Whether a point of the camera lies in its picture.
+pub(super) fn in_picture(camera: &Intrinsics, p: &Vector3<f64>) -> bool {
+    let inside = |x: f64, size: u32| (-0.5..=f64::from(size) - 0.5).contains(&x);
+    let known = camera.width > 0 && camera.height > 0;
+    let seen = |u: Vector2<f64>| !known || inside(u.x, camera.width) && inside(u.y, camera.height);
+    camera.project(p).is_some_and(seen)
+}
+
+/// How a point of the camera moves with one parameter of the lens, its pixel and its size in the
+/// picture being what they are.
+fn by_lens(
+    camera: &Intrinsics,
+    p: &Vector3<f64>,
+    which: usize,
+    sigma: f64,
+) -> Option<Vector3<f64>> {
+    let pixel = camera.project(p).filter(|_| in_picture(camera, p))?;
+    let step = DERIVATIVE_STEP * sigma;
+    let size = |c: &Intrinsics, n: &Vector2<f64>| {
+        (c.fx * c.fy * c.distort(n).1.determinant()).abs().sqrt()
+    };
+    let here = size(camera, &Vector2::new(p.x / p.z, p.y / p.z));
+    let seen = |by: f64| {
+        let mut d = SVector::<f64, PARAMETERS>::zeros();
+        d[which] = by;
+        let other = camera.moved(&d);
+        let n = other.undistort(&pixel)?;
+        Some(n.push(1.0) * (p.z * size(&other, &n) / here))
+    };
+    Some((seen(step)? - seen(-step)?) / (2.0 * step))
 }
