@@ -104,7 +104,7 @@ impl Judge<'_> {
 
     fn view_candidates(&self, fit: &JointFit, touched: bool, config: &Config) -> Vec<Judged> {
         let likeliest = if touched { "views-only" } else { "joint" };
-        let mut all: Vec<(String, Estimator)> = Method::ALL
+        let mut all: Vec<(String, Estimator)> = Method::CANDIDATES
             .into_iter()
             .map(|m| (format!("closed-form-{}", m.name()), Estimator::ClosedForm(m)))
             .collect();

@@ -1,13 +1,29 @@
 //! Closed forms: hand-eye calibration without a start value, a file per paper.
 //!
 //! `A X = Y B` methods take the pairs as they are; `A X = X B` methods take relative motions
-//! between pairs and find the target's place afterwards.
+//! between pairs and find the target's place afterwards. Every method is linear in the number of
+//! captures: sums over all motions come from moments of single captures (`moments.rs`), and where
+//! they cannot, the number of motions per capture is bounded.
 
+pub mod andreff;
+mod chou_kamel;
 pub mod consensus;
-pub mod daniilidis;
+mod daniilidis;
+mod dornaika_horaud;
+mod horaud_dornaika;
+mod jacobi;
+mod kronecker;
+mod li;
+mod lu_chou;
+mod moments;
 pub mod motions;
-pub mod park_martin;
-pub mod shah;
+mod park_martin;
+mod shah;
+mod shiu_ahmad;
+pub mod tabb;
+mod tsai_lenz;
+mod wu;
+mod zhuang;
 
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 
@@ -22,11 +38,54 @@ pub enum Method {
     ParkMartin,
     /// Daniilidis 1999, `A X = X B` by dual quaternions.
     Daniilidis,
+    /// Tsai and Lenz 1989, `A X = X B` by modified Rodrigues vectors.
+    TsaiLenz,
+    /// Shiu and Ahmad 1989, `A X = X B` by one angle per motion.
+    ShiuAhmad,
+    /// Chou and Kamel 1991, `A X = X B` by quaternions.
+    ChouKamel,
+    /// Horaud and Dornaika 1995, `A X = X B` by quaternions, rotation first.
+    HoraudDornaika,
+    /// Horaud and Dornaika 1995, `A X = X B`, rotation and position together.
+    HoraudDornaikaNonlinear,
+    /// Andreff, Horaud and Espiau 2001, `A X = X B` by one linear system.
+    Andreff,
+    /// Lu and Chou 1995, `A X = X B` in the eight-space of quaternions.
+    LuChou,
+    /// Wu, Sun, Wang and Liu 2020, `A X = X B` by rotations of four-space.
+    Wu,
+    /// Zhuang, Roth and Sudhakar 1994, `A X = Y B` by parts of quaternions.
+    Zhuang,
+    /// Dornaika and Horaud 1998, `A X = Y B` by quaternions.
+    DornaikaHoraud,
+    /// Li, Wang and Wu 2010, `A X = Y B` by one linear system.
+    Li,
+    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by the distance of poses.
+    TabbAhmadYousef,
 }
 
 impl Method {
     /// Every method, the one recommended for a start first.
-    pub const ALL: [Method; 3] = [Method::Shah, Method::ParkMartin, Method::Daniilidis];
+    pub const ALL: [Method; 15] = [
+        Method::Shah,
+        Method::ParkMartin,
+        Method::Daniilidis,
+        Method::TsaiLenz,
+        Method::ShiuAhmad,
+        Method::ChouKamel,
+        Method::HoraudDornaika,
+        Method::HoraudDornaikaNonlinear,
+        Method::Andreff,
+        Method::LuChou,
+        Method::Wu,
+        Method::Zhuang,
+        Method::DornaikaHoraud,
+        Method::Li,
+        Method::TabbAhmadYousef,
+    ];
+
+    /// The few that a calibration compares with each other when nothing else is asked for.
+    pub const CANDIDATES: [Method; 3] = [Method::Shah, Method::ParkMartin, Method::Daniilidis];
 
     /// The name in files and on the command line.
     pub fn name(self) -> &'static str {
@@ -34,6 +93,18 @@ impl Method {
             Method::Shah => "shah",
             Method::ParkMartin => "park-martin",
             Method::Daniilidis => "daniilidis",
+            Method::TsaiLenz => "tsai-lenz",
+            Method::ShiuAhmad => "shiu-ahmad",
+            Method::ChouKamel => "chou-kamel",
+            Method::HoraudDornaika => "horaud-dornaika",
+            Method::HoraudDornaikaNonlinear => "horaud-dornaika-nonlinear",
+            Method::Andreff => "andreff",
+            Method::LuChou => "lu-chou",
+            Method::Wu => "wu",
+            Method::Zhuang => "zhuang",
+            Method::DornaikaHoraud => "dornaika-horaud",
+            Method::Li => "li",
+            Method::TabbAhmadYousef => "tabb-ahmad-yousef",
         }
     }
 
@@ -50,19 +121,41 @@ pub const FEWEST_POSES: usize = 3;
 ///
 /// # Errors
 /// [`Error::TooFewPoses`] below three pairs, [`Error::NotDetermined`] when all rotations are about
-/// one axis, [`Error::NotFinite`] on NaN.
+/// one axis or the method has no single answer, [`Error::NotFinite`] on NaN.
 pub fn solve(pairs: &[PosePair], method: Method) -> Result<HandEye, Error> {
     check(pairs)?;
     let hand_eye = match method {
         Method::Shah => shah::solve(pairs)?,
         Method::ParkMartin => park_martin::solve(pairs)?,
         Method::Daniilidis => daniilidis::solve(pairs)?,
+        Method::TsaiLenz => tsai_lenz::solve(pairs)?,
+        Method::ShiuAhmad => shiu_ahmad::solve(pairs)?,
+        Method::ChouKamel => chou_kamel::solve(pairs)?,
+        Method::HoraudDornaika => horaud_dornaika::solve(pairs)?,
+        Method::HoraudDornaikaNonlinear => horaud_dornaika::solve_nonlinear(pairs)?,
+        Method::Andreff => andreff::solve(pairs)?,
+        Method::LuChou => lu_chou::solve(pairs)?,
+        Method::Wu => wu::solve(pairs)?,
+        Method::Zhuang => zhuang::solve(pairs)?,
+        Method::DornaikaHoraud => dornaika_horaud::solve(pairs)?,
+        Method::Li => li::solve(pairs)?,
+        Method::TabbAhmadYousef => tabb::solve(pairs)?,
     };
     if hand_eye.mount_from_camera.is_finite() && hand_eye.anchor_from_target.is_finite() {
         Ok(hand_eye)
     } else {
         Err(Error::NotDetermined { what: format!("{} found no finite answer", method.name()) })
     }
+}
+
+/// An answer that is left open, and by what.
+fn open(what: &str) -> Error {
+    Error::NotDetermined { what: what.into() }
+}
+
+/// The answer whose camera is at `x`; the target where it fits best.
+fn place(pairs: &[PosePair], x: Isometry3<f64>) -> HandEye {
+    place_target(pairs, &Pose::claim(x))
 }
 
 pub(crate) fn too_few(found: usize) -> Error {
@@ -175,6 +268,17 @@ pub(crate) mod tests {
         let (angle, distance) = (found.angle_to(&wanted), found.distance_to(&wanted));
         assert!(distance < 1e-9, "{what}: translation off by {distance} m");
         assert!(angle < 1e-9, "{what}: rotation off by {angle} rad");
+    }
+
+    /// Exact pairs with a tenth of a degree and half a millimetre of fixed disturbance.
+    pub(crate) fn noisy_pairs(truth: &HandEye, count: usize) -> Vec<PosePair> {
+        let mut pairs = exact_pairs(truth, count);
+        for (k, pair) in pairs.iter_mut().enumerate() {
+            let wave = |i: usize, size: f64| size * (7.3 * k as f64 + 2.9 * i as f64).sin();
+            let by = Vector6::from_fn(|i, _| wave(i, if i < 3 { 2e-3 } else { 5e-4 }));
+            pair.camera_from_target = pair.camera_from_target.retract(&by);
+        }
+        pairs
     }
 
     #[test]
