@@ -59,7 +59,12 @@ struct Block {
 impl Block {
     /// From `Σ a_p a_qᵀ`, `Σ a_p b_qᵀ`, `Σ b_p a_qᵀ` and `Σ b_p b_qᵀ`.
     fn new(aa: Matrix3<f64>, ab: Matrix3<f64>, ba: Matrix3<f64>, bb: Matrix3<f64>) -> Self {
-        Self { dd: aa - ab - ba + bb, ds: aa + ab - ba - bb, sd: aa - ab + ba - bb, ss: aa + ab + ba + bb }
+        Self {
+            dd: aa - ab - ba + bb,
+            ds: aa + ab - ba - bb,
+            sd: aa - ab + ba - bb,
+            ss: aa + ab + ba + bb,
+        }
     }
 
     /// `Σ [d_p [s_p]ₓ]ᵀ [d_q [s_q]ₓ]`.

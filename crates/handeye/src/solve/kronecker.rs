@@ -83,8 +83,7 @@ impl Centred {
         if !(values[2] > 1e-13 * values[0]) {
             return Err(open("the motions do not fix the camera's position"));
         }
-        let inverse =
-            |v: Vector3<f64>| vectors * (vectors.transpose() * v).component_div(&values);
+        let inverse = |v: Vector3<f64>| vectors * (vectors.transpose() * v).component_div(&values);
         let t = inverse(rhs);
         let t_x = t + inverse(rhs - self.rr * t);
         Ok((t_x, self.other(r_y, &t_x)))

@@ -18,7 +18,7 @@
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, UnitQuaternion, Vector3, Vector4};
 
 use super::jacobi;
-use crate::{Error, PosePair, linalg};
+use crate::{Error, PosePair};
 
 /// A capture seen from the first one.
 #[derive(Debug, Clone, Copy)]
@@ -174,7 +174,8 @@ pub(super) fn over_motions(m: &Matrix4<f64>) -> Matrix3<f64> {
     let c = Vector3::new(m[(1, 0)], m[(2, 0)], m[(3, 0)]);
     let r = Vector3::new(m[(0, 1)], m[(0, 2)], m[(0, 3)]);
     let (r0, r1, r2) = (n.row(0).transpose(), n.row(1).transpose(), n.row(2).transpose());
-    let cofactors = Matrix3::from_columns(&[r1.cross(&r2), r2.cross(&r0), r0.cross(&r1)]).transpose();
+    let cofactors =
+        Matrix3::from_columns(&[r1.cross(&r2), r2.cross(&r0), r0.cross(&r1)]).transpose();
     n * m[(0, 0)] - c * r.transpose() + cofactors + n * r.cross_matrix() - c.cross_matrix() * n
 }
 
@@ -233,10 +234,10 @@ impl Translations {
         for p in all {
             let (r_a, r_b, t_a, t_b) = (matrix(&p.a), matrix(&p.b), p.t_a, p.t_b);
             // Σ (t_bi - t_bj)(t_bi - t_bj)ᵀ and Σ (t_ai - t_aj)(t_bi - t_bj)ᵀ
-            let bb = m_bb - t_b * m_b.transpose() - m_b * t_b.transpose()
-                + t_b * t_b.transpose() * n;
-            let ab = m_ab - t_a * m_b.transpose() - m_a * t_b.transpose()
-                + t_a * t_b.transpose() * n;
+            let bb =
+                m_bb - t_b * m_b.transpose() - m_b * t_b.transpose() + t_b * t_b.transpose() * n;
+            let ab =
+                m_ab - t_a * m_b.transpose() - m_a * t_b.transpose() + t_a * t_b.transpose() * n;
             sums.bb += r_b.transpose() * bb * r_b;
             sums.ab += r_a.transpose() * ab * r_b;
             // Σ (t_bi - t_bj)_d R_jᵀ (R_j - R_i)
@@ -244,9 +245,8 @@ impl Translations {
                 r_a.transpose() * (r_a * (m_b[d] - n * t_b[d]) - m_br[d] + s * t_b[d])
             });
             for c in 0..3 {
-                let block = by_axis[0] * r_b[(0, c)]
-                    + by_axis[1] * r_b[(1, c)]
-                    + by_axis[2] * r_b[(2, c)];
+                let block =
+                    by_axis[0] * r_b[(0, c)] + by_axis[1] * r_b[(1, c)] + by_axis[2] * r_b[(2, c)];
                 let mut view = sums.bt.fixed_view_mut::<3, 3>(3 * c, 0);
                 view += block;
             }
@@ -289,9 +289,7 @@ impl Translations {
         let rhs = self.at - self.bt.transpose() * x;
         let (values, vectors) = jacobi::eigen(&self.tt);
         let fixed = values[2] > NO_LEVER * values[0];
-        let inverse = |v: Vector3<f64>| {
-            vectors * (vectors.transpose() * v).component_div(&values)
-        };
+        let inverse = |v: Vector3<f64>| vectors * (vectors.transpose() * v).component_div(&values);
         let t = inverse(rhs);
         fixed.then(|| t + inverse(rhs - self.tt * t))
     }

@@ -102,12 +102,7 @@ fn minimise(pairs: &[PosePair]) -> Result<HandEye, Error> {
 }
 
 /// One Gauss-Newton step of the residuals `(R_B ⊗ R_A) x - y` and `R_Y t_B - R_A t_X - t_A`.
-fn step(
-    state: &State,
-    p: &SMatrix<f64, 9, 9>,
-    m: &Centred,
-    n: f64,
-) -> Option<SMatrix<f64, 9, 1>> {
+fn step(state: &State, p: &SMatrix<f64, 9, 9>, m: &Centred, n: f64) -> Option<SMatrix<f64, 9, 1>> {
     let matrix = |q: &UnitQuaternion<f64>| q.to_rotation_matrix().into_inner();
     let (r_x, r_y) = (matrix(&state.r_x), matrix(&state.r_y));
     let vec = |r: &Matrix3<f64>| SMatrix::<f64, 9, 1>::from_column_slice(r.as_slice());
@@ -116,9 +111,7 @@ fn step(
     let mut gradient = SMatrix::<f64, 9, 1>::zeros();
     gradient.fixed_rows_mut::<3>(0).copy_from(&-(j_x.transpose() * (p.transpose() * y)));
     gradient.fixed_rows_mut::<3>(3).copy_from(&(j_y.transpose() * (misfit - p * x)));
-    gradient
-        .fixed_rows_mut::<3>(6)
-        .copy_from(&(m.rr * state.t_x + m.ra - m.br.transpose() * y));
+    gradient.fixed_rows_mut::<3>(6).copy_from(&(m.rr * state.t_x + m.ra - m.br.transpose() * y));
     let (h_xy, h_yt) = (-(j_x.transpose() * (p.transpose() * j_y)), -(j_y.transpose() * m.br));
     let twice = Matrix3::identity() * (2.0 * n); // J_xᵀ J_x = 2 I
     let mut h = SMatrix::<f64, 9, 9>::zeros();
@@ -135,7 +128,7 @@ fn step(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::tests::{assert_same, noisy_pairs, exact_pairs, truths};
+    use crate::solve::tests::{assert_same, exact_pairs, noisy_pairs, truths};
     use nalgebra::Vector6;
 
     #[test]
@@ -154,7 +147,8 @@ mod tests {
         let pairs = noisy_pairs(&truths()[0], 12);
         let cost = |answer: &HandEye, which: Cost| -> f64 {
             let distance = |p: &PosePair| {
-                let (x, y) = (answer.mount_from_camera.matrix(), answer.anchor_from_target.matrix());
+                let (x, y) =
+                    (answer.mount_from_camera.matrix(), answer.anchor_from_target.matrix());
                 let (a, b) =
                     (p.anchor_from_mount.matrix(), p.camera_from_target.inverse().matrix());
                 match which {

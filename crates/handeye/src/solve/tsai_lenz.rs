@@ -60,7 +60,11 @@ fn rotation(sums: &Sums) -> Option<UnitQuaternion<f64>> {
     if let Some(p) = own.filter(|p| p.norm() < LONG) {
         return Some(jacobi::rotation_of(&Vector4::new(1.0, p.x, p.y, p.z)));
     }
-    let turns = [Vector3::new(1.0, -1.0, -1.0), Vector3::new(-1.0, 1.0, -1.0), Vector3::new(-1.0, -1.0, 1.0)];
+    let turns = [
+        Vector3::new(1.0, -1.0, -1.0),
+        Vector3::new(-1.0, 1.0, -1.0),
+        Vector3::new(-1.0, -1.0, 1.0),
+    ];
     let turned = turns.iter().enumerate().filter_map(|(axis, signs)| {
         let turn = Matrix3::from_diagonal(signs); // b = turn b'
         let sums = Sums { ab: sums.ab * turn, bb: turn * sums.bb * turn, ..*sums };
@@ -120,8 +124,11 @@ fn of_selected(all: &[Seen]) -> Option<Sums> {
         bb: Matrix3::zeros(),
         translations: Translations::zeros(),
     };
-    let (mut sums, listed, weight) =
-        if 2 * useful.len() <= pairs { (empty(), useful, 1.0) } else { (of_all(all), useless, -1.0) };
+    let (mut sums, listed, weight) = if 2 * useful.len() <= pairs {
+        (empty(), useful, 1.0)
+    } else {
+        (of_all(all), useless, -1.0)
+    };
     for (i, j) in listed {
         let a = moments::vector(&moments::between(&all[j].a, &all[i].a));
         let b = moments::vector(&moments::between(&all[j].b, &all[i].b));
