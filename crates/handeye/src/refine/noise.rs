@@ -14,7 +14,7 @@ use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::View;
-use crate::{HandEye, Setup, lie, linalg};
+use crate::{HandEye, Setup, lie};
 
 /// One source of error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -219,12 +219,6 @@ impl NoiseModel {
     /// Covariance of a view's misfit, in the Target frame.
     pub fn covariance(&self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
         covariance(&factor(view, hand_eye, setup), &columns(view), &self.variances())
-    }
-
-    /// Information of a view's misfit.
-    pub(super) fn weight(&self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
-        let covariance = self.covariance(view, hand_eye, setup);
-        linalg::invert_spd(&covariance).unwrap_or_else(Matrix6::zeros)
     }
 }
 

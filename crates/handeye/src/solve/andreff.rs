@@ -65,6 +65,10 @@ pub struct Scaled {
 /// As [`super::solve`]; also when the factor is not determined or not positive.
 pub fn solve_with_scale(pairs: &[PosePair]) -> Result<Scaled, Error> {
     check(pairs)?;
+    scaled(pairs)
+}
+
+pub(super) fn scaled(pairs: &[PosePair]) -> Result<Scaled, Error> {
     let all = moments::seen(pairs)?;
     let (values, vectors) = jacobi::eigen(&rotation_form(&all));
     let free = || open("the motions do not fix the camera's rotation");
@@ -76,7 +80,7 @@ pub fn solve_with_scale(pairs: &[PosePair]) -> Result<Scaled, Error> {
         jacobi::nearest_rotation(&(null * null.determinant().signum())).ok_or_else(free)?;
     let r_x = rotation.to_rotation_matrix().into_inner();
     let (t, scale) = position_and_scale(&Translations::of_all(&all), &r_x)?;
-    let metric: Vec<PosePair> = pairs.iter().map(|p| scaled(p, scale)).collect();
+    let metric: Vec<PosePair> = pairs.iter().map(|p| in_unit(p, scale)).collect();
     Ok(Scaled { hand_eye: place(&metric, Isometry3::from_parts(t.into(), rotation)), scale })
 }
 
@@ -99,7 +103,8 @@ fn position_and_scale(
     }
 }
 
-fn scaled(pair: &PosePair, scale: f64) -> PosePair {
+/// The pair with the camera's positions times `scale`.
+fn in_unit(pair: &PosePair, scale: f64) -> PosePair {
     let mut iso = *pair.camera_from_target.iso();
     iso.translation.vector *= scale;
     PosePair { camera_from_target: Pose::claim(iso), ..*pair }
@@ -115,7 +120,7 @@ mod tests {
         for truth in truths() {
             for scale in [0.001, 0.4, 25.4] {
                 let pairs: Vec<PosePair> =
-                    exact_pairs(&truth, 6).iter().map(|p| scaled(p, 1.0 / scale)).collect();
+                    exact_pairs(&truth, 6).iter().map(|p| in_unit(p, 1.0 / scale)).collect();
                 let found = solve_with_scale(&pairs).unwrap();
                 assert!((found.scale / scale - 1.0).abs() < 1e-9);
                 let (x, y) = (found.hand_eye.mount_from_camera, found.hand_eye.anchor_from_target);

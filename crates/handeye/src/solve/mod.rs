@@ -20,7 +20,7 @@ pub mod motions;
 mod park_martin;
 mod shah;
 mod shiu_ahmad;
-pub mod tabb;
+mod tabb;
 mod tsai_lenz;
 mod wu;
 mod zhuang;
@@ -50,6 +50,9 @@ pub enum Method {
     HoraudDornaikaNonlinear,
     /// Andreff, Horaud and Espiau 2001, `A X = X B` by one linear system.
     Andreff,
+    /// Andreff, Horaud and Espiau 2001, with the camera's positions in an unknown unit; the answer
+    /// is in metres, [`andreff::solve_with_scale`] gives the unit too.
+    AndreffScaled,
     /// Lu and Chou 1995, `A X = X B` in the eight-space of quaternions.
     LuChou,
     /// Wu, Sun, Wang and Liu 2020, `A X = X B` by rotations of four-space.
@@ -60,13 +63,15 @@ pub enum Method {
     DornaikaHoraud,
     /// Li, Wang and Wu 2010, `A X = Y B` by one linear system.
     Li,
-    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by the distance of poses.
-    TabbAhmadYousef,
+    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by their cost `c₁`.
+    TabbAhmadYousefC1,
+    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by their cost `c₂`.
+    TabbAhmadYousefC2,
 }
 
 impl Method {
     /// Every method, the one recommended for a start first.
-    pub const ALL: [Method; 15] = [
+    pub const ALL: [Method; 17] = [
         Method::Shah,
         Method::ParkMartin,
         Method::Daniilidis,
@@ -76,12 +81,14 @@ impl Method {
         Method::HoraudDornaika,
         Method::HoraudDornaikaNonlinear,
         Method::Andreff,
+        Method::AndreffScaled,
         Method::LuChou,
         Method::Wu,
         Method::Zhuang,
         Method::DornaikaHoraud,
         Method::Li,
-        Method::TabbAhmadYousef,
+        Method::TabbAhmadYousefC1,
+        Method::TabbAhmadYousefC2,
     ];
 
     /// The few that a calibration compares with each other when nothing else is asked for.
@@ -99,12 +106,14 @@ impl Method {
             Method::HoraudDornaika => "horaud-dornaika",
             Method::HoraudDornaikaNonlinear => "horaud-dornaika-nonlinear",
             Method::Andreff => "andreff",
+            Method::AndreffScaled => "andreff-scaled",
             Method::LuChou => "lu-chou",
             Method::Wu => "wu",
             Method::Zhuang => "zhuang",
             Method::DornaikaHoraud => "dornaika-horaud",
             Method::Li => "li",
-            Method::TabbAhmadYousef => "tabb-ahmad-yousef",
+            Method::TabbAhmadYousefC1 => "tabb-ahmad-yousef-c1",
+            Method::TabbAhmadYousefC2 => "tabb-ahmad-yousef-c2",
         }
     }
 
@@ -134,12 +143,14 @@ pub fn solve(pairs: &[PosePair], method: Method) -> Result<HandEye, Error> {
         Method::HoraudDornaika => horaud_dornaika::solve(pairs)?,
         Method::HoraudDornaikaNonlinear => horaud_dornaika::solve_nonlinear(pairs)?,
         Method::Andreff => andreff::solve(pairs)?,
+        Method::AndreffScaled => andreff::scaled(pairs)?.hand_eye,
         Method::LuChou => lu_chou::solve(pairs)?,
         Method::Wu => wu::solve(pairs)?,
         Method::Zhuang => zhuang::solve(pairs)?,
         Method::DornaikaHoraud => dornaika_horaud::solve(pairs)?,
         Method::Li => li::solve(pairs)?,
-        Method::TabbAhmadYousef => tabb::solve(pairs)?,
+        Method::TabbAhmadYousefC1 => tabb::solve_c1(pairs)?,
+        Method::TabbAhmadYousefC2 => tabb::solve_c2(pairs)?,
     };
     if hand_eye.mount_from_camera.is_finite() && hand_eye.anchor_from_target.is_finite() {
         Ok(hand_eye)
@@ -279,6 +290,22 @@ pub(crate) mod tests {
             pair.camera_from_target = pair.camera_from_target.retract(&by);
         }
         pairs
+    }
+
+    /// No step of 1e-4 along one of the first `freedoms` directions of X and Y lowers the cost.
+    #[track_caller]
+    pub(crate) fn assert_least(best: &HandEye, freedoms: usize, cost: impl Fn(&HandEye) -> f64) {
+        for k in 0..freedoms {
+            for size in [-1e-4, 1e-4] {
+                let (mut moved, by) = (*best, Vector6::ith(k % 6, size));
+                if k < 6 {
+                    moved.mount_from_camera = moved.mount_from_camera.retract(&by);
+                } else {
+                    moved.anchor_from_target = moved.anchor_from_target.retract(&by);
+                }
+                assert!(cost(&moved) > cost(best), "direction {k}");
+            }
+        }
     }
 
     #[test]
