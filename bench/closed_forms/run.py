@@ -121,6 +121,17 @@ def main():
     report(sets, ours)
 
 
+def write_oracle(path):
+    """Fifteen pairs and OpenCV's answers, for the tests of the crate."""
+    poses, _ = draw(15, 1)
+    numbers = lambda parts: " ".join(f"{x:.17e}" for part in parts for x in np.ravel(part))
+    lines = [f"# OpenCV {cv2.__version__}; rotations by rows and translations (m): per pair",
+             "# anchor_from_mount and camera_from_target, per method mount_from_camera"]
+    lines += [f"pair {numbers(pose)}" for pose in poses]
+    lines += [f"{m} {numbers(opencv(m, poses)[:2])}" for m in [*HAND_EYE, *ROBOT_WORLD]]
+    pathlib.Path(path).write_text("\n".join(lines) + "\n")
+
+
 def report(sets, ours):
     methods = list(dict.fromkeys(method for _, method in ours))
     lines = ["# Closed forms beside OpenCV " + cv2.__version__, "", (__doc__ or "").split("\n\n")[2].strip(), "",
