@@ -12,6 +12,10 @@
 //! then `x` is the null vector of the first rows, and `s R_X t_B + (I - R_A) t_X = t_A` is linear
 //! in `t_X` and the factor `s`.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone; a mount that stays in
+//! its place, for then nothing but zero is on the right-hand side; with an unknown unit also a
+//! camera that stays in its place. The position is that of the matrix before it became a rotation.
+//!
 //! N. Andreff, R. Horaud and B. Espiau, *Robot hand-eye calibration using structure-from-motion*,
 //! IJRR 20(3), 2001; *On-line hand-eye calibration*, 3DIM 1999.
 

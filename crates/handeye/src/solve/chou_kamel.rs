@@ -11,6 +11,9 @@
 //! whose common null vector over the motions from each capture to the next is `x`. The position is
 //! linear least squares over the same motions.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone. Small rotations from
+//! each capture to the next weigh little even where the captures differ much.
+//!
 //! J. Chou and M. Kamel, *Finding the position and orientation of a sensor on a robot manipulator
 //! using quaternions*, IJRR 10(3), 1991.
 

@@ -13,6 +13,10 @@
 //! all motions enter through moments: dual quaternions of motions are bilinear in those of the
 //! captures too, `a' = a_j'* a_i + a_j* a_i'`.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone; then there are more
+//! null vectors than two. Noise can leave the quadratic equation without a real root; the nearest
+//! real one, of discriminant zero, is taken.
+//!
 //! K. Daniilidis, *Hand-eye calibration using dual quaternions*, IJRR 18(3), 1999.
 
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, SVector, Vector3, Vector4};

@@ -8,6 +8,9 @@
 //!
 //! is least for the leading singular vectors of `S`. The positions are linear least squares.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone, where the quaternions
+//! have no sign on which robot and camera agree.
+//!
 //! F. Dornaika and R. Horaud, *Simultaneous robot-world and hand-eye calibration*, IEEE T-RA
 //! 14(4), 1998.
 

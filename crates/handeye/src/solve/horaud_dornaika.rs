@@ -11,6 +11,9 @@
 //! paper's penalty on the length of `x`. Both are over all motions, by moments. The axes in the
 //! paper are unit vectors; here, as in common use, a motion weighs by the sine of half its angle.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone. The weights of the
+//! second method compare radians with metres.
+//!
 //! R. Horaud and F. Dornaika, *Hand-eye calibration*, IJRR 14(3), 1995.
 
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, UnitQuaternion, Vector3, Vector6};
@@ -108,4 +111,32 @@ pub(super) fn weighted(j: &SMatrix<f64, 9, 3>, m: &Matrix3<f64>) -> SMatrix<f64,
         product.column_mut(k).copy_from_slice(column.as_slice());
     }
     product
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solve::tests::{assert_least, noisy_pairs, truths};
+
+    #[test]
+    fn no_small_step_makes_the_joint_cost_smaller() {
+        let pairs = noisy_pairs(&truths()[0], 9);
+        let all = moments::seen(&pairs).unwrap();
+        assert_least(&solve_nonlinear(&pairs).unwrap(), 6, |answer| {
+            let (q, r) = (
+                moments::scalar_first(&answer.mount_from_camera.iso().rotation),
+                answer.mount_from_camera.rotation(),
+            );
+            let t = answer.mount_from_camera.translation();
+            let cost = |i: &Seen, j: &Seen| {
+                let (a, t_a) = moments::motion(&i.a, &i.t_a, &j.a, &j.t_a);
+                let (b, t_b) = moments::motion(&i.b, &i.t_b, &j.b, &j.t_b);
+                let rotation = moments::product(&a, &q) - moments::product(&q, &b);
+                let position = r * t_b + t - moments::matrix(&a) * t - t_a;
+                rotation.norm_squared() + position.norm_squared()
+            };
+            let motions = (1..all.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
+            motions.map(|(i, j)| cost(&all[i], &all[j])).sum()
+        });
+    }
 }

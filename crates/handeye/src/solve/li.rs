@@ -9,6 +9,9 @@
 //! solved by least squares; then `R_X` and `R_Y` are replaced by the rotations nearest to them.
 //! `x` and `t_Y` have multiples of the identity as their blocks and are eliminated first.
 //!
+//! Degenerate: rotations about one axis and none at all; a mount that stays in its place, for then
+//! zero solves the equations. The positions are those of the matrices before they became rotations.
+//!
 //! A. Li, L. Wang and D. Wu, *Simultaneous robot-world and hand-eye calibration using
 //! dual-quaternions and Kronecker product*, Int. J. Physical Sciences 5(10), 2010.
 

@@ -30,6 +30,9 @@ use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 use crate::{Error, HandEye, Pose, PosePair, linalg};
 
 /// A published closed form.
+///
+/// None has a single answer for rotations about one axis only or for none at all; nearly none for
+/// half turns alone. What else leaves a method without one is said beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
     /// Shah 2013, `A X = Y B` by the Kronecker product.
@@ -38,34 +41,40 @@ pub enum Method {
     ParkMartin,
     /// Daniilidis 1999, `A X = X B` by dual quaternions.
     Daniilidis,
-    /// Tsai and Lenz 1989, `A X = X B` by modified Rodrigues vectors.
+    /// Tsai and Lenz 1989, `A X = X B` by modified Rodrigues vectors, of motions by 17 to 116
+    /// degrees where there are enough.
     TsaiLenz,
-    /// Shiu and Ahmad 1989, `A X = X B` by one angle per motion.
+    /// Shiu and Ahmad 1989, `A X = X B` by one angle per motion; keeps the noise of one axis whole.
     ShiuAhmad,
     /// Chou and Kamel 1991, `A X = X B` by quaternions.
     ChouKamel,
     /// Horaud and Dornaika 1995, `A X = X B` by quaternions, rotation first.
     HoraudDornaika,
-    /// Horaud and Dornaika 1995, `A X = X B`, rotation and position together.
+    /// Horaud and Dornaika 1995, `A X = X B`, rotation and position together, rad beside m.
     HoraudDornaikaNonlinear,
-    /// Andreff, Horaud and Espiau 2001, `A X = X B` by one linear system.
+    /// Andreff, Horaud and Espiau 2001, `A X = X B` by one linear system; not for a mount that
+    /// stays in its place.
     Andreff,
     /// Andreff, Horaud and Espiau 2001, with the camera's positions in an unknown unit; the answer
-    /// is in metres, [`andreff::solve_with_scale`] gives the unit too.
+    /// is in metres, [`andreff::solve_with_scale`] gives the unit too. Not for a mount or a camera
+    /// that stays in its place.
     AndreffScaled,
     /// Lu and Chou 1995, `A X = X B` in the eight-space of quaternions.
     LuChou,
-    /// Wu, Sun, Wang and Liu 2020, `A X = X B` by rotations of four-space.
+    /// Wu, Sun, Wang and Liu 2020, `A X = X B` by rotations of four-space; half turns weigh nothing.
     Wu,
-    /// Zhuang, Roth and Sudhakar 1994, `A X = Y B` by parts of quaternions.
+    /// Zhuang, Roth and Sudhakar 1994, `A X = Y B` by parts of quaternions; poses turned from their
+    /// mean by more than 174 degrees are left out.
     Zhuang,
     /// Dornaika and Horaud 1998, `A X = Y B` by quaternions.
     DornaikaHoraud,
-    /// Li, Wang and Wu 2010, `A X = Y B` by one linear system.
+    /// Li, Wang and Wu 2010, `A X = Y B` by one linear system; not for a mount that stays in its
+    /// place.
     Li,
-    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by their cost `c₁`.
+    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by their cost `c₁ = Σ ‖A X - Y B‖²`, m.
     TabbAhmadYousefC1,
-    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by their cost `c₂`.
+    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by their cost `c₂ = Σ ‖A - Y B X⁻¹‖²`,
+    /// m.
     TabbAhmadYousefC2,
 }
 

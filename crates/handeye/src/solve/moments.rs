@@ -373,3 +373,49 @@ fn substitute<const N: usize>(
     }
     x
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solve::tests::{noisy_pairs, truths};
+
+    fn motions(all: &[Seen]) -> impl Iterator<Item = (&Seen, &Seen)> {
+        (1..all.len()).flat_map(move |j| all[..j].iter().map(move |i| (i, &all[j])))
+    }
+
+    #[test]
+    fn moments_of_captures_are_sums_over_all_motions() {
+        let all = seen(&noisy_pairs(&truths()[0], 9)).unwrap();
+        let by_moments = over_motions(&all.iter().map(|s| s.a * s.b.transpose()).sum());
+        let one_by_one: Matrix3<f64> = motions(&all)
+            .map(|(i, j)| vector(&between(&j.a, &i.a)) * vector(&between(&j.b, &i.b)).transpose())
+            .sum();
+        assert!((by_moments - one_by_one).norm() < 1e-13 * one_by_one.norm());
+    }
+
+    #[test]
+    fn the_form_of_loops_is_the_sum_over_all_motions() {
+        let all = seen(&noisy_pairs(&truths()[0], 9)).unwrap();
+        let s = loops(&all);
+        let n = all.len() as f64;
+        let one_by_one: Matrix4<f64> = motions(&all)
+            .map(|(i, j)| left(&between(&j.a, &i.a)) - right(&between(&j.b, &i.b)))
+            .map(|g| g.transpose() * g)
+            .sum();
+        let by_moments = Matrix4::identity() * (n * n) - s * s.transpose();
+        assert!((by_moments - one_by_one).norm() < 1e-13 * n * n);
+    }
+
+    #[test]
+    fn translations_of_all_motions_are_those_of_each() {
+        let all = seen(&noisy_pairs(&truths()[0], 9)).unwrap();
+        let by_moments = Translations::of_all(&all);
+        let mut one_by_one = Translations::zeros();
+        motions(&all).for_each(|(i, j)| one_by_one.add(i, j, 1.0));
+        assert!((by_moments.bb - one_by_one.bb).norm() < 1e-12);
+        assert!((by_moments.bt - one_by_one.bt).norm() < 1e-12);
+        assert!((by_moments.tt - one_by_one.tt).norm() < 1e-12);
+        assert!((by_moments.ab - one_by_one.ab).norm() < 1e-12);
+        assert!((by_moments.at - one_by_one.at).norm() < 1e-12);
+    }
+}

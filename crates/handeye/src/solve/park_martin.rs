@@ -9,6 +9,8 @@
 //! above over those from each capture to 64 others. The position is over all motions always. Near a
 //! half turn both logarithms are taken on the branch on which robot and camera agree.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone.
+//!
 //! F. Park and B. Martin, *Robot sensor calibration: solving AX = XB on the Euclidean group*,
 //! IEEE T-RA 10(5), 1994.
 

@@ -12,6 +12,9 @@
 //! leaves the leading one standing: `k` squarings do the work of `2^k` steps of a power iteration.
 //! Translation then is linear least squares.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone; then the two largest
+//! singular values are equal. Half turns among others are no trouble, and no quaternion has a sign.
+//!
 //! M. Shah, *Solving the robot-world/hand-eye calibration problem using the Kronecker product*,
 //! J. Mechanisms and Robotics 5(3), 2013.
 

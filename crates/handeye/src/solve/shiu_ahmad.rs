@@ -11,6 +11,10 @@
 //! the next. As in the paper the answer turns about the axis of one motion exactly; it is the one
 //! with the largest angle here. All other angles are eliminated one by one.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone. A motion by a small
+//! angle has no axis to speak of and is left out. The noise of the one axis goes into the answer
+//! whole, however many captures there are.
+//!
 //! Y. Shiu and S. Ahmad, *Calibration of wrist-mounted robotic sensors by solving homogeneous
 //! transform equations of the form AX = XB*, IEEE T-RA 5(1), 1989.
 

@@ -10,6 +10,9 @@
 //! Gauss-Newton steps on the rotation groups (the paper parametrises rotations by Euler angles,
 //! axis and angle, or quaternions; the minimum is the same).
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone. The costs compare
+//! entries of rotations with metres.
+//!
 //! A. Tabb and K. Ahmad Yousef, *Solving the robot-world hand-eye(s) calibration problem with
 //! iterative methods*, Machine Vision and Applications 28, 2017.
 

@@ -11,6 +11,8 @@
 //! among more, or where too little would remain, all are used, through their moments. `P'` is
 //! infinite for a camera turned by 180 degrees: near there the camera frame is turned first.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone.
+//!
 //! R. Tsai and R. Lenz, *A new technique for fully autonomous and efficient 3D robotics hand/eye
 //! calibration*, IEEE T-RA 5(3), 1989.
 

@@ -20,6 +20,9 @@
 //! the first-order change of the eigenvector, and `t_X = 2 vec(x₁ x₀*)`. No sign of a quaternion
 //! occurs. All motions between up to 17 captures are used, of more those from each to 16 others.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone; motions near half turns
+//! weigh nothing, as `a` vanishes with the cosine of half the angle.
+//!
 //! J. Wu, Y. Sun, M. Wang and M. Liu, *Hand-eye calibration: 4-D Procrustes analysis approach*,
 //! IEEE T-IM 69(6), 2020.
 

@@ -11,6 +11,9 @@
 //! turned from it by more than 174 degrees are left out, and the target frame is turned by 180
 //! degrees about an axis if that makes `y₀` larger. The positions are linear least squares.
 //!
+//! Degenerate: rotations about one axis, none at all, and half turns alone; less than three poses
+//! within 174 degrees of their mean.
+//!
 //! H. Zhuang, Z. Roth and R. Sudhakar, *Simultaneous robot/world and tool/flange calibration by
 //! solving homogeneous transformation equations of the form AX = YB*, IEEE T-RA 10(4), 1994.
 
