@@ -1,11 +1,11 @@
 //! Every closed form on pose sets from files, with the time of a call.
 //!
-//! `cargo run --release -p handeye --example closed_forms -- FILE...`
+//! `cargo run --release -p handeye --example closed_forms -- [--untimed] FILE...`
 //!
 //! A line of a file is one capture: rotation by rows and translation (m) of `anchor_from_mount`,
 //! then of `camera_from_target`, 24 numbers. Printed per file and method, tab-separated: file,
-//! method, microseconds of processor time per call (median of batches), and the rotation by rows
-//! and the translation of `mount_from_camera` — or `refused` and why.
+//! method, microseconds of processor time per call (median of batches, zero if untimed), and the
+//! rotation by rows and the translation of `mount_from_camera` — or `refused` and why.
 
 use std::{env, fs, hint::black_box, time::Instant};
 
@@ -17,7 +17,8 @@ const BATCH: f64 = 3e7;
 const BATCHES: usize = 7;
 
 fn main() {
-    for file in env::args().skip(1) {
+    let (flags, files): (Vec<_>, Vec<_>) = env::args().skip(1).partition(|a| a == "--untimed");
+    for file in files {
         let text = fs::read_to_string(&file).expect("a readable file");
         let pairs: Vec<PosePair> = text.lines().map(pair).collect();
         for method in Method::ALL {
@@ -32,7 +33,8 @@ fn main() {
                         .chain(x.translation().iter())
                         .map(|v| format!("{v:.17e}"))
                         .collect();
-                    let time = microseconds(|| solve(black_box(&pairs), method).is_ok());
+                    let call = || solve(black_box(&pairs), method).is_ok();
+                    let time = if flags.is_empty() { microseconds(call) } else { 0.0 };
                     println!("{file}\t{}\t{time:.3}\t{}", method.name(), numbers.join(" "));
                 }
             }

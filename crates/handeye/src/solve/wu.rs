@@ -82,3 +82,24 @@ fn projection((q, t): &(Vector4<f64>, Vector3<f64>)) -> (Vector4<f64>, Vector4<f
     let middle = (t + moments::matrix(q).transpose() * t) * 0.25;
     (q * q[0], Vector4::new(0.0, middle.x, middle.y, middle.z))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_projection_is_that_of_the_rotation_of_four_space() {
+        let (q, t) = (Vector4::new(0.5, -0.7, 0.1, 0.5), Vector3::new(0.3, -0.2, 0.4));
+        let (q, inverse_d) = (q.normalize(), 1e-7);
+        let mut four = Matrix4::identity(); // scalar first
+        four.fixed_view_mut::<3, 3>(1, 1).copy_from(&moments::matrix(&q));
+        four.fixed_view_mut::<3, 1>(1, 0).copy_from(&(t * inverse_d));
+        let low = -(moments::matrix(&q).transpose() * t) * inverse_d;
+        four.fixed_view_mut::<1, 3>(0, 1).copy_from(&low.transpose());
+        let (a, a_1) = projection(&(q, t));
+        for k in 0..4 {
+            let along = moments::left(&Vector4::ith(k, 1.0)).dot(&four) / 4.0;
+            assert!((along - a[k] - a_1[k] * inverse_d).abs() < 1e-13);
+        }
+    }
+}
