@@ -137,6 +137,7 @@ def compare(folder):
             sets[file] = poses, truth
         answers = handeye("--untimed", *sets)
         first = next(iter(sets))
+        before = opencv_time("shah", sets[first][0])
         for (_, method), answer in handeye(first).items():
             ours[method, count] = answer and answer[2]
             errors = [difference(answers[file, method], sets[file][1])
@@ -150,6 +151,7 @@ def compare(folder):
             gaps = [difference(answers[file, method], opencv(method, sets[file][0]))
                     for file in ([first] if slow else sets)]
             agreement[method, count] = np.max(gaps, axis=0)
+        theirs["shah", count] = min(before, theirs["shah", count])  # a busy machine favours nobody
     return ours, theirs, agreement, error
 
 
@@ -177,8 +179,8 @@ def report(ours, theirs, agreement, error):
     return [
         "## Closed forms", "", *SETTING.splitlines(), "",
         f"Written by `bench/closed_forms/run.py` with OpenCV {cv2.__version__}.", "",
-        "Milliseconds of a call of handeye, and in brackets its share of the time of OpenCV's SHAH ("
-        + ", ".join(f"{theirs['shah', n]:.3g} ms" for n in COUNTS)
+        "Milliseconds of a call of handeye, and in brackets its share of the time of OpenCV's SHAH",
+        "(" + ", ".join(f"{theirs['shah', n]:.3g} ms" for n in COUNTS)
         + f"). The largest share is {ratio:.2f}, of {method} at N = {count}.", "",
         *table(methods, against_shah), "",
         "OpenCV's own: milliseconds of a call, how many times that of handeye, and the largest",
