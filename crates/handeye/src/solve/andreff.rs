@@ -76,7 +76,7 @@ pub(super) fn scaled(pairs: &[PosePair]) -> Result<Scaled, Error> {
     let all = moments::seen(pairs)?;
     let (values, vectors) = jacobi::eigen(&rotation_form(&all));
     let free = || open("the motions do not fix the camera's rotation");
-    if !(values[7] > 1e-13 * values[0]) {
+    if !(values[7] > jacobi::NO_GAP * values[0]) {
         return Err(free());
     }
     let null = Matrix3::from_column_slice(vectors.column(8).into_owned().as_slice());

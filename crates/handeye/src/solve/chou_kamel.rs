@@ -36,7 +36,7 @@ pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
         motions.add(&two[0], &two[1], 1.0);
     }
     let (values, vectors) = jacobi::eigen(&form);
-    if !(values[2] - values[3] > 1e-13 * values[0]) {
+    if !(values[2] - values[3] > jacobi::NO_GAP * values[0]) {
         return Err(open("the rotations between captures do not fix the camera's rotation"));
     }
     let rotation = jacobi::rotation_of(&vectors.column(3).into_owned());

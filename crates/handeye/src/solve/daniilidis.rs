@@ -28,10 +28,15 @@ use super::{
 };
 use crate::{Error, HandEye, PosePair};
 
+/// Sixth over largest eigenvalue of the rows' moments below which a third null vector is there.
+const NO_ROW: f64 = 1e-14;
+/// Length below which the real part of an eight-vector of unit length holds no rotation.
+const NO_ROTATION: f64 = 1e-9;
+
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let all = moments::seen(pairs)?;
     let (values, vectors) = jacobi::eigen(&Products::new(&all).rows());
-    if !(values[5] > 1e-14 * values[0]) {
+    if !(values[5] > NO_ROW * values[0]) {
         return Err(open("the motions leave more than the two null vectors of this method"));
     }
     let (v7, v8) = (vectors.column(6).into_owned(), vectors.column(7).into_owned());
@@ -170,7 +175,7 @@ fn combine(v7: &SVector<f64, 8>, v8: &SVector<f64, 8>) -> Option<Isometry3<f64>>
         })
         .unwrap_or((1.0, 0.0));
     let (q, q_) = (u1 * l1 + u2 * l2, w1 * l1 + w2 * l2);
-    (q.norm() > 1e-9).then(|| from_dual(&q, &q_))
+    (q.norm() > NO_ROTATION).then(|| from_dual(&q, &q_))
 }
 
 /// The transform of a dual quaternion `q + ε q'` of any length.

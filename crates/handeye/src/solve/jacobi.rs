@@ -71,9 +71,9 @@ fn sorted<const N: usize>(
     (values, SMatrix::from_fn(|i, k| v[(i, order[k])]))
 }
 
-/// Gap between the two largest eigenvalues, as a share of the largest, below which the leading
-/// eigenvector counts as free.
-const NO_GAP: f64 = 1e-13;
+/// Gap between two eigenvalues, as a share of the largest of all, below which they count as equal
+/// and their eigenvectors as free.
+pub(super) const NO_GAP: f64 = 1e-13;
 
 /// The leading eigenvector; `None` when two are as good.
 pub(super) fn leading<const N: usize>(m: &SMatrix<f64, N, N>) -> Option<SVector<f64, N>> {

@@ -4,7 +4,7 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::{jacobi, open};
+use super::{jacobi, moments, open};
 use crate::{Error, PosePair};
 
 /// Adds `b ⊗ a`.
@@ -80,7 +80,7 @@ impl Centred {
         let y = SMatrix::<f64, 9, 1>::from_column_slice(r_y.as_slice());
         let rhs = self.br.transpose() * y - self.ra;
         let (values, vectors) = jacobi::eigen(&self.rr);
-        if !(values[2] > 1e-13 * values[0]) {
+        if !(values[2] > moments::NO_LEVER * values[0]) {
             return Err(open("the motions do not fix the camera's position"));
         }
         let inverse = |v: Vector3<f64>| vectors * (vectors.transpose() * v).component_div(&values);

@@ -31,7 +31,7 @@ pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let block = |i, j| form.fixed_view::<4, 4>(i, j).into_owned();
     let (upper, mixed, lower) = (block(0, 0), block(0, 4), block(4, 4));
     let (values, vectors) = jacobi::eigen(&lower);
-    if !(values[2] - values[3] > 1e-13 * values[0]) {
+    if !(values[2] - values[3] > jacobi::NO_GAP * values[0]) {
         return Err(open("the rotations between captures do not fix the camera's rotation"));
     }
     // inverse off the null vector, which is x but for noise

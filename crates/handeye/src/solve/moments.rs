@@ -296,7 +296,7 @@ impl Translations {
 }
 
 /// Least over largest eigenvalue of `Σ (I - R_A)ᵀ (I - R_A)` below which a position is free.
-const NO_LEVER: f64 = 1e-13;
+pub(super) const NO_LEVER: f64 = 1e-13;
 
 /// Quaternion and translation of the motion from `i` to `j`.
 pub(super) fn motion(

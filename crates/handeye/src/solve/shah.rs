@@ -51,6 +51,9 @@ pub(super) fn rotations(
 /// Squarings that find an eigenvector whose next eigenvalue is smaller by one part in 1e13.
 const MOST_SQUARINGS: usize = 50;
 
+/// Share of the other eigenvalues of a power at which one counts as left alone.
+const SINGLE: f64 = 1e-14;
+
 /// The leading eigenvector of a positive matrix; `None` when the largest eigenvalue is not single.
 fn leading(m: &SMatrix<f64, 9, 9>) -> Option<SMatrix<f64, 9, 1>> {
     let mut power = m / m.trace();
@@ -58,7 +61,7 @@ fn leading(m: &SMatrix<f64, 9, 9>) -> Option<SMatrix<f64, 9, 1>> {
         let square = symmetric_square(&power);
         let trace = square.trace(); // Σ λ² where Σ λ = 1: it is 1 when one λ is left
         power = square / trace;
-        if 1.0 - trace < 1e-14 {
+        if 1.0 - trace < SINGLE {
             let largest = power.diagonal().imax();
             let x = power.column(largest).normalize();
             return Some((m * x).normalize()); // one step with m itself takes off the rounding

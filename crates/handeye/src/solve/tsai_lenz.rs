@@ -32,6 +32,9 @@ const SELECT_UP_TO: usize = 256;
 /// Length of `P'` above which the camera frame is turned first: `X` is rotated by 170 degrees.
 const LONG: f64 = 11.43;
 
+/// Least over largest eigenvalue of `Σ [s]ₓᵀ [s]ₓ` below which `P'` is not determined.
+const NO_TURN: f64 = 1e-11;
+
 /// Sums over motions: `Σ a aᵀ, Σ a bᵀ, Σ b bᵀ` of the vector parts, and the translations.
 struct Sums {
     aa: Matrix3<f64>,
@@ -87,7 +90,7 @@ fn rodrigues(sums: &Sums) -> Option<Vector3<f64>> {
     // Σ -s × (b - a) = Σ -2 a × b
     let rhs = -2.0 * Vector3::new(k[(1, 2)], k[(2, 0)], k[(0, 1)]);
     let (values, _) = jacobi::eigen(&normal);
-    if !(values[2] > 1e-11 * values[0]) {
+    if !(values[2] > NO_TURN * values[0]) {
         return None;
     }
     moments::solve_spd(&normal, &rhs)

@@ -45,7 +45,7 @@ pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let (values, vectors) = jacobi::eigen(&form);
     let least = values[3];
     let x_0 = vectors.column(3).into_owned();
-    if !(values[2] - least > 1e-13 * values[0]) {
+    if !(values[2] - least > jacobi::NO_GAP * values[0]) {
         return Err(open("the rotations between captures do not fix the camera's rotation"));
     }
     let push = change * x_0;
