@@ -72,7 +72,10 @@ pairs.json:\n  {\"setup\": \"eye-in-hand\",\n   \"pairs\": [{\"id\": \"01\",\n  
 pub struct SolveArgs {
     /// JSON file with `setup` and `pairs`.
     pub pairs: PathBuf,
-    /// Run one published method as published: shah, park-martin, daniilidis.
+    /// Run one published method as published; A X = Y B: shah, zhuang, dornaika-horaud, li,
+    /// tabb-ahmad-yousef-c1, tabb-ahmad-yousef-c2; A X = X B: park-martin, daniilidis, tsai-lenz,
+    /// shiu-ahmad, chou-kamel, horaud-dornaika, horaud-dornaika-nonlinear, andreff,
+    /// andreff-scaled, lu-chou, wu.
     #[arg(long)]
     pub method: Option<String>,
 }
@@ -94,7 +97,7 @@ pub struct CalibrateArgs {
     /// Also export the transform in these formats (see `handeye export --format list`).
     #[arg(long, value_delimiter = ',', requires = "out")]
     pub format: Vec<String>,
-    /// Run one published method as published: shah, park-martin, daniilidis.
+    /// Run one published method as published (see `handeye solve --help`).
     #[arg(long)]
     pub method: Option<String>,
     /// Nearest-neighbour candidate of the two-step refinement: most iterations.

@@ -151,6 +151,20 @@ fn a_wrong_command_line_is_exit_code_two() {
 }
 
 #[test]
+fn every_published_method_runs_by_the_name_the_help_gives() {
+    let folder = Folder::new();
+    solved(&folder, "a.json", 0.0);
+    let help = handeye(&folder, &["solve", "--help"]).stdout;
+    for method in handeye::Method::ALL {
+        let name = method.name();
+        assert!(help.split([' ', ',', ':', ';', '.', '\n']).any(|word| word == name), "{name}");
+        let run = handeye(&folder, &["solve", "pairs.json", "--method", name, "--json"]);
+        let result: Value = serde_json::from_str(&run.stdout).expect(name);
+        assert_eq!(result["method"], format!("closed-form-{name}"), "{}", run.stderr);
+    }
+}
+
+#[test]
 fn json_is_one_document_and_quiet_is_quiet() {
     let folder = Folder::new();
     solved(&folder, "a.json", 0.0);

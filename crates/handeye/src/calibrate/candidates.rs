@@ -131,14 +131,15 @@ impl Judge<'_> {
 
     fn view_candidates(&self, fit: &JointFit, touched: bool, config: &Config) -> Vec<Judged> {
         let likeliest = if touched { "views-only" } else { "joint" };
-        let mut all: Vec<(String, Estimator)> = Method::ALL
-            .into_iter()
-            .map(|m| (format!("closed-form-{}", m.name()), Estimator::ClosedForm(m)))
-            .collect();
-        all.push(("least-squares".into(), Estimator::LeastSquares));
-        if let Some(method) = config.method {
-            all.retain(|(_, e)| *e == Estimator::ClosedForm(method));
-        }
+        let closed = |m: Method| (format!("closed-form-{}", m.name()), Estimator::ClosedForm(m));
+        let all: Vec<(String, Estimator)> = match config.method {
+            Some(method) => vec![closed(method)],
+            None => Method::CANDIDATES
+                .into_iter()
+                .map(closed)
+                .chain([("least-squares".into(), Estimator::LeastSquares)])
+                .collect(),
+        };
         let by_estimator = |(name, estimator)| self.view_candidate(fit, name, &estimator);
         let mut judged: Vec<Judged> = all.into_iter().filter_map(by_estimator).collect();
         if config.method.is_none() {

@@ -1,19 +1,38 @@
 //! Closed forms: hand-eye calibration without a start value, a file per paper.
 //!
 //! `A X = Y B` methods take the pairs as they are; `A X = X B` methods take relative motions
-//! between pairs and find the target's place afterwards.
+//! between pairs and find the target's place afterwards. Every method is linear in the number of
+//! captures: sums over all motions come from moments of single captures (`moments.rs`), and where
+//! they cannot, the number of motions per capture is bounded.
 
+pub mod andreff;
+mod chou_kamel;
 pub mod consensus;
-pub mod daniilidis;
+mod daniilidis;
+mod dornaika_horaud;
+mod horaud_dornaika;
+mod jacobi;
+mod kronecker;
+mod li;
+mod lu_chou;
+mod moments;
 pub mod motions;
-pub mod park_martin;
-pub mod shah;
+mod park_martin;
+mod shah;
+mod shiu_ahmad;
+mod tabb;
+mod tsai_lenz;
+mod wu;
+mod zhuang;
 
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 
 use crate::{Error, HandEye, Pose, PosePair, linalg};
 
 /// A published closed form.
+///
+/// None has a single answer for rotations about one axis only or for none at all; nearly none for
+/// half turns alone. What else leaves a method without one is said beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
     /// Shah 2013, `A X = Y B` by the Kronecker product.
@@ -22,11 +41,67 @@ pub enum Method {
     ParkMartin,
     /// Daniilidis 1999, `A X = X B` by dual quaternions.
     Daniilidis,
+    /// Tsai and Lenz 1989, `A X = X B` by modified Rodrigues vectors, of motions by 17 to 116
+    /// degrees where there are enough.
+    TsaiLenz,
+    /// Shiu and Ahmad 1989, `A X = X B` by one angle per motion; keeps the noise of one axis whole.
+    ShiuAhmad,
+    /// Chou and Kamel 1991, `A X = X B` by quaternions.
+    ChouKamel,
+    /// Horaud and Dornaika 1995, `A X = X B` by quaternions, rotation first.
+    HoraudDornaika,
+    /// Horaud and Dornaika 1995, `A X = X B`, rotation and position together, rad beside m.
+    HoraudDornaikaNonlinear,
+    /// Andreff, Horaud and Espiau 2001, `A X = X B` by one linear system; not for a mount that
+    /// stays in its place.
+    Andreff,
+    /// Andreff, Horaud and Espiau 2001, with the camera's positions in an unknown unit; the answer
+    /// is in metres, [`andreff::solve_with_scale`] gives the unit too. Not for a mount or a camera
+    /// that stays in its place.
+    AndreffScaled,
+    /// Lu and Chou 1995, `A X = X B` in the eight-space of quaternions.
+    LuChou,
+    /// Wu, Sun, Wang and Liu 2020, `A X = X B` by rotations of four-space; half turns weigh nothing.
+    Wu,
+    /// Zhuang, Roth and Sudhakar 1994, `A X = Y B` by parts of quaternions; poses turned from their
+    /// mean by more than 174 degrees are left out.
+    Zhuang,
+    /// Dornaika and Horaud 1998, `A X = Y B` by quaternions.
+    DornaikaHoraud,
+    /// Li, Wang and Wu 2010, `A X = Y B` by one linear system; not for a mount that stays in its
+    /// place.
+    Li,
+    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by their cost `c₁ = Σ ‖A X - Y B‖²`, m.
+    TabbAhmadYousefC1,
+    /// Tabb and Ahmad Yousef 2017, `A X = Y B` by their cost `c₂ = Σ ‖A - Y B X⁻¹‖²`,
+    /// m.
+    TabbAhmadYousefC2,
 }
 
 impl Method {
     /// Every method, the one recommended for a start first.
-    pub const ALL: [Method; 3] = [Method::Shah, Method::ParkMartin, Method::Daniilidis];
+    pub const ALL: [Method; 17] = [
+        Method::Shah,
+        Method::ParkMartin,
+        Method::Daniilidis,
+        Method::TsaiLenz,
+        Method::ShiuAhmad,
+        Method::ChouKamel,
+        Method::HoraudDornaika,
+        Method::HoraudDornaikaNonlinear,
+        Method::Andreff,
+        Method::AndreffScaled,
+        Method::LuChou,
+        Method::Wu,
+        Method::Zhuang,
+        Method::DornaikaHoraud,
+        Method::Li,
+        Method::TabbAhmadYousefC1,
+        Method::TabbAhmadYousefC2,
+    ];
+
+    /// The few that a calibration compares with each other when nothing else is asked for.
+    pub const CANDIDATES: [Method; 3] = [Method::Shah, Method::ParkMartin, Method::Daniilidis];
 
     /// The name in files and on the command line.
     pub fn name(self) -> &'static str {
@@ -34,6 +109,20 @@ impl Method {
             Method::Shah => "shah",
             Method::ParkMartin => "park-martin",
             Method::Daniilidis => "daniilidis",
+            Method::TsaiLenz => "tsai-lenz",
+            Method::ShiuAhmad => "shiu-ahmad",
+            Method::ChouKamel => "chou-kamel",
+            Method::HoraudDornaika => "horaud-dornaika",
+            Method::HoraudDornaikaNonlinear => "horaud-dornaika-nonlinear",
+            Method::Andreff => "andreff",
+            Method::AndreffScaled => "andreff-scaled",
+            Method::LuChou => "lu-chou",
+            Method::Wu => "wu",
+            Method::Zhuang => "zhuang",
+            Method::DornaikaHoraud => "dornaika-horaud",
+            Method::Li => "li",
+            Method::TabbAhmadYousefC1 => "tabb-ahmad-yousef-c1",
+            Method::TabbAhmadYousefC2 => "tabb-ahmad-yousef-c2",
         }
     }
 
@@ -50,19 +139,43 @@ pub const FEWEST_POSES: usize = 3;
 ///
 /// # Errors
 /// [`Error::TooFewPoses`] below three pairs, [`Error::NotDetermined`] when all rotations are about
-/// one axis, [`Error::NotFinite`] on NaN.
+/// one axis or the method has no single answer, [`Error::NotFinite`] on NaN.
 pub fn solve(pairs: &[PosePair], method: Method) -> Result<HandEye, Error> {
     check(pairs)?;
     let hand_eye = match method {
         Method::Shah => shah::solve(pairs)?,
         Method::ParkMartin => park_martin::solve(pairs)?,
         Method::Daniilidis => daniilidis::solve(pairs)?,
+        Method::TsaiLenz => tsai_lenz::solve(pairs)?,
+        Method::ShiuAhmad => shiu_ahmad::solve(pairs)?,
+        Method::ChouKamel => chou_kamel::solve(pairs)?,
+        Method::HoraudDornaika => horaud_dornaika::solve(pairs)?,
+        Method::HoraudDornaikaNonlinear => horaud_dornaika::solve_nonlinear(pairs)?,
+        Method::Andreff => andreff::solve(pairs)?,
+        Method::AndreffScaled => andreff::scaled(pairs)?.hand_eye,
+        Method::LuChou => lu_chou::solve(pairs)?,
+        Method::Wu => wu::solve(pairs)?,
+        Method::Zhuang => zhuang::solve(pairs)?,
+        Method::DornaikaHoraud => dornaika_horaud::solve(pairs)?,
+        Method::Li => li::solve(pairs)?,
+        Method::TabbAhmadYousefC1 => tabb::solve_c1(pairs)?,
+        Method::TabbAhmadYousefC2 => tabb::solve_c2(pairs)?,
     };
     if hand_eye.mount_from_camera.is_finite() && hand_eye.anchor_from_target.is_finite() {
         Ok(hand_eye)
     } else {
         Err(Error::NotDetermined { what: format!("{} found no finite answer", method.name()) })
     }
+}
+
+/// An answer that is left open, and by what.
+fn open(what: &str) -> Error {
+    Error::NotDetermined { what: what.into() }
+}
+
+/// The answer whose camera is at `x`; the target where it fits best.
+fn place(pairs: &[PosePair], x: Isometry3<f64>) -> HandEye {
+    place_target(pairs, &Pose::claim(x))
 }
 
 pub(crate) fn too_few(found: usize) -> Error {
@@ -175,6 +288,33 @@ pub(crate) mod tests {
         let (angle, distance) = (found.angle_to(&wanted), found.distance_to(&wanted));
         assert!(distance < 1e-9, "{what}: translation off by {distance} m");
         assert!(angle < 1e-9, "{what}: rotation off by {angle} rad");
+    }
+
+    /// Exact pairs with a tenth of a degree and half a millimetre of fixed disturbance.
+    pub(crate) fn noisy_pairs(truth: &HandEye, count: usize) -> Vec<PosePair> {
+        let mut pairs = exact_pairs(truth, count);
+        for (k, pair) in pairs.iter_mut().enumerate() {
+            let wave = |i: usize, size: f64| size * (7.3 * k as f64 + 2.9 * i as f64).sin();
+            let by = Vector6::from_fn(|i, _| wave(i, if i < 3 { 2e-3 } else { 5e-4 }));
+            pair.camera_from_target = pair.camera_from_target.retract(&by);
+        }
+        pairs
+    }
+
+    /// No step of 1e-4 along one of the first `freedoms` directions of X and Y lowers the cost.
+    #[track_caller]
+    pub(crate) fn assert_least(best: &HandEye, freedoms: usize, cost: impl Fn(&HandEye) -> f64) {
+        for k in 0..freedoms {
+            for size in [-1e-4, 1e-4] {
+                let (mut moved, by) = (*best, Vector6::ith(k % 6, size));
+                if k < 6 {
+                    moved.mount_from_camera = moved.mount_from_camera.retract(&by);
+                } else {
+                    moved.anchor_from_target = moved.anchor_from_target.retract(&by);
+                }
+                assert!(cost(&moved) > cost(best), "direction {k}");
+            }
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
+use super::{jacobi, moments};
 use crate::{Error, PosePair, lie};
 
 /// One relative motion, seen by the robot and by the camera.
@@ -56,13 +57,11 @@ pub fn axis_scatter(pairs: &[PosePair]) -> Matrix3<f64> {
 /// Mean square rotation (rad²) between captures below which the robot counts as not turning.
 const NO_ROTATION: f64 = 1e-8;
 
-/// Eigenvalues of the axis scatter, largest first, and the axis of the largest.
+/// Eigenvalues (rad², over all motions, rotations by their chords) of the scatter of axes, largest
+/// first, and the axis of the largest.
 fn principal(pairs: &[PosePair]) -> ([f64; 3], Vector3<f64>) {
-    let eigen = axis_scatter(pairs).symmetric_eigen();
-    let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
-    let mut values: [f64; 3] = eigen.eigenvalues.into();
-    values.sort_by(|a, b| b.total_cmp(a));
-    (values, axis)
+    let (values, axes) = jacobi::eigen(&(moments::axis_moment(pairs) * 4.0));
+    (values.into(), axes.column(0).into_owned())
 }
 
 /// Whether the robot turns at all between the captures.

@@ -8,60 +8,76 @@
 //! ```
 //!
 //! Rotation first: `vec(R_Y) = (R_B ⊗ R_A) vec(R_X)` holds for every pair, so `(vec R_X, vec R_Y)`
-//! are the leading singular vectors of `Σ R_B ⊗ R_A`. Translation then is linear least squares.
+//! are the leading singular vectors of `P = Σ R_B ⊗ R_A`. They are found by squaring `PᵀP`, which
+//! leaves the leading one standing: `k` squarings do the work of `2^k` steps of a power iteration.
+//! Translation then is linear least squares.
+//!
+//! Degenerate: rotations about one axis, none at all, and half turns alone; then the two largest
+//! singular values are equal. Half turns among others are no trouble, and no quaternion has a sign.
 //!
 //! M. Shah, *Solving the robot-world/hand-eye calibration problem using the Kronecker product*,
 //! J. Mechanisms and Robotics 5(3), 2013.
 
-use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix3, SMatrix, UnitQuaternion};
 
-use super::isometry;
-use crate::{Error, HandEye, Pose, PosePair, linalg};
+use super::{jacobi, kronecker, kronecker::Centred, open};
+use crate::{Error, HandEye, Pose, PosePair};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
-    let (r_x, r_y) = rotations(pairs)?;
-    let (t_x, t_y) = translations(pairs, &r_y)?;
+    let (r_x, r_y) = rotations(&kronecker::sum(pairs))?;
+    let r = r_y.to_rotation_matrix().into_inner();
+    let (t_x, t_y) = Centred::new(pairs).positions(&r)?;
     Ok(HandEye {
-        mount_from_camera: Pose::claim(isometry(&r_x, t_x)),
-        anchor_from_target: Pose::claim(isometry(&r_y, t_y)),
+        mount_from_camera: Pose::claim(Isometry3::from_parts(t_x.into(), r_x)),
+        anchor_from_target: Pose::claim(Isometry3::from_parts(t_y.into(), r_y)),
     })
 }
 
-fn rotations(pairs: &[PosePair]) -> Result<(Matrix3<f64>, Matrix3<f64>), Error> {
-    let k: SMatrix<f64, 9, 9> = pairs.iter().map(|p| p.r_b().kronecker(&p.r_a())).sum();
-    let svd = linalg::svd(&DMatrix::from_column_slice(9, 9, k.as_slice()));
-    let x = Matrix3::from_column_slice(svd.v.column(0).into_owned().as_slice());
-    let y = Matrix3::from_column_slice(svd.u.column(0).into_owned().as_slice());
+/// `R_X` and `R_Y` from `P`.
+pub(super) fn rotations(
+    p: &SMatrix<f64, 9, 9>,
+) -> Result<(UnitQuaternion<f64>, UnitQuaternion<f64>), Error> {
+    let free = || open("the rotations do not fix the camera's");
+    let x = leading(&(p.transpose() * p)).ok_or_else(free)?;
+    let y = p * x;
+    let x = Matrix3::from_column_slice(x.as_slice());
+    let y = Matrix3::from_column_slice(y.as_slice());
     // A singular pair is known up to one common sign: take the one that makes rotations.
     let sign = x.determinant().signum();
-    let rotation = |m: Matrix3<f64>| {
-        linalg::nearest_rotation(&(m * sign))
-            .ok_or(Error::NotDetermined { what: "the rotations do not fix the camera's".into() })
-    };
+    let rotation = |m: Matrix3<f64>| jacobi::nearest_rotation(&(m * sign)).ok_or_else(free);
     Ok((rotation(x)?, rotation(y)?))
 }
 
-/// `R_A t_X - t_Y = R_Y t_B - t_A`, by its normal equations: they are well conditioned, since both
-/// unknowns are lengths and all coefficients are rotations.
-pub(super) fn translations(
-    pairs: &[PosePair],
-    r_y: &Matrix3<f64>,
-) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
-    // a common offset of t_A only moves t_Y: taking it out keeps digits when the base is far
-    let offset = pairs.iter().map(PosePair::t_a).sum::<Vector3<f64>>() / pairs.len() as f64;
-    let (mut normal, mut rhs) = (Matrix6::zeros(), Vector6::zeros());
-    for pair in pairs {
-        let mut row = SMatrix::<f64, 3, 6>::zeros();
-        row.fixed_view_mut::<3, 3>(0, 0).copy_from(&pair.r_a());
-        row.fixed_view_mut::<3, 3>(0, 3).copy_from(&-Matrix3::identity());
-        normal += row.transpose() * row;
-        rhs += row.transpose() * (r_y * pair.t_b() - (pair.t_a() - offset));
+/// Squarings that find an eigenvector whose next eigenvalue is smaller by one part in 1e13.
+const MOST_SQUARINGS: usize = 50;
+
+/// Share of the other eigenvalues of a power at which one counts as left alone.
+const SINGLE: f64 = 1e-14;
+
+/// The leading eigenvector of a positive matrix; `None` when the largest eigenvalue is not single.
+fn leading(m: &SMatrix<f64, 9, 9>) -> Option<SMatrix<f64, 9, 1>> {
+    let mut power = m / m.trace();
+    for _ in 0..MOST_SQUARINGS {
+        let square = symmetric_square(&power);
+        let trace = square.trace(); // Σ λ² where Σ λ = 1: it is 1 when one λ is left
+        power = square / trace;
+        if 1.0 - trace < SINGLE {
+            let largest = power.diagonal().imax();
+            let x = power.column(largest).normalize();
+            return Some((m * x).normalize()); // one step with m itself takes off the rounding
+        }
     }
-    let inverse = linalg::invert_spd(&normal).ok_or(Error::NotDetermined {
-        what: "the motions do not fix the camera's position".into(),
-    })?;
-    let mut t = inverse * rhs;
-    t += inverse * (rhs - normal * t);
-    let half = |k| Vector3::new(t[k], t[k + 1], t[k + 2]);
-    Ok((half(0), half(3) + offset))
+    None
+}
+
+fn symmetric_square(m: &SMatrix<f64, 9, 9>) -> SMatrix<f64, 9, 9> {
+    let mut square = SMatrix::<f64, 9, 9>::zeros();
+    for j in 0..9 {
+        for i in 0..=j {
+            let entry = m.column(i).dot(&m.column(j));
+            square[(i, j)] = entry;
+            square[(j, i)] = entry;
+        }
+    }
+    square
 }
