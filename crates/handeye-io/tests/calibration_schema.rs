@@ -5,12 +5,12 @@
 use std::{collections::BTreeSet, fs};
 
 use handeye::{
-    Calibration, Pose, Setup, Verdict, Warning,
+    Calibration, Distortion, Intrinsics, Pose, Setup, Verdict, Warning,
     calibration::{
-        Answer, BudgetEntry, Candidate, CaptureResult, Diversity, Misfit, PoseCovariance, Scale,
-        TouchResult,
+        Advice, Answer, BudgetEntry, CameraResult, Candidate, CaptureResult, DepthResult,
+        Diversity, Misfit, PoseCovariance, Scale, TouchResult,
     },
-    predict::PredictedTre,
+    predict::{PredictedTre, TreMap, TreSlice},
 };
 use nalgebra::Vector3;
 use serde_json::Value;
@@ -48,7 +48,17 @@ fn full() -> Calibration {
             predicted_tre_mm: Some(0.0),
             note: Some("n".into()),
         }],
-        predicted_tre_mm: Some(PredictedTre { rms: 0.0, p95: 0.0, r#where: "w".into() }),
+        predicted_tre_mm: Some(PredictedTre {
+            rms: 0.0,
+            p95: 0.0,
+            r#where: "w".into(),
+            map: Some(TreMap {
+                frame: "camera".into(),
+                minimum_mm: [0.0; 3],
+                maximum_mm: [1.0; 3],
+                slices: vec![TreSlice { axes: [0, 1], p95_mm: vec![vec![Some(1.0)]] }],
+            }),
+        }),
         residual: misfit,
         held_out: misfit,
         captures: vec![CaptureResult {
@@ -86,10 +96,24 @@ fn full() -> Calibration {
             sigma: "s".into(),
             sigma_mm: Some(0.0),
             sigma_deg: Some(0.0),
+            sigma_uncertainty: Some(0.1),
+            at_workpiece_mm: Some(0.0),
         }],
+        advice: vec![Advice { change: "c".into(), predicted_tre_mm: 0.0 }],
         time_offset_s: 0.0,
         scale: 1.0,
         target_scale: Some(Scale { value: 1.0, sigma: 0.0 }),
+        camera: Some(CameraResult {
+            intrinsics: Intrinsics {
+                distortion: Distortion::BrownConrady([0.0; 12]),
+                ..Intrinsics::pinhole(1, 1, 1.0, 1.0, 0.0, 0.0)
+            },
+            sigma_fx: 0.0,
+            sigma_fy: 0.0,
+            sigma_cx: 0.0,
+            sigma_cy: 0.0,
+        }),
+        depth: Some(DepthResult { scale: 1.0, sigma_scale: 0.0, bias_mm: 0.0, sigma_bias_mm: 0.0 }),
         warnings: vec![Warning::new("code", "message")],
     }
 }

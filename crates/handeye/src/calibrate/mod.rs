@@ -7,6 +7,7 @@
 
 mod agreement;
 mod boards;
+mod budget;
 mod candidates;
 mod captures;
 mod joint;
@@ -184,6 +185,7 @@ fn empty(session: &Session) -> Calibration {
         undetermined: vec![],
         diversity: None,
         error_budget: vec![],
+        advice: vec![],
         time_offset_s: 0.0,
         scale: 1.0,
         target_scale: None,
