@@ -14,6 +14,8 @@ mod report;
 mod simulate;
 mod solve;
 mod target;
+mod tcp;
+mod verify;
 
 use std::{env, process::ExitCode};
 
@@ -57,6 +59,8 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Init(args) => init::run(args, &program.manners),
         Command::Target(args) => target::run(args, &program.manners),
         Command::Repeat(args) => repeat::run(args, &program.manners),
+        Command::Tcp(args) => tcp::run(args, &program.manners),
+        Command::Verify(args) => verify::run(args, &program.manners),
         Command::Detect(args) => detect::run(args, &program.manners),
         Command::Simulate(args) => simulate::run(args, &program.manners),
         Command::Demo(args) => demo::run(args, &program.manners),

@@ -5,6 +5,7 @@ mod manifest;
 mod opening;
 mod pairing;
 mod poses;
+mod robot_file;
 mod touches;
 
 use std::path::{Path, PathBuf};
@@ -22,6 +23,7 @@ use crate::{
 };
 use manifest::{Manifest, Source};
 use opening::Opening;
+pub use robot_file::{RobotFile, RobotPoses, columns, read_robot_poses};
 pub use touches::FIXED_BOARD;
 
 /// Name of the manifest in a folder.

@@ -6,6 +6,7 @@
 mod picture;
 mod plot;
 mod scene;
+mod touch_test;
 
 use std::fmt::Write;
 
@@ -15,6 +16,7 @@ use handeye::{
 };
 
 pub use picture::{MarkedCorner, Picture};
+pub use touch_test::{TouchTest, touch_test_html};
 
 /// What the page shows.
 pub struct Report<'a> {
