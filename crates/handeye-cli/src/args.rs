@@ -39,6 +39,8 @@ pub enum Command {
     Calibrate(CalibrateArgs),
     /// Solve for the transform from pairs of robot and target poses in a JSON file.
     Solve(SolveArgs),
+    /// Say what is wrong with a dataset: notation, units, direction, order, size, strays.
+    Check(CheckArgs),
     /// Write a result as a robot, ROS, OpenCV or another program reads it.
     Export(ExportArgs),
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
@@ -292,4 +294,25 @@ pub struct VerifyArgs {
     /// Folder for verify.html; it is made if need be.
     #[arg(long, short)]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `check`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye check cell/\n  handeye check cell/ --apply\n  handeye check cell.toml --root /data/cell --json\n\n\
+Reads the robot's numbers in every notation, unit and direction, in other orders, and with another\n\
+size of the target, and says which explains the captures best. --apply writes the corrected\n\
+manifest and keeps the old one as handeye.toml.bak; only for a single explanation that a manifest\n\
+can express.\n\n\
+Exit code 0: nothing is wrong; 3: something is."
+)]
+pub struct CheckArgs {
+    /// Folder with `handeye.toml`, or a manifest.
+    pub dataset: PathBuf,
+    /// Where the manifest's names are relative to, if not to its own folder.
+    #[arg(long)]
+    pub root: Option<PathBuf>,
+    /// Write the corrected manifest.
+    #[arg(long)]
+    pub apply: bool,
 }

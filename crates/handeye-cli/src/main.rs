@@ -2,6 +2,7 @@
 
 mod args;
 mod calibrate;
+mod check;
 mod demo;
 mod detect;
 mod export;
@@ -61,6 +62,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Repeat(args) => repeat::run(args, &program.manners),
         Command::Tcp(args) => tcp::run(args, &program.manners),
         Command::Verify(args) => verify::run(args, &program.manners),
+        Command::Check(args) => check::run(args, &program.manners),
         Command::Detect(args) => detect::run(args, &program.manners),
         Command::Simulate(args) => simulate::run(args, &program.manners),
         Command::Demo(args) => demo::run(args, &program.manners),

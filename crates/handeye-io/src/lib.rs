@@ -28,8 +28,9 @@ mod xml;
 
 pub use camera::read_intrinsics;
 pub use dataset::{
-    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource, RobotFile,
-    RobotPoses, WorkspaceBox, WorkspaceFrame, columns, read_robot_poses,
+    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource, Rereading,
+    RobotFile, RobotPoses, WorkspaceBox, WorkspaceFrame, amended, columns, read_robot_poses,
+    rereadings,
 };
 pub use error::{Error, Place};
 pub use files::write_atomically;

@@ -484,19 +484,20 @@ mod tests {
         assert!((a.tip_in_flange.vector() - b.point_in_base.vector()).norm() < 1e-9);
     }
 
-    /// Errors over their covariance, times 3 degrees of freedom: with few poses the covariance is
-    /// that of Student's t.
+    /// The covariance is that of Student's t: 95 of 100 errors lie within the F-limit.
     #[test]
     fn the_error_stays_inside_the_covariance() {
         for count in [5, 8, 20] {
             let mut random = Random::new(count as u64);
-            let square = |_| {
+            let dof = 3.0 * count as f64 - 6.0;
+            let limit = 3.0 / few(dof) * FisherSnedecor::new(3.0, dof).unwrap().inverse_cdf(0.95);
+            let mut inside = |_: &i32| {
                 let found = pivot(&poses(count, [0.6; 3], 4e-4, &mut random), 1e-2).unwrap();
                 let e = found.tip_in_flange.vector() - Vector3::from(TIP);
-                e.dot(&(found.tip_covariance.unwrap().try_inverse().unwrap() * e))
+                e.dot(&(found.tip_covariance.unwrap().try_inverse().unwrap() * e)) < limit
             };
-            let mean = (0..400).map(square).sum::<f64>() / 400.0;
-            assert!((2.3..3.6).contains(&mean), "{count} poses: {mean}");
+            let inside = (0..400).filter(|k| inside(k)).count();
+            assert!((368..394).contains(&inside), "{count} poses: {inside} of 400 inside 95 %");
         }
     }
 

@@ -5,6 +5,7 @@ mod manifest;
 mod opening;
 mod pairing;
 mod poses;
+mod rereading;
 mod robot_file;
 mod touches;
 
@@ -23,6 +24,7 @@ use crate::{
 };
 use manifest::{Manifest, Source};
 use opening::Opening;
+pub use rereading::{Rereading, amended, rereadings};
 pub use robot_file::{RobotFile, RobotPoses, columns, read_robot_poses};
 pub use touches::FIXED_BOARD;
 
@@ -77,6 +79,8 @@ pub struct CaptureSource {
     pub corners: Option<Vec<ImageCorner>>,
     /// The board's pose found by another program.
     pub camera_from_target: Option<Pose<Camera, Target>>,
+    /// Which record of the robot's file.
+    pub(crate) robot_record: usize,
 }
 
 /// A board lying still, and the files of what the camera saw of it.

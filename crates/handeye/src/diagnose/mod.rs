@@ -1,5 +1,7 @@
 //! Which mistake explains bad data: inversion, scale, exchange, stale poses.
 
+pub mod explain;
+
 use crate::{
     Pose, PosePair, Setup, Target, predict,
     refine::{self, Extra, ExtraKind, JointFit, Problem, TARGET_SCALE, View, noise::KnownNoise},

@@ -1,0 +1,554 @@
+//! The mistake that explains bad data best: readings, order, size, and captures that do not belong.
+//!
+//! A reading of the stored numbers is judged by the loop `E = Y⁻¹ A X C` that the captures close
+//! under it:
+//!
+//! ```text
+//! d² = (angle(E) / 0.05°)² + (|t(E)| / 0.7 mm)²        score² = exp(mean ln(1 + d²)) - 1
+//! ```
+//!
+//! The mean of the logarithm hears every capture and lets none shout: a few wrong ones cost little,
+//! a reading that fits three captures alone costs much. Rotation and translation must both count:
+//! permuting Euler axes conjugates every rotation by a fixed one, which `X` takes up, and only the
+//! translations tell. What `X` cannot take up are the invariants of `A X = X B`: the motions of
+//! robot and camera have the same angle and the same pitch (H. Chen, *A screw motion approach to
+//! uniqueness analysis of head-eye geometry*, CVPR 1991); they sift readings and orders without a
+//! fit.
+//!
+//! No data tell robot poses inverted from the camera on the other body, nor, where target poses
+//! came from elsewhere, from those inverted: `A⁻¹ X = Y B` is `A Y = X B⁻¹`. An axis of the base
+//! mirrored is any other one mirrored, turned.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+
+use super::{TargetScale, exchanged};
+use crate::{
+    Camera, HandEye, Pose, PosePair, Target, lie, linalg,
+    solve::{
+        self, FEWEST_POSES, Method,
+        consensus::{self, Consensus, Readings, median},
+        motions,
+    },
+};
+
+/// Rotation that counts as one unit of misfit, rad.
+const UNIT_ANGLE: f64 = 0.05 / 180.0 * std::f64::consts::PI;
+/// Distance that counts as one unit of misfit, m.
+const UNIT_DISTANCE: f64 = 0.7e-3;
+/// An explanation must lower the score to this part of the declared one.
+pub const EXPLAINS: f64 = 1.0 / 3.0;
+/// Explanations whose scores differ by less than this factor cannot be told apart.
+pub const ALIKE: f64 = 1.5;
+/// Fewest captures that contradict a wrong reading.
+pub const FEWEST: usize = 4;
+
+/// How well the captures agree under one reading.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Score {
+    /// Combined misfit, in units of an industrial robot's error.
+    pub score: f64,
+    /// Median misfit of all captures, degrees.
+    pub rotation_deg: f64,
+    /// Median misfit of all captures, mm.
+    pub translation_mm: f64,
+    /// Captures that agree.
+    pub agree: usize,
+}
+
+/// How the order of one list against the other is wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// Picture `i` belongs to robot pose `i + k`, counted round.
+    Shifted(usize),
+    /// The last picture belongs to the first robot pose.
+    Reversed,
+}
+
+impl Order {
+    /// Robot pose of picture `i` of `n`.
+    pub fn robot_of(self, i: usize, n: usize) -> usize {
+        match self {
+            Order::Shifted(k) => (i + k) % n,
+            Order::Reversed => n - 1 - i,
+        }
+    }
+}
+
+/// A mistake.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Fault {
+    /// The numbers mean another thing: which of the readings on offer.
+    Reading(usize),
+    /// Pictures and robot poses are in different orders.
+    Order(Order),
+    /// Captures whose pictures were exchanged, in pairs.
+    Exchanged(Vec<(usize, usize)>),
+    /// The target has another size than declared, or the robot another scale.
+    Scale(TargetScale),
+    /// From the first to the last of these captures the target lay elsewhere.
+    TargetMoved(usize, usize),
+    /// From the first to the last of these captures the camera sat elsewhere on its mount.
+    CameraMoved(usize, usize),
+    /// The robot pose stood still while the camera moved: captures that share a pose.
+    RobotStill(Vec<usize>),
+    /// The camera saw the same while the robot moved.
+    CameraStill(Vec<usize>),
+    /// Captures that repeat one another.
+    Repeated(Vec<usize>),
+}
+
+/// A mistake with its evidence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// Which.
+    pub fault: Fault,
+    /// The captures with it corrected; `None` where correcting needs new captures.
+    pub after: Option<Score>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// The captures as declared; `None` when they agree on nothing at all.
+    pub declared: Option<Score>,
+    /// Explanations, best first.
+    pub findings: Vec<Finding>,
+    /// How many of the first explanations the data cannot tell apart.
+    pub alike: usize,
+    /// The best reading or order that does not explain: how far the others are away.
+    pub runner_up: Option<(Fault, Score)>,
+}
+
+/// Looks for mistakes. `readings` are other meanings of the same numbers, as many captures each.
+pub fn explain(declared: &[Readings], readings: &[Vec<Readings>]) -> Diagnosis {
+    let as_declared = scored(declared);
+    let before = as_declared.as_ref().map_or(f64::INFINITY, |(s, _)| s.score);
+    let mut wholesale = judged_readings(readings, before);
+    wholesale.extend(orders(declared));
+    let size = wrong_size(declared, as_declared.as_ref());
+    wholesale.extend(size.clone());
+    wholesale.sort_by(|a, b| after(a).total_cmp(&after(b)));
+    let explains = |f: &Finding| after(f) < EXPLAINS * before;
+    let (mut findings, rest): (Vec<_>, Vec<_>) = wholesale.into_iter().partition(explains);
+    let alike = findings.iter().filter(|f| after(f) < ALIKE * after(&findings[0])).count();
+    if findings.is_empty() {
+        // a size that is wrong by a little explains a little
+        findings.extend(size);
+        findings.extend(as_declared.iter().flat_map(|(_, found)| strays(declared, found)));
+    }
+    findings.extend(repeats(declared));
+    let runner_up = rest
+        .iter()
+        .find(|f| !matches!(f.fault, Fault::Scale(_)))
+        .and_then(|f| Some((f.fault.clone(), f.after?)));
+    Diagnosis {
+        declared: as_declared.map(|(s, _)| s),
+        alike: alike.max(usize::from(!findings.is_empty())),
+        findings,
+        runner_up,
+    }
+}
+
+fn after(finding: &Finding) -> f64 {
+    finding.after.map_or(f64::INFINITY, |s| s.score)
+}
+
+/// The score of captures, and what they agree on.
+pub fn scored(captures: &[Readings]) -> Option<(Score, Consensus)> {
+    let found = consensus::consensus(captures).ok()?;
+    Some((score(captures, &found.hand_eye, &found), found))
+}
+
+fn pair(capture: &Readings, reading: usize) -> PosePair {
+    PosePair {
+        anchor_from_mount: capture.anchor_from_mount,
+        camera_from_target: capture.camera_from_target[reading],
+    }
+}
+
+fn score(captures: &[Readings], hand_eye: &HandEye, found: &Consensus) -> Score {
+    let errors: Vec<(f64, f64)> = (0..captures.len())
+        .filter(|&i| !captures[i].camera_from_target.is_empty())
+        .map(|i| {
+            let e = hand_eye.loop_error(&pair(&captures[i], found.reading[i]));
+            (e.iso().rotation.angle(), e.translation().norm())
+        })
+        .collect();
+    Score {
+        score: combined(&errors),
+        rotation_deg: median(errors.iter().map(|e| e.0).collect()).to_degrees(),
+        translation_mm: median(errors.iter().map(|e| e.1).collect()) * 1e3,
+        agree: found.agrees.iter().filter(|a| **a).count(),
+    }
+}
+
+fn combined(errors: &[(f64, f64)]) -> f64 {
+    let log =
+        |&(r, t): &(f64, f64)| ((r / UNIT_ANGLE).powi(2) + (t / UNIT_DISTANCE).powi(2)).ln_1p();
+    (errors.iter().map(log).sum::<f64>() / errors.len().max(1) as f64).exp_m1().sqrt()
+}
+
+/// Readings that are fitted in full, best first by their quick scores.
+const MOST_FITTED: usize = 8;
+/// Quick scores beyond this part of the declared one are not worth a fit, unless all are bad.
+const WORTH_A_FIT: f64 = 3.0;
+
+fn judged_readings(readings: &[Vec<Readings>], before: f64) -> Vec<Finding> {
+    let mut quick: Vec<(f64, usize)> =
+        readings.iter().enumerate().map(|(k, r)| (quick_score(r), k)).collect();
+    quick.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // boards that look the same turned round, and wrong captures, spoil the quick score: then fit all
+    let spoilt = readings.iter().flatten().any(|c| c.camera_from_target.len() > 1)
+        && quick.first().is_some_and(|q| q.0 > before.min(10.0));
+    let worth =
+        |(k, q): (usize, &(f64, usize))| spoilt || (k < MOST_FITTED && q.0 < WORTH_A_FIT * before);
+    let chosen = quick.iter().enumerate().filter(|&(k, q)| worth((k, q)));
+    let judge = |(_, &(_, k)): (usize, &(f64, usize))| {
+        let captures = &readings[k];
+        if spoilt && angle_misfit(captures) > SIFTED {
+            return None;
+        }
+        let (score, _) = scored(captures)?;
+        Some(Finding { fault: Fault::Reading(k), after: Some(score) })
+    };
+    chosen.filter_map(judge).collect()
+}
+
+/// Median difference of the angles of robot and camera motions beyond which a reading is dropped
+/// without a fit: 5 degrees.
+const SIFTED: f64 = 0.087;
+
+/// One closed form over all captures in their first readings.
+fn quick_score(captures: &[Readings]) -> f64 {
+    let pairs: Vec<PosePair> =
+        captures.iter().filter(|c| !c.camera_from_target.is_empty()).map(|c| pair(c, 0)).collect();
+    let Ok(found) = solve::solve(&pairs, Method::Shah) else { return f64::INFINITY };
+    let error = |p: &PosePair| {
+        let e = found.loop_error(p);
+        (e.iso().rotation.angle(), e.translation().norm())
+    };
+    combined(&pairs.iter().map(error).collect::<Vec<_>>())
+}
+
+/// Captures in pairs at which the invariants are taken, at most.
+const MOST_INVARIANTS: usize = 400;
+
+/// Median over motions of the difference between the robot's angle and the camera's, rad.
+fn angle_misfit(captures: &[Readings]) -> f64 {
+    let n = captures.len();
+    let all: Vec<(usize, usize)> = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).collect();
+    let step = (all.len() / MOST_INVARIANTS).max(1);
+    let misfit = |&(i, j): &(usize, usize)| {
+        let (a, b) = (&captures[i], &captures[j]);
+        let robot = a.anchor_from_mount.angle_to(&b.anchor_from_mount);
+        let turns = a.camera_from_target.iter().flat_map(|x| {
+            b.camera_from_target
+                .iter()
+                .map(move |y| lie::angle(&x.iso().rotation.inverse(), &y.iso().rotation.inverse()))
+        });
+        turns.map(|camera| (robot - camera).abs()).reduce(f64::min)
+    };
+    median(all.iter().step_by(step).filter_map(misfit).collect())
+}
+
+/// Median misfit of both invariants, in units of the score, with picture `i` at robot pose
+/// `order(i)`; the first readings alone.
+fn invariant_misfit(captures: &[Readings], order: Order) -> f64 {
+    let n = captures.len();
+    let at = |i: usize| {
+        Some(PosePair {
+            anchor_from_mount: captures[order.robot_of(i, n)].anchor_from_mount,
+            camera_from_target: *captures[i].camera_from_target.first()?,
+        })
+    };
+    let pairs: Vec<PosePair> = (0..n).filter_map(at).collect();
+    let misfit = |m: &motions::Motion| {
+        let (wa, wb) = (lie::so3_log(&m.a.rotation), lie::so3_log(&m.b.rotation));
+        let angle = (wa.norm() - wb.norm()) / UNIT_ANGLE;
+        let pitch = |w: &Vector3<f64>, t: &Vector3<f64>| {
+            w.try_normalize(0.05).map_or(0.0, |axis| axis.dot(t))
+        };
+        let pitch = pitch(&wa, &m.a.translation.vector) - pitch(&wb, &m.b.translation.vector);
+        angle.hypot(pitch / UNIT_DISTANCE)
+    };
+    median(motions::motions(&pairs).iter().map(misfit).collect())
+}
+
+/// Orders that are fitted in full, best invariants first.
+const MOST_ORDERS: usize = 3;
+
+fn orders(captures: &[Readings]) -> Vec<Finding> {
+    let n = captures.len();
+    if n < FEWEST {
+        return vec![];
+    }
+    let shifts = (1..n).map(Order::Shifted);
+    let mut all: Vec<(f64, Order)> = shifts
+        .chain([Order::Reversed])
+        .map(|order| (invariant_misfit(captures, order), order))
+        .collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let judge = |&(_, order): &(f64, Order)| {
+        let (score, _) = scored(&reordered(captures, order))?;
+        Some(Finding { fault: Fault::Order(order), after: Some(score) })
+    };
+    all.iter().take(MOST_ORDERS).filter_map(judge).collect()
+}
+
+/// Captures with their robot poses in another order.
+pub fn reordered(captures: &[Readings], order: Order) -> Vec<Readings> {
+    let n = captures.len();
+    let with = |i: usize| Readings {
+        anchor_from_mount: captures[order.robot_of(i, n)].anchor_from_mount,
+        camera_from_target: captures[i].camera_from_target.clone(),
+    };
+    (0..n).map(with).collect()
+}
+
+/// Wrong size below this part is within what printers and lenses do.
+const LEAST_SCALE_ERROR: f64 = 0.005;
+/// Chance of such a size when the declared one is right, below which it is called wrong.
+const IMPROBABLE: f64 = 1e-3;
+/// The spread of positions must be known this well: a size that is uncertain by more tells nothing.
+const MOST_UNCERTAIN: f64 = 0.1;
+/// Captures that agree once the size is right, of all.
+const MOST_AGREE: f64 = 0.6;
+
+fn wrong_size(captures: &[Readings], declared: Option<&(Score, Consensus)>) -> Option<Finding> {
+    let scale = size(captures)?;
+    let off = (scale.value - 1.0).abs();
+    let uncertain = scale.sigma / scale.value;
+    if off < LEAST_SCALE_ERROR || scale.p_value > IMPROBABLE || uncertain > MOST_UNCERTAIN {
+        return None;
+    }
+    let (after, _) = scored(&rescaled(captures, scale.value))?;
+    let before = declared.map_or(f64::INFINITY, |(s, _)| s.score);
+    let agrees = after.agree as f64 >= MOST_AGREE * captures.len() as f64;
+    (after.score < before && agrees)
+        .then_some(Finding { fault: Fault::Scale(scale), after: Some(after) })
+}
+
+/// Captures as they would be with a target `s` times as large.
+pub fn rescaled(captures: &[Readings], s: f64) -> Vec<Readings> {
+    let larger = |pose: &Pose<Camera, Target>| {
+        let mut iso = *pose.iso();
+        iso.translation.vector *= s;
+        Pose::claim(iso)
+    };
+    let one = |c: &Readings| Readings {
+        anchor_from_mount: c.anchor_from_mount,
+        camera_from_target: c.camera_from_target.iter().map(larger).collect(),
+    };
+    captures.iter().map(one).collect()
+}
+
+/// Rounds in which the fit and the size are found in turn.
+const SIZE_ROUNDS: usize = 4;
+
+/// Size of the target as the robot sees it: the linear system `R_A t_X + t_A = s R_Y t_B + t_Y` in
+/// `t_X`, `t_Y` and `s`, with rotations of a fit at the size found before.
+pub fn size(captures: &[Readings]) -> Option<TargetScale> {
+    let mut at = 1.0;
+    let mut last = None;
+    for _ in 0..SIZE_ROUNDS {
+        let resized = rescaled(captures, at);
+        let (pairs, hand_eye) = fitted(&resized)?;
+        let found = size_of(&pairs, &hand_eye)?;
+        if !(found.value > 1e-4 && found.value < 1e4) {
+            return None;
+        }
+        at *= found.value;
+        let relative = found.sigma * at / found.value;
+        let done = (found.value - 1.0).abs() < 0.1 * found.sigma;
+        last = Some((relative, pairs.len()));
+        if done {
+            break;
+        }
+    }
+    let (sigma, count) = last?;
+    let dof = 3.0 * count as f64 - 7.0;
+    let f = ((at - 1.0) / sigma).powi(2);
+    let p_value = FisherSnedecor::new(1.0, dof).ok()?.sf(f);
+    Some(TargetScale { value: at, sigma, p_value })
+}
+
+/// Captures that agree and what they agree on; all of them in a closed form, whose rotations do not
+/// depend on the size, where fewer than most do.
+fn fitted(captures: &[Readings]) -> Option<(Vec<PosePair>, HandEye)> {
+    let found = consensus::consensus(captures).ok()?;
+    let agrees = |i: &usize| found.agrees[*i] && !captures[*i].camera_from_target.is_empty();
+    let used: Vec<usize> = (0..captures.len()).filter(agrees).collect();
+    if used.len() as f64 >= MOST_AGREE * captures.len() as f64 && used.len() >= FEWEST {
+        let pairs: Vec<_> = used.iter().map(|&i| pair(&captures[i], found.reading[i])).collect();
+        return closed_form(pairs);
+    }
+    let readable = (0..captures.len()).filter(|&i| !captures[i].camera_from_target.is_empty());
+    closed_form(readable.map(|i| pair(&captures[i], found.reading[i])).collect())
+}
+
+fn closed_form(pairs: Vec<PosePair>) -> Option<(Vec<PosePair>, HandEye)> {
+    let hand_eye = solve::solve(&pairs, Method::Shah).ok()?;
+    (pairs.len() >= FEWEST).then_some((pairs, hand_eye))
+}
+
+fn size_of(pairs: &[PosePair], at: &HandEye) -> Option<TargetScale> {
+    let n = pairs.len();
+    let (mut j, mut right) = (DMatrix::zeros(3 * n, 7), DVector::zeros(3 * n));
+    let r_y = at.anchor_from_target.rotation();
+    for (k, p) in pairs.iter().enumerate() {
+        j.fixed_view_mut::<3, 3>(3 * k, 0).copy_from(&p.r_a());
+        j.fixed_view_mut::<3, 3>(3 * k, 3).copy_from(&-Matrix3::identity());
+        j.fixed_view_mut::<3, 1>(3 * k, 6).copy_from(&-(r_y * p.t_b()));
+        right.fixed_rows_mut::<3>(3 * k).copy_from(&-p.t_a());
+    }
+    let inverse = linalg::inverse_spd(&(j.transpose() * &j))?;
+    let solution = &inverse * (j.transpose() * &right);
+    let rest = (&j * &solution - &right).norm_squared().max(n as f64 * 1e-16);
+    let dof = 3.0 * n as f64 - 7.0;
+    let sigma = (inverse[(6, 6)] * rest / dof).sqrt();
+    Some(TargetScale { value: solution[6], sigma, p_value: f64::NAN })
+}
+
+/// Captures beyond the agreement: exchanged, or from before or after something moved.
+fn strays(captures: &[Readings], found: &Consensus) -> Vec<Finding> {
+    let limit = limits(captures, found);
+    let mut all = Vec::new();
+    let swapped: Vec<(usize, usize)> = exchanged(captures, found, limit)
+        .into_iter()
+        .filter(|&(i, j)| i < j && exchanged_back(captures, found, limit, (j, i)))
+        .collect();
+    if !swapped.is_empty() {
+        let mut corrected = captures.to_vec();
+        for &(i, j) in &swapped {
+            let other = corrected[j].camera_from_target.clone();
+            corrected[j].camera_from_target =
+                std::mem::replace(&mut corrected[i].camera_from_target, other);
+        }
+        let after = scored(&corrected).map(|(s, _)| s);
+        all.push(Finding { fault: Fault::Exchanged(swapped), after });
+    }
+    all.extend(moved(captures, found, limit));
+    all
+}
+
+/// Whether the second picture fits the first robot pose as well.
+fn exchanged_back(
+    captures: &[Readings],
+    found: &Consensus,
+    limit: (f64, f64),
+    (picture, robot): (usize, usize),
+) -> bool {
+    captures[picture].camera_from_target.iter().any(|&camera_from_target| {
+        let anchor_from_mount = captures[robot].anchor_from_mount;
+        let e = found.hand_eye.loop_error(&PosePair { anchor_from_mount, camera_from_target });
+        e.iso().rotation.angle() < limit.0 && e.translation().norm() < limit.1
+    })
+}
+
+/// Misfit that still belongs: several times the median of those that agree. rad and m.
+fn limits(captures: &[Readings], found: &Consensus) -> (f64, f64) {
+    let (angles, distances) = (0..captures.len())
+        .filter(|&i| found.agrees[i] && !captures[i].camera_from_target.is_empty())
+        .map(|i| {
+            let e = found.hand_eye.loop_error(&pair(&captures[i], found.reading[i]));
+            (e.iso().rotation.angle(), e.translation().norm())
+        })
+        .unzip();
+    (5.0 * median(angles).max(5e-4), 5.0 * median(distances).max(3e-4))
+}
+
+/// A run of captures that agree with each other, but not with the rest: the target, or the camera,
+/// was somewhere else during it.
+fn moved(captures: &[Readings], found: &Consensus, limit: (f64, f64)) -> Option<Finding> {
+    let n = captures.len();
+    let out: Vec<usize> = (0..n).filter(|&i| !found.agrees[i]).collect();
+    let (first, last) = (*out.first()?, *out.last()?);
+    // one capture is a stray, not a run; and half of them must not have moved
+    if out.len() < 2 || last - first + 1 != out.len() || 2 * out.len() > n {
+        return None;
+    }
+    let HandEye { mount_from_camera: x, anchor_from_target: y } = found.hand_eye;
+    let seen = |i: usize| captures[i].camera_from_target.iter().copied();
+    let spread = |places: Vec<Vec<nalgebra::Isometry3<f64>>>| {
+        let start = places.first()?.clone();
+        let from = |s: &nalgebra::Isometry3<f64>| {
+            let far = |of: &Vec<nalgebra::Isometry3<f64>>| {
+                let apart = |p: &nalgebra::Isometry3<f64>| {
+                    let e = s.inv_mul(p);
+                    (e.rotation.angle() / limit.0).hypot(e.translation.vector.norm() / limit.1)
+                };
+                of.iter().map(apart).reduce(f64::min).unwrap_or(f64::INFINITY)
+            };
+            places.iter().map(far).fold(0.0, f64::max)
+        };
+        start.iter().map(from).reduce(f64::min)
+    };
+    let target = |&i: &usize| -> Vec<_> {
+        seen(i).map(|c| *(captures[i].anchor_from_mount * x * c).iso()).collect()
+    };
+    let camera = |&i: &usize| -> Vec<_> {
+        seen(i)
+            .map(|c| *(captures[i].anchor_from_mount.inverse() * y * c.inverse()).iso())
+            .collect()
+    };
+    let by_target = spread(out.iter().map(target).collect()).unwrap_or(f64::INFINITY);
+    let by_camera = spread(out.iter().map(camera).collect()).unwrap_or(f64::INFINITY);
+    let fault = match by_target <= by_camera {
+        true => Fault::TargetMoved(first, last),
+        false => Fault::CameraMoved(first, last),
+    };
+    (by_target.min(by_camera) < 1.0).then_some(Finding { fault, after: None })
+}
+
+/// Robot poses this close were stored twice, not reached twice. rad and m.
+const SAME_ROBOT: (f64, f64) = (1e-6, 1e-6);
+/// Target poses this close show the same picture.
+const SAME_VIEW: (f64, f64) = (3e-3, 1e-3);
+/// A motion beyond this is none of noise. rad and m.
+const MOTION: (f64, f64) = (0.03, 0.01);
+
+/// Poses that stood still.
+fn repeats(captures: &[Readings]) -> Vec<Finding> {
+    let robot_same = |i: usize, j: usize| {
+        let (a, b) = (&captures[i].anchor_from_mount, &captures[j].anchor_from_mount);
+        a.angle_to(b) < SAME_ROBOT.0 && a.distance_to(b) < SAME_ROBOT.1
+    };
+    let apart = |i: usize, j: usize| {
+        let (a, b) = (&captures[i].anchor_from_mount, &captures[j].anchor_from_mount);
+        a.angle_to(b) > MOTION.0 || a.distance_to(b) > MOTION.1
+    };
+    let view = |i: usize, j: usize, near: (f64, f64)| {
+        captures[i].camera_from_target.iter().any(|a| {
+            captures[j]
+                .camera_from_target
+                .iter()
+                .any(|b| a.angle_to(b) < near.0 && a.distance_to(b) < near.1)
+        })
+    };
+    let groups = [
+        (partners(captures.len(), |i, j| robot_same(i, j) && !view(i, j, MOTION)), 0),
+        (partners(captures.len(), |i, j| apart(i, j) && view(i, j, SAME_VIEW)), 1),
+        (partners(captures.len(), |i, j| robot_same(i, j) && view(i, j, SAME_VIEW)), 2),
+    ];
+    let finding = |(which, kind): (Vec<usize>, usize)| {
+        let fault = match kind {
+            0 => Fault::RobotStill(which),
+            1 => Fault::CameraStill(which),
+            _ => Fault::Repeated(which),
+        };
+        Finding { fault, after: None }
+    };
+    groups.into_iter().filter(|(which, _)| !which.is_empty()).map(finding).collect()
+}
+
+/// Everyone who has a partner.
+fn partners(n: usize, with: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    (0..n).filter(|&i| (0..n).any(|j| j != i && with(i.min(j), i.max(j)))).collect()
+}
+
+/// Whether there are captures enough to contradict a wrong reading.
+pub fn is_enough(captures: &[Readings]) -> bool {
+    let seen = captures.iter().filter(|c| !c.camera_from_target.is_empty()).count();
+    seen >= FEWEST.max(FEWEST_POSES)
+}
