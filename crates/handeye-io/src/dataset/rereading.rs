@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use handeye::{Base, Flange, Pose, Tool};
+use handeye::{Base, Flange, Pose, Tool, diagnose::explain::REACH};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::{
@@ -28,8 +28,6 @@ pub struct Rereading {
     pub base_from_flange: Vec<Pose<Base, Flange>>,
 }
 
-/// Flanges nearer to the base than this in all captures, or farther, are no robot's. m.
-const REACH: (f64, f64) = (0.05, 6.0);
 /// No angle in radians is larger than one turn.
 const ONE_TURN: f64 = 6.4;
 

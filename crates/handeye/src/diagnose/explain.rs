@@ -19,12 +19,16 @@
 //! came from elsewhere, from those inverted: `A⁻¹ X = Y B` is `A Y = X B⁻¹`. An axis of the base
 //! mirrored is any other one mirrored, turned.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+use nalgebra::Vector3;
 
-use super::{TargetScale, exchanged};
+pub use super::size::{rescaled, size};
+use super::{
+    TargetScale,
+    size::wrong_size,
+    strays::{repeats, strays},
+};
 use crate::{
-    Camera, HandEye, Pose, PosePair, Target, lie, linalg,
+    HandEye, PosePair, lie,
     solve::{
         self, FEWEST_POSES, Method,
         consensus::{self, Consensus, Readings, median},
@@ -42,6 +46,8 @@ pub const EXPLAINS: f64 = 1.0 / 3.0;
 pub const ALIKE: f64 = 1.5;
 /// Fewest captures that contradict a wrong reading.
 pub const FEWEST: usize = 4;
+/// Flanges nearer to the base than this in all captures, or farther, are no robot's. m.
+pub const REACH: (f64, f64) = (0.05, 6.0);
 
 /// How well the captures agree under one reading.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -160,7 +166,7 @@ pub fn scored(captures: &[Readings]) -> Option<(Score, Consensus)> {
     Some((score(captures, &found.hand_eye, &found), found))
 }
 
-fn pair(capture: &Readings, reading: usize) -> PosePair {
+pub(super) fn pair(capture: &Readings, reading: usize) -> PosePair {
     PosePair {
         anchor_from_mount: capture.anchor_from_mount,
         camera_from_target: capture.camera_from_target[reading],
@@ -306,245 +312,9 @@ pub fn reordered(captures: &[Readings], order: Order) -> Vec<Readings> {
     (0..n).map(with).collect()
 }
 
-/// Wrong size below this part is within what printers and lenses do.
-const LEAST_SCALE_ERROR: f64 = 0.005;
-/// Chance of such a size when the declared one is right, below which it is called wrong.
-const IMPROBABLE: f64 = 1e-3;
-/// The spread of positions must be known this well: a size that is uncertain by more tells nothing.
-const MOST_UNCERTAIN: f64 = 0.1;
-/// Captures that agree once the size is right, of all.
-const MOST_AGREE: f64 = 0.6;
-
-fn wrong_size(captures: &[Readings], declared: Option<&(Score, Consensus)>) -> Option<Finding> {
-    let scale = size(captures)?;
-    let off = (scale.value - 1.0).abs();
-    let uncertain = scale.sigma / scale.value;
-    if off < LEAST_SCALE_ERROR || scale.p_value > IMPROBABLE || uncertain > MOST_UNCERTAIN {
-        return None;
-    }
-    let (after, _) = scored(&rescaled(captures, scale.value))?;
-    let before = declared.map_or(f64::INFINITY, |(s, _)| s.score);
-    let agrees = after.agree as f64 >= MOST_AGREE * captures.len() as f64;
-    (after.score < before && agrees)
-        .then_some(Finding { fault: Fault::Scale(scale), after: Some(after) })
-}
-
-/// Captures as they would be with a target `s` times as large.
-pub fn rescaled(captures: &[Readings], s: f64) -> Vec<Readings> {
-    let larger = |pose: &Pose<Camera, Target>| {
-        let mut iso = *pose.iso();
-        iso.translation.vector *= s;
-        Pose::claim(iso)
-    };
-    let one = |c: &Readings| Readings {
-        anchor_from_mount: c.anchor_from_mount,
-        camera_from_target: c.camera_from_target.iter().map(larger).collect(),
-    };
-    captures.iter().map(one).collect()
-}
-
-/// Rounds in which the fit and the size are found in turn.
-const SIZE_ROUNDS: usize = 4;
-
-/// Size of the target as the robot sees it: the linear system `R_A t_X + t_A = s R_Y t_B + t_Y` in
-/// `t_X`, `t_Y` and `s`, with rotations of a fit at the size found before.
-pub fn size(captures: &[Readings]) -> Option<TargetScale> {
-    let mut at = 1.0;
-    let mut last = None;
-    for _ in 0..SIZE_ROUNDS {
-        let resized = rescaled(captures, at);
-        let (pairs, hand_eye) = fitted(&resized)?;
-        let found = size_of(&pairs, &hand_eye)?;
-        if !(found.value > 1e-4 && found.value < 1e4) {
-            return None;
-        }
-        at *= found.value;
-        let relative = found.sigma * at / found.value;
-        let done = (found.value - 1.0).abs() < 0.1 * found.sigma;
-        last = Some((relative, pairs.len()));
-        if done {
-            break;
-        }
-    }
-    let (sigma, count) = last?;
-    let dof = 3.0 * count as f64 - 7.0;
-    let f = ((at - 1.0) / sigma).powi(2);
-    let p_value = FisherSnedecor::new(1.0, dof).ok()?.sf(f);
-    Some(TargetScale { value: at, sigma, p_value })
-}
-
-/// Captures that agree and what they agree on; all of them in a closed form, whose rotations do not
-/// depend on the size, where fewer than most do.
-fn fitted(captures: &[Readings]) -> Option<(Vec<PosePair>, HandEye)> {
-    let found = consensus::consensus(captures).ok()?;
-    let agrees = |i: &usize| found.agrees[*i] && !captures[*i].camera_from_target.is_empty();
-    let used: Vec<usize> = (0..captures.len()).filter(agrees).collect();
-    if used.len() as f64 >= MOST_AGREE * captures.len() as f64 && used.len() >= FEWEST {
-        let pairs: Vec<_> = used.iter().map(|&i| pair(&captures[i], found.reading[i])).collect();
-        return closed_form(pairs);
-    }
-    let readable = (0..captures.len()).filter(|&i| !captures[i].camera_from_target.is_empty());
-    closed_form(readable.map(|i| pair(&captures[i], found.reading[i])).collect())
-}
-
-fn closed_form(pairs: Vec<PosePair>) -> Option<(Vec<PosePair>, HandEye)> {
-    let hand_eye = solve::solve(&pairs, Method::Shah).ok()?;
-    (pairs.len() >= FEWEST).then_some((pairs, hand_eye))
-}
-
-fn size_of(pairs: &[PosePair], at: &HandEye) -> Option<TargetScale> {
-    let n = pairs.len();
-    let (mut j, mut right) = (DMatrix::zeros(3 * n, 7), DVector::zeros(3 * n));
-    let r_y = at.anchor_from_target.rotation();
-    for (k, p) in pairs.iter().enumerate() {
-        j.fixed_view_mut::<3, 3>(3 * k, 0).copy_from(&p.r_a());
-        j.fixed_view_mut::<3, 3>(3 * k, 3).copy_from(&-Matrix3::identity());
-        j.fixed_view_mut::<3, 1>(3 * k, 6).copy_from(&-(r_y * p.t_b()));
-        right.fixed_rows_mut::<3>(3 * k).copy_from(&-p.t_a());
-    }
-    let inverse = linalg::inverse_spd(&(j.transpose() * &j))?;
-    let solution = &inverse * (j.transpose() * &right);
-    let rest = (&j * &solution - &right).norm_squared().max(n as f64 * 1e-16);
-    let dof = 3.0 * n as f64 - 7.0;
-    let sigma = (inverse[(6, 6)] * rest / dof).sqrt();
-    Some(TargetScale { value: solution[6], sigma, p_value: f64::NAN })
-}
-
-/// Captures beyond the agreement: exchanged, or from before or after something moved.
-fn strays(captures: &[Readings], found: &Consensus) -> Vec<Finding> {
-    let limit = limits(captures, found);
-    let mut all = Vec::new();
-    let swapped: Vec<(usize, usize)> = exchanged(captures, found, limit)
-        .into_iter()
-        .filter(|&(i, j)| i < j && exchanged_back(captures, found, limit, (j, i)))
-        .collect();
-    if !swapped.is_empty() {
-        let mut corrected = captures.to_vec();
-        for &(i, j) in &swapped {
-            let other = corrected[j].camera_from_target.clone();
-            corrected[j].camera_from_target =
-                std::mem::replace(&mut corrected[i].camera_from_target, other);
-        }
-        let after = scored(&corrected).map(|(s, _)| s);
-        all.push(Finding { fault: Fault::Exchanged(swapped), after });
-    }
-    all.extend(moved(captures, found, limit));
-    all
-}
-
-/// Whether the second picture fits the first robot pose as well.
-fn exchanged_back(
-    captures: &[Readings],
-    found: &Consensus,
-    limit: (f64, f64),
-    (picture, robot): (usize, usize),
-) -> bool {
-    captures[picture].camera_from_target.iter().any(|&camera_from_target| {
-        let anchor_from_mount = captures[robot].anchor_from_mount;
-        let e = found.hand_eye.loop_error(&PosePair { anchor_from_mount, camera_from_target });
-        e.iso().rotation.angle() < limit.0 && e.translation().norm() < limit.1
-    })
-}
-
-/// Misfit that still belongs: several times the median of those that agree. rad and m.
-fn limits(captures: &[Readings], found: &Consensus) -> (f64, f64) {
-    let (angles, distances) = (0..captures.len())
-        .filter(|&i| found.agrees[i] && !captures[i].camera_from_target.is_empty())
-        .map(|i| {
-            let e = found.hand_eye.loop_error(&pair(&captures[i], found.reading[i]));
-            (e.iso().rotation.angle(), e.translation().norm())
-        })
-        .unzip();
-    (5.0 * median(angles).max(5e-4), 5.0 * median(distances).max(3e-4))
-}
-
-/// A run of captures that agree with each other, but not with the rest: the target, or the camera,
-/// was somewhere else during it.
-fn moved(captures: &[Readings], found: &Consensus, limit: (f64, f64)) -> Option<Finding> {
-    let n = captures.len();
-    let out: Vec<usize> = (0..n).filter(|&i| !found.agrees[i]).collect();
-    let (first, last) = (*out.first()?, *out.last()?);
-    // one capture is a stray, not a run; and half of them must not have moved
-    if out.len() < 2 || last - first + 1 != out.len() || 2 * out.len() > n {
-        return None;
-    }
-    let HandEye { mount_from_camera: x, anchor_from_target: y } = found.hand_eye;
-    let seen = |i: usize| captures[i].camera_from_target.iter().copied();
-    let spread = |places: Vec<Vec<nalgebra::Isometry3<f64>>>| {
-        let start = places.first()?.clone();
-        let from = |s: &nalgebra::Isometry3<f64>| {
-            let far = |of: &Vec<nalgebra::Isometry3<f64>>| {
-                let apart = |p: &nalgebra::Isometry3<f64>| {
-                    let e = s.inv_mul(p);
-                    (e.rotation.angle() / limit.0).hypot(e.translation.vector.norm() / limit.1)
-                };
-                of.iter().map(apart).reduce(f64::min).unwrap_or(f64::INFINITY)
-            };
-            places.iter().map(far).fold(0.0, f64::max)
-        };
-        start.iter().map(from).reduce(f64::min)
-    };
-    let target = |&i: &usize| -> Vec<_> {
-        seen(i).map(|c| *(captures[i].anchor_from_mount * x * c).iso()).collect()
-    };
-    let camera = |&i: &usize| -> Vec<_> {
-        seen(i)
-            .map(|c| *(captures[i].anchor_from_mount.inverse() * y * c.inverse()).iso())
-            .collect()
-    };
-    let by_target = spread(out.iter().map(target).collect()).unwrap_or(f64::INFINITY);
-    let by_camera = spread(out.iter().map(camera).collect()).unwrap_or(f64::INFINITY);
-    let fault = match by_target <= by_camera {
-        true => Fault::TargetMoved(first, last),
-        false => Fault::CameraMoved(first, last),
-    };
-    (by_target.min(by_camera) < 1.0).then_some(Finding { fault, after: None })
-}
-
-/// Robot poses this close were stored twice, not reached twice. rad and m.
-const SAME_ROBOT: (f64, f64) = (1e-6, 1e-6);
-/// Target poses this close show the same picture.
-const SAME_VIEW: (f64, f64) = (3e-3, 1e-3);
-/// A motion beyond this is none of noise. rad and m.
-const MOTION: (f64, f64) = (0.03, 0.01);
-
-/// Poses that stood still.
-fn repeats(captures: &[Readings]) -> Vec<Finding> {
-    let robot_same = |i: usize, j: usize| {
-        let (a, b) = (&captures[i].anchor_from_mount, &captures[j].anchor_from_mount);
-        a.angle_to(b) < SAME_ROBOT.0 && a.distance_to(b) < SAME_ROBOT.1
-    };
-    let apart = |i: usize, j: usize| {
-        let (a, b) = (&captures[i].anchor_from_mount, &captures[j].anchor_from_mount);
-        a.angle_to(b) > MOTION.0 || a.distance_to(b) > MOTION.1
-    };
-    let view = |i: usize, j: usize, near: (f64, f64)| {
-        captures[i].camera_from_target.iter().any(|a| {
-            captures[j]
-                .camera_from_target
-                .iter()
-                .any(|b| a.angle_to(b) < near.0 && a.distance_to(b) < near.1)
-        })
-    };
-    let groups = [
-        (partners(captures.len(), |i, j| robot_same(i, j) && !view(i, j, MOTION)), 0),
-        (partners(captures.len(), |i, j| apart(i, j) && view(i, j, SAME_VIEW)), 1),
-        (partners(captures.len(), |i, j| robot_same(i, j) && view(i, j, SAME_VIEW)), 2),
-    ];
-    let finding = |(which, kind): (Vec<usize>, usize)| {
-        let fault = match kind {
-            0 => Fault::RobotStill(which),
-            1 => Fault::CameraStill(which),
-            _ => Fault::Repeated(which),
-        };
-        Finding { fault, after: None }
-    };
-    groups.into_iter().filter(|(which, _)| !which.is_empty()).map(finding).collect()
-}
-
-/// Everyone who has a partner.
-fn partners(n: usize, with: impl Fn(usize, usize) -> bool) -> Vec<usize> {
-    (0..n).filter(|&i| (0..n).any(|j| j != i && with(i.min(j), i.max(j)))).collect()
+/// The largest distance between base and flange, m.
+pub fn reach(captures: &[Readings]) -> f64 {
+    captures.iter().map(|c| c.anchor_from_mount.translation().norm()).fold(0.0, f64::max)
 }
 
 /// Whether there are captures enough to contradict a wrong reading.

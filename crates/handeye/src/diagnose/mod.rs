@@ -1,6 +1,8 @@
 //! Which mistake explains bad data: inversion, scale, exchange, stale poses.
 
 pub mod explain;
+mod size;
+mod strays;
 
 use crate::{
     Pose, PosePair, Setup, Target, predict,
