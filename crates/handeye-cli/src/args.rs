@@ -302,8 +302,8 @@ pub struct VerifyArgs {
     after_help = "Examples:\n  handeye check cell/\n  handeye check cell/ --apply\n  handeye check cell.toml --root /data/cell --json\n\n\
 Reads the robot's numbers in every notation, unit and direction, in other orders, and with another\n\
 size of the target, and says which explains the captures best. --apply writes the corrected\n\
-manifest and keeps the old one as handeye.toml.bak; only for a single explanation that a manifest\n\
-can express.\n\n\
+manifest and keeps the old one as handeye.toml.bak: of the explanation that the data single out, or\n\
+of the one you choose by its number where they cannot (--apply=2).\n\n\
 Exit code 0: nothing is wrong; 3: something is."
 )]
 pub struct CheckArgs {
@@ -312,7 +312,7 @@ pub struct CheckArgs {
     /// Where the manifest's names are relative to, if not to its own folder.
     #[arg(long)]
     pub root: Option<PathBuf>,
-    /// Write the corrected manifest.
-    #[arg(long)]
-    pub apply: bool,
+    /// Write the corrected manifest; a number chooses among explanations that fit alike.
+    #[arg(long, value_name = "NUMBER", num_args = 0..=1, require_equals = true, default_missing_value = "0")]
+    pub apply: Option<usize>,
 }

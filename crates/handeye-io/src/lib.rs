@@ -6,6 +6,7 @@
 #![allow(clippy::result_large_err, reason = "an error ends the reading: its size costs nothing")]
 
 mod camera;
+pub mod checkup;
 mod dataset;
 pub mod drawing;
 mod error;
@@ -28,9 +29,8 @@ mod xml;
 
 pub use camera::read_intrinsics;
 pub use dataset::{
-    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource, Rereading,
-    RobotFile, RobotPoses, WorkspaceBox, WorkspaceFrame, amended, columns, read_robot_poses,
-    rereadings,
+    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource, RobotFile,
+    RobotPoses, WorkspaceBox, WorkspaceFrame, columns, read_robot_poses,
 };
 pub use error::{Error, Place};
 pub use files::write_atomically;

@@ -22,9 +22,9 @@ use crate::{
     files, image,
     scan::{self, ScanOptions},
 };
-use manifest::{Manifest, Source};
+pub(crate) use manifest::{Manifest, Source};
 use opening::Opening;
-pub use rereading::{Rereading, amended, rereadings};
+pub(crate) use rereading::{Rereading, rereadings};
 pub use robot_file::{RobotFile, RobotPoses, columns, read_robot_poses};
 pub use touches::FIXED_BOARD;
 

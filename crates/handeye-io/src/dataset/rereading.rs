@@ -22,6 +22,8 @@ use crate::{
 pub struct Rereading {
     /// In words.
     pub words: String,
+    /// The same but for the direction; empty where nothing else differs.
+    pub words_without_direction: String,
     /// Keys of `[robot]` and their values that say so; none where a manifest cannot.
     pub changes: Vec<(&'static str, String)>,
     /// Where the flange was in each capture.
@@ -78,10 +80,11 @@ fn notations(
         let base_from_flange: Option<Vec<_>> =
             numbers.iter().map(|n| pose(way, n, flange_from_tool)).collect();
         let base_from_flange = base_from_flange?;
-        let (words, changes) = (words(declared, way), changes(declared, way));
+        let as_turned = Way { inverted: declared.inverted, ..way.clone() };
         plausible(way, declared, numbers, &base_from_flange).then_some(Rereading {
-            words,
-            changes,
+            words: words(declared, way),
+            words_without_direction: words(declared, &as_turned),
+            changes: changes(declared, way),
             base_from_flange,
         })
     };
@@ -199,6 +202,9 @@ fn words(declared: &Way, way: &Way) -> String {
     if declared.inverted != way.inverted {
         parts.push(format!("{}, not {}", direction(way.inverted), direction(declared.inverted)));
     }
+    if parts.is_empty() {
+        return String::new();
+    }
     format!("the robot poses are {}", parts.join(", and "))
 }
 
@@ -228,87 +234,58 @@ fn joints(
                 words.push(format!("the joint angles are in {}", unit(angle)));
                 changes.push(("angle_unit", unit(angle).to_owned()));
             }
+            let words_without_direction = words.join("");
             if inverted != turned {
                 words.push(format!("the robot poses are {}", direction(inverted)));
                 changes.push(("direction", direction(inverted).to_owned()));
             }
-            all.push(Rereading { words: words.join(", and "), changes, base_from_flange });
+            let words = words.join(", and ");
+            all.push(Rereading { words, words_without_direction, changes, base_from_flange });
         }
     }
     Ok(all)
 }
 
-/// Positions with an axis turned round, and whole poses in a left-handed frame.
+/// Positions with an axis turned round, whole poses in a left-handed frame, rotations transposed:
+/// no key of a manifest says so.
 fn mirrored(dataset: &Dataset) -> Vec<Rereading> {
-    let with = |words: String, sign: Vector3<f64>| Rereading {
-        words,
+    let with = |words: &str, change: &dyn Fn(&Isometry3<f64>) -> Isometry3<f64>| Rereading {
+        words: words.into(),
+        words_without_direction: words.into(),
         changes: vec![],
         base_from_flange: dataset
             .captures
             .iter()
-            .map(|c| {
-                let iso = c.base_from_flange.iso();
-                let t = iso.translation.vector.component_mul(&sign);
-                Pose::claim(Isometry3::from_parts(Translation3::from(t), iso.rotation))
-            })
+            .map(|c| Pose::claim(change(c.base_from_flange.iso())))
             .collect(),
     };
+    let sign = |words: &str, sign: Vector3<f64>| {
+        with(words, &|iso| {
+            let t = iso.translation.vector.component_mul(&sign);
+            Isometry3::from_parts(Translation3::from(t), iso.rotation)
+        })
+    };
     let axis = |k: usize| {
-        let mut sign = Vector3::repeat(1.0);
-        sign[k] = -1.0;
-        let name = ["x", "y", "z"][k];
-        with(format!("{name} of the robot positions has the wrong sign"), sign)
+        let mut signs = Vector3::repeat(1.0);
+        signs[k] = -1.0;
+        sign(&format!("{} of the robot positions has the wrong sign", ["x", "y", "z"][k]), signs)
     };
-    let words = "an axis of the robot's base frame is mirrored (x, y or z: the data cannot tell)";
-    (0..3).map(axis).chain([with(words.into(), Vector3::repeat(-1.0))]).collect()
-}
-
-/// A manifest with a key of a table set to another value, which is written as TOML.
-pub fn amended(text: &str, table: &str, key: &str, value: &str) -> String {
-    let header = format!("[{table}]");
-    let mut lines: Vec<String> = text.lines().map(String::from).collect();
-    let first = match table {
-        "" => 0,
-        _ => match lines
-            .iter()
-            .position(|l| l.trim() == header || l.trim().starts_with(&format!("{header} ")))
-        {
-            Some(at) => at + 1,
-            None => {
-                lines.extend([String::new(), header]);
-                lines.len()
-            }
-        },
-    };
-    let end = (first..lines.len())
-        .find(|&k| lines[k].trim_start().starts_with('['))
-        .unwrap_or(lines.len());
-    let is_key = |line: &str| line.split_once('=').is_some_and(|(k, _)| k.trim() == key);
-    match (first..end).find(|&k| is_key(&lines[k])) {
-        Some(at) => {
-            let comment =
-                lines[at].split_once('#').map_or(String::new(), |(_, c)| format!("  #{c}"));
-            lines[at] = format!("{key} = {value}{comment}");
-        }
-        None => lines.insert(first, format!("{key} = {value}")),
-    }
-    lines.join("\n") + "\n"
+    let left_handed =
+        "an axis of the robot's base frame is mirrored (x, y or z: the data cannot tell)";
+    let transposed = "the rotations of the robot poses turn the other way: they are transposed, \
+                      or their angles have the wrong sign";
+    (0..3)
+        .map(axis)
+        .chain([
+            sign(left_handed, Vector3::repeat(-1.0)),
+            with(transposed, &|iso| Isometry3::from_parts(iso.translation, iso.rotation.inverse())),
+        ])
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_key_is_replaced_or_added_in_its_table() {
-        let text = "setup = \"eye-in-hand\"\n\n[robot]\nposes = \"a\"\nnotation = \"ur\" # pendant\n\n[images]\nfiles = \"b\"\n";
-        let changed = amended(text, "robot", "notation", "\"kuka\"");
-        assert!(changed.contains("notation = \"kuka\"  # pendant\n"), "{changed}");
-        let added = amended(&changed, "robot", "angle_unit", "\"deg\"");
-        assert!(added.contains("[robot]\nangle_unit = \"deg\"\nposes"), "{added}");
-        let setup = amended(&added, "", "setup", "\"eye-to-hand\"");
-        assert!(setup.starts_with("setup = \"eye-to-hand\"\n"), "{setup}");
-    }
 
     #[test]
     fn six_numbers_are_read_as_a_vector_or_as_any_angles() {

@@ -316,9 +316,3 @@ pub fn reordered(captures: &[Readings], order: Order) -> Vec<Readings> {
 pub fn reach(captures: &[Readings]) -> f64 {
     captures.iter().map(|c| c.anchor_from_mount.translation().norm()).fold(0.0, f64::max)
 }
-
-/// Whether there are captures enough to contradict a wrong reading.
-pub fn is_enough(captures: &[Readings]) -> bool {
-    let seen = captures.iter().filter(|c| !c.camera_from_target.is_empty()).count();
-    seen >= FEWEST.max(FEWEST_POSES)
-}
