@@ -260,50 +260,61 @@ fn change(table: &'static str, key: &str, value: &str) -> Change {
     Change { table, key: key.into(), value: format!("\"{value}\"") }
 }
 
+/// A part that rides on a flange sits nearer than this, m; the longest booms reach half as far.
+const MOST_AT_FLANGE: f64 = 1.0;
+
 /// Robot poses inverted, the camera on the other body, the board's poses inverted: with any one of
-/// them the same equation holds.
+/// them the same equation holds. Only a part that would ride too far from the flange decides.
 fn directions(case: &Case, robot: Explanation, k: usize) -> Vec<Explanation> {
+    let (own, other) = match case.setup {
+        Setup::EyeInHand => (Setup::EyeInHand, Setup::EyeToHand),
+        Setup::EyeToHand => (Setup::EyeToHand, Setup::EyeInHand),
+    };
+    let Some((_, found)) = explain::scored(&case.readings[k]) else { return vec![robot] };
+    let camera = found.hand_eye.mount_from_camera.translation().norm();
+    let target = found.hand_eye.anchor_from_target.translation().norm();
+    // what rides on the flange if the setup is as declared, and if it is the other one
+    let (as_declared, turned) =
+        if own == Setup::EyeInHand { (camera, target) } else { (target, camera) };
     let others: Vec<Change> =
         robot.changes.iter().filter(|c| c.key != "direction").cloned().collect();
-    let and = if others.is_empty() { String::new() } else { words::besides(&case.robot[k]) };
+    let and = words::besides(&case.robot[k]);
     let with = |code, message: String, c: Change| Explanation {
         code,
         message: message + &and,
         changes: others.iter().cloned().chain([c]).collect(),
         ..robot.clone()
     };
-    let (own, other) = match case.setup {
-        Setup::EyeInHand => ("eye-in-hand", "eye-to-hand"),
-        Setup::EyeToHand => ("eye-to-hand", "eye-in-hand"),
-    };
-    let mut all = vec![robot.clone()];
-    let places = explain::scored(&case.readings[k]).map(|(_, found)| found.hand_eye);
-    let at_flange = |mount: bool| {
-        let (camera, target) = places.as_ref().map_or((f64::NAN, f64::NAN), |h| {
-            (h.mount_from_camera.translation().norm(), h.anchor_from_target.translation().norm())
-        });
-        if mount { camera } else { target }
-    };
-    let camera_on_flange = case.setup == Setup::EyeInHand;
-    all[0].message += &words::where_on_flange(case.setup, at_flange(camera_on_flange));
-    let turned = if camera_on_flange { Setup::EyeToHand } else { Setup::EyeInHand };
-    let mut exchanged = with(
-        "setup",
-        format!("the setup is {other}, not {own}, and the robot poses are as declared"),
-        change("", "setup", other),
-    );
-    exchanged.message += &words::where_on_flange(turned, at_flange(!camera_on_flange));
-    all.push(exchanged);
+    let (name, other_name) = (words::setup(own), words::setup(other));
+    let first = format!("{} {}", robot.message, words::on_flange(own, as_declared));
+    let mut all = vec![
+        (as_declared, Explanation { message: first, ..robot.clone() }),
+        (
+            turned,
+            with(
+                "setup",
+                format!(
+                    "the setup is {other_name}, not {name}, and the robot poses are as declared {}",
+                    words::on_flange(other, turned)
+                ),
+                change("", "setup", other_name),
+            ),
+        ),
+    ];
     if case.bare {
         let value = match amend::value(&case.text, "board_poses", "direction").as_deref() {
             Some("\"target_from_camera\"") => "camera_from_target",
             _ => "target_from_camera",
         };
-        all.push(with(
-            "board-inverted",
-            format!("the board poses are {value}, and the robot poses as declared"),
-            change("board_poses", "direction", value),
-        ));
+        let message = format!(
+            "the board poses are {value}, and the robot poses as declared {}",
+            words::on_flange(own, turned)
+        );
+        let board = with("board-inverted", message, change("board_poses", "direction", value));
+        all.push((turned, board));
     }
-    all
+    let near = |distance: f64| distance < 0.5 * MOST_AT_FLANGE;
+    let possible =
+        |distance: f64| distance < MOST_AT_FLANGE || !(near(as_declared) || near(turned));
+    all.into_iter().filter(|(distance, _)| possible(*distance)).map(|(_, e)| e).collect()
 }

@@ -104,18 +104,29 @@ pub(super) fn robot_scale(s: &TargetScale) -> String {
     )
 }
 
+/// As a manifest calls it.
+pub(super) fn setup(setup: Setup) -> &'static str {
+    match setup {
+        Setup::EyeInHand => "eye-in-hand",
+        Setup::EyeToHand => "eye-to-hand",
+    }
+}
+
 /// What a direction says of the cell, for its user to judge; `distance` in m.
-pub(super) fn where_on_flange(setup: Setup, distance: f64) -> String {
+pub(super) fn on_flange(setup: Setup, distance: f64) -> String {
     let what = match setup {
         Setup::EyeInHand => "camera",
         Setup::EyeToHand => "target",
     };
-    format!(" (the {what} then sits {distance:.2} m from the flange)")
+    format!("(the {what} then sits {distance:.2} m from the flange)")
 }
 
 /// What else is wrong beside the direction.
 pub(super) fn besides(robot: &Rereading) -> String {
-    format!(", but {}", robot.words_without_direction)
+    match robot.words_without_direction.as_str() {
+        "" => String::new(),
+        words => format!("; but {words}"),
+    }
 }
 
 fn declared_size(case: &Case) -> Option<f64> {

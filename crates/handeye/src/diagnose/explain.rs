@@ -30,7 +30,7 @@ use super::{
 use crate::{
     HandEye, PosePair, lie,
     solve::{
-        self, FEWEST_POSES, Method,
+        self, Method,
         consensus::{self, Consensus, Readings, median},
         motions,
     },
@@ -122,7 +122,7 @@ pub struct Diagnosis {
     pub findings: Vec<Finding>,
     /// How many of the first explanations the data cannot tell apart.
     pub alike: usize,
-    /// The best reading or order that does not explain: how far the others are away.
+    /// The best reading or order beside them: how far the others are away.
     pub runner_up: Option<(Fault, Score)>,
 }
 
@@ -135,9 +135,11 @@ pub fn explain(declared: &[Readings], readings: &[Vec<Readings>]) -> Diagnosis {
     let size = wrong_size(declared, as_declared.as_ref());
     wholesale.extend(size.clone());
     wholesale.sort_by(|a, b| after(a).total_cmp(&after(b)));
-    let explains = |f: &Finding| after(f) < EXPLAINS * before;
-    let (mut findings, rest): (Vec<_>, Vec<_>) = wholesale.into_iter().partition(explains);
-    let alike = findings.iter().filter(|f| after(f) < ALIKE * after(&findings[0])).count();
+    let best = wholesale.first().map_or(f64::INFINITY, after);
+    let explains = best < EXPLAINS * before;
+    let fits_alike = |f: &Finding| explains && after(f) < (ALIKE * best).min(EXPLAINS * before);
+    let (mut findings, rest): (Vec<_>, Vec<_>) = wholesale.into_iter().partition(fits_alike);
+    let alike = findings.len();
     if findings.is_empty() {
         // a size that is wrong by a little explains a little
         findings.extend(size);
