@@ -23,6 +23,7 @@ pub(super) fn code(fault: &Fault) -> &'static str {
         Fault::RobotStill(_) => "robot-pose-frozen",
         Fault::CameraStill(_) => "camera-still",
         Fault::Repeated(_) => "captures-repeated",
+        Fault::Disagreeing(_) => "captures-disagree",
     }
 }
 
@@ -34,9 +35,10 @@ pub(super) fn captures(case: &Case, fault: &Fault) -> Vec<String> {
         Fault::TargetMoved(i, j) | Fault::CameraMoved(i, j) => {
             (*i..=*j).map(|k| named(&k)).collect()
         }
-        Fault::RobotStill(all) | Fault::CameraStill(all) | Fault::Repeated(all) => {
-            all.iter().map(named).collect()
-        }
+        Fault::RobotStill(all)
+        | Fault::CameraStill(all)
+        | Fault::Repeated(all)
+        | Fault::Disagreeing(all) => all.iter().map(named).collect(),
         Fault::Reading(_) | Fault::Order(_) | Fault::Scale(_) => vec![],
     }
 }
@@ -92,6 +94,10 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
         Fault::Repeated(_) => {
             format!("these captures repeat one another and add nothing new: {names}")
         }
+        Fault::Disagreeing(_) => format!(
+            "these captures agree with no others, and no single mistake explains them; look at \
+             their pictures and robot poses, or leave them out: {names}"
+        ),
     }
 }
 

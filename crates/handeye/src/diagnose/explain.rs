@@ -102,6 +102,8 @@ pub enum Fault {
     CameraStill(Vec<usize>),
     /// Captures that repeat one another.
     Repeated(Vec<usize>),
+    /// Captures that agree with no others, too many to be strays.
+    Disagreeing(Vec<usize>),
 }
 
 /// A mistake with its evidence.
@@ -140,12 +142,18 @@ pub fn explain(declared: &[Readings], readings: &[Vec<Readings>]) -> Diagnosis {
     let fits_alike = |f: &Finding| explains && after(f) < (ALIKE * best).min(EXPLAINS * before);
     let (mut findings, rest): (Vec<_>, Vec<_>) = wholesale.into_iter().partition(fits_alike);
     let alike = findings.len();
-    if findings.is_empty() {
+    let (repeated, still): (Vec<_>, Vec<_>) =
+        repeats(declared).into_iter().partition(|f| matches!(f.fault, Fault::Repeated(_)));
+    let singled_out = !findings.is_empty();
+    findings.extend(still.clone());
+    if !singled_out {
         // a size that is wrong by a little explains a little
         findings.extend(size);
+    }
+    if !singled_out && still.is_empty() {
         findings.extend(as_declared.iter().flat_map(|(_, found)| strays(declared, found)));
     }
-    findings.extend(repeats(declared));
+    findings.extend(repeated);
     let runner_up = rest
         .iter()
         .find(|f| !matches!(f.fault, Fault::Scale(_)))

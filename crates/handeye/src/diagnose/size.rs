@@ -6,6 +6,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use super::{
     TargetScale,
     explain::{FEWEST, Fault, Finding, REACH, Score, pair, reach, scored},
+    strays::same_robot,
 };
 use crate::{
     HandEye, Pose, PosePair, linalg,
@@ -31,7 +32,7 @@ pub(super) fn wrong_size(
     if !(REACH.0..REACH.1).contains(&reach(captures)) {
         return None; // it is the robot's unit that is wrong
     }
-    let scale = size(captures)?;
+    let scale = size(&distinct(captures))?;
     let off = (scale.value - 1.0).abs();
     let uncertain = scale.sigma / scale.value;
     if off < LEAST_SCALE_ERROR || scale.p_value > IMPROBABLE || uncertain > MOST_UNCERTAIN {
@@ -42,6 +43,17 @@ pub(super) fn wrong_size(
     let agrees = after.agree as f64 >= MOST_AGREE * captures.len() as f64;
     (after.score < before && agrees)
         .then_some(Finding { fault: Fault::Scale(scale), after: Some(after) })
+}
+
+/// Captures without those that repeat another: they would lend a size certainty it has not.
+fn distinct(captures: &[Readings]) -> Vec<Readings> {
+    let mut all: Vec<Readings> = Vec::with_capacity(captures.len());
+    for capture in captures {
+        if !all.iter().any(|c| same_robot(c, capture)) {
+            all.push(capture.clone());
+        }
+    }
+    all
 }
 
 /// Captures as they would be with a target `s` times as large.

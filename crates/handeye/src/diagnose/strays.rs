@@ -28,8 +28,15 @@ pub(super) fn strays(captures: &[Readings], found: &Consensus) -> Vec<Finding> {
         all.push(Finding { fault: Fault::Exchanged(swapped), after });
     }
     all.extend(moved(captures, found, limit));
+    let out: Vec<usize> = (0..captures.len()).filter(|&i| !found.agrees[i]).collect();
+    if all.is_empty() && out.len() as f64 > MOST_STRAYS * captures.len() as f64 {
+        all.push(Finding { fault: Fault::Disagreeing(out), after: None });
+    }
     all
 }
+
+/// More captures than this part that agree with no others are not left out in silence.
+const MOST_STRAYS: f64 = 0.15;
 
 /// Whether the second picture fits the first robot pose as well.
 fn exchanged_back(
@@ -68,37 +75,51 @@ fn moved(captures: &[Readings], found: &Consensus, limit: (f64, f64)) -> Option<
         return None;
     }
     let HandEye { mount_from_camera: x, anchor_from_target: y } = found.hand_eye;
-    let seen = |i: usize| captures[i].camera_from_target.iter().copied();
-    let spread = |places: Vec<Vec<nalgebra::Isometry3<f64>>>| {
-        let start = places.first()?.clone();
-        let from = |s: &nalgebra::Isometry3<f64>| {
-            let far = |of: &Vec<nalgebra::Isometry3<f64>>| {
-                let apart = |p: &nalgebra::Isometry3<f64>| {
-                    let e = s.inv_mul(p);
-                    (e.rotation.angle() / limit.0).hypot(e.translation.vector.norm() / limit.1)
-                };
-                of.iter().map(apart).reduce(f64::min).unwrap_or(f64::INFINITY)
-            };
-            places.iter().map(far).fold(0.0, f64::max)
-        };
-        start.iter().map(from).reduce(f64::min)
-    };
-    let target = |&i: &usize| -> Vec<_> {
-        seen(i).map(|c| *(captures[i].anchor_from_mount * x * c).iso()).collect()
-    };
-    let camera = |&i: &usize| -> Vec<_> {
-        seen(i)
-            .map(|c| *(captures[i].anchor_from_mount.inverse() * y * c.inverse()).iso())
-            .collect()
-    };
-    let by_target = spread(out.iter().map(target).collect()).unwrap_or(f64::INFINITY);
-    let by_camera = spread(out.iter().map(camera).collect()).unwrap_or(f64::INFINITY);
+    let by_target = together(captures, &out, limit, |p| {
+        let there = p.anchor_from_mount * x * p.camera_from_target;
+        HandEye { mount_from_camera: x, anchor_from_target: there }
+    });
+    let by_camera = together(captures, &out, limit, |p| {
+        let there = p.anchor_from_mount.inverse() * y * p.camera_from_target.inverse();
+        HandEye { mount_from_camera: there, anchor_from_target: y }
+    });
     let fault = match by_target <= by_camera {
         true => Fault::TargetMoved(first, last),
         false => Fault::CameraMoved(first, last),
     };
     (by_target.min(by_camera) < 1.0).then_some(Finding { fault, after: None })
 }
+
+/// Largest misfit of a run, over `limit`, when one of its captures, the best one, says where the
+/// part that moved was.
+fn together(
+    captures: &[Readings],
+    run: &[usize],
+    limit: (f64, f64),
+    place: impl Fn(&PosePair) -> HandEye,
+) -> f64 {
+    let readings = |i: usize| (0..captures[i].camera_from_target.len()).map(move |k| (i, k));
+    let misfit = |there: &HandEye, p: &PosePair| {
+        let e = there.loop_error(p);
+        (e.iso().rotation.angle() / limit.0).hypot(e.translation().norm() / limit.1)
+    };
+    let worst = |there: HandEye| {
+        let best = |&i: &usize| {
+            let all = readings(i).map(|(i, k)| misfit(&there, &pair(&captures[i], k)));
+            all.fold(f64::INFINITY, f64::min)
+        };
+        run.iter().map(best).fold(0.0, f64::max)
+    };
+    run.iter()
+        .flat_map(|&i| readings(i))
+        .map(|(i, k)| worst(place(&pair(&captures[i], k))))
+        .fold(f64::INFINITY, f64::min)
+        / ONE_FOR_ALL
+}
+
+/// A place told by one capture has its error at the end of the arm between camera and target: so
+/// many times the misfit of captures that were fitted together.
+const ONE_FOR_ALL: f64 = 3.0;
 
 /// Robot poses this close were stored twice, not reached twice. rad and m.
 const SAME_ROBOT: (f64, f64) = (1e-6, 1e-6);
@@ -109,10 +130,7 @@ const MOTION: (f64, f64) = (0.03, 0.01);
 
 /// Poses that stood still.
 pub(super) fn repeats(captures: &[Readings]) -> Vec<Finding> {
-    let robot_same = |i: usize, j: usize| {
-        let (a, b) = (&captures[i].anchor_from_mount, &captures[j].anchor_from_mount);
-        a.angle_to(b) < SAME_ROBOT.0 && a.distance_to(b) < SAME_ROBOT.1
-    };
+    let robot_same = |i: usize, j: usize| same_robot(&captures[i], &captures[j]);
     let apart = |i: usize, j: usize| {
         let (a, b) = (&captures[i].anchor_from_mount, &captures[j].anchor_from_mount);
         a.angle_to(b) > MOTION.0 || a.distance_to(b) > MOTION.1
@@ -139,6 +157,12 @@ pub(super) fn repeats(captures: &[Readings]) -> Vec<Finding> {
         Finding { fault, after: None }
     };
     groups.into_iter().filter(|(which, _)| !which.is_empty()).map(finding).collect()
+}
+
+/// Whether two captures have one and the same robot pose.
+pub(super) fn same_robot(a: &Readings, b: &Readings) -> bool {
+    let (a, b) = (&a.anchor_from_mount, &b.anchor_from_mount);
+    a.angle_to(b) < SAME_ROBOT.0 && a.distance_to(b) < SAME_ROBOT.1
 }
 
 /// Everyone who has a partner.
