@@ -150,8 +150,8 @@ pub enum Outcome {
     Unexplained,
     /// Nothing is wrong.
     Unnoticed,
-    /// Another mistake alone.
-    Wrong,
+    /// Another mistake, which is called so.
+    Wrong(&'static str),
 }
 
 /// A dataset that is about to be written.
@@ -194,9 +194,9 @@ pub fn ask(mistake: Mistake, seed: u64, captures: usize, folder: &Path) -> Outco
         [] => Outcome::Unexplained,
         [only] if only.code == "captures-disagree" => Outcome::Unexplained,
         [only] if is_right(only) => Outcome::Named,
-        [_] => Outcome::Wrong,
+        [other] => Outcome::Wrong(other.code),
         several if several.iter().any(is_right) => Outcome::AmongOthers,
-        _ => Outcome::Wrong,
+        [other, ..] => Outcome::Wrong(other.code),
     }
 }
 
@@ -550,7 +550,7 @@ pub fn row(mistake: Mistake, cases: u64, folder: &Path) -> Row {
             Tellable::Alone => outcome == Outcome::Named,
             Tellable::AmongOthers => matches!(outcome, Outcome::Named | Outcome::AmongOthers),
             Tellable::Nothing if mistake == M::None => outcome == Outcome::Unnoticed,
-            Tellable::Nothing => outcome != Outcome::Wrong,
+            Tellable::Nothing => !matches!(outcome, Outcome::Wrong(_)),
         };
         let count = match tellable {
             Tellable::Nothing => &mut row.untellable,

@@ -150,10 +150,10 @@ pub fn explain(declared: &[Readings], readings: &[Vec<Readings>]) -> Diagnosis {
         // a size that is wrong by a little explains a little
         findings.extend(size);
     }
+    findings.extend(repeated);
     if !singled_out && still.is_empty() {
         findings.extend(as_declared.iter().flat_map(|(_, found)| strays(declared, found)));
     }
-    findings.extend(repeated);
     let runner_up = rest
         .iter()
         .find(|f| !matches!(f.fault, Fault::Scale(_)))

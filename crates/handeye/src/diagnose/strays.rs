@@ -2,7 +2,7 @@
 
 use super::{
     exchanged,
-    explain::{Fault, Finding, pair, scored},
+    explain::{FEWEST, Fault, Finding, pair, scored},
 };
 use crate::{
     HandEye, PosePair,
@@ -29,7 +29,7 @@ pub(super) fn strays(captures: &[Readings], found: &Consensus) -> Vec<Finding> {
     }
     all.extend(moved(captures, found, limit));
     let out: Vec<usize> = (0..captures.len()).filter(|&i| !found.agrees[i]).collect();
-    if all.is_empty() && out.len() as f64 > MOST_STRAYS * captures.len() as f64 {
+    if all.is_empty() && out.len() > 1 && out.len() as f64 > MOST_STRAYS * captures.len() as f64 {
         all.push(Finding { fault: Fault::Disagreeing(out), after: None });
     }
     all
@@ -70,8 +70,9 @@ fn moved(captures: &[Readings], found: &Consensus, limit: (f64, f64)) -> Option<
     let n = captures.len();
     let out: Vec<usize> = (0..n).filter(|&i| !found.agrees[i]).collect();
     let (first, last) = (*out.first()?, *out.last()?);
-    // one capture is a stray, not a run; and half of them must not have moved
-    if out.len() < 2 || last - first + 1 != out.len() || 2 * out.len() > n {
+    // one capture is a stray, not a run; most of them, and enough, must not have moved
+    let rest = n - out.len();
+    if out.len() < 2 || last - first + 1 != out.len() || rest <= out.len() || rest < FEWEST {
         return None;
     }
     let HandEye { mount_from_camera: x, anchor_from_target: y } = found.hand_eye;
