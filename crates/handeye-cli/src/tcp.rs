@@ -1,7 +1,7 @@
 //! `handeye tcp`: where the tip of a tool sits, from flange poses with the tip on one point.
 
 use handeye::{
-    Verdict, Warning,
+    Error, Verdict, Warning,
     pivot::{self, Lengths, Pivot},
 };
 use handeye_io::{RobotFile, RobotPoses, read_robot_poses};
@@ -44,7 +44,7 @@ struct Answer<'a> {
     covariance: Option<[[f64; 3]; 3]>,
     point_in_base_m: [Option<f64>; 3],
     point_covariance: Option<[[f64; 3]; 3]>,
-    sigma_mm: f64,
+    sigma_mm: Option<f64>,
     residual: Option<InMillimetres>,
     held_out: Option<InMillimetres>,
     poses: Vec<PoseResult<'a>>,
@@ -58,15 +58,48 @@ pub fn run(args: &TcpArgs, manners: &Manners) -> Result<u8, Failure> {
         return Err(Failure::Usage("--limit-mm must be positive".into()));
     }
     let robot = read_robot_poses(&described(args)?)?;
-    let found = pivot::pivot(&robot.base_from_flange, args.limit_mm * 1e-3)?;
-    let answer = answer(&robot, &found);
+    match pivot::pivot(&robot.base_from_flange, args.limit_mm * 1e-3) {
+        Ok(found) => Ok(tell(&answer(&robot, &found), manners)),
+        Err(Error::NotDetermined { what }) => {
+            let (reasons, all) = ([what], ["the tip in the flange, in all directions".into()]);
+            Ok(tell(&no_answer(&robot, &reasons, &all), manners))
+        }
+        Err(error) => Err(Failure::from(error).in_file(&args.poses)),
+    }
+}
+
+/// Prints the answer; returns the exit code.
+fn tell(answer: &Answer, manners: &Manners) -> u8 {
     if manners.json {
-        output::json(&answer);
+        output::json(answer);
     } else {
         output::warn(&answer.warnings, manners);
-        output::print(&text(&answer, &found));
+        output::print(&text(answer));
     }
-    Ok(if found.verdict == Verdict::Accepted { 0 } else { 3 })
+    if answer.verdict == Verdict::Accepted { 0 } else { 3 }
+}
+
+/// Poses that can be read but tell nothing.
+fn no_answer<'a>(
+    robot: &RobotPoses,
+    reasons: &'a [String],
+    undetermined: &'a [String],
+) -> Answer<'a> {
+    Answer {
+        verdict: Verdict::Undetermined,
+        reasons,
+        tip_in_flange_m: [None; 3],
+        covariance: None,
+        point_in_base_m: [None; 3],
+        point_covariance: None,
+        sigma_mm: None,
+        residual: None,
+        held_out: None,
+        poses: vec![],
+        rejected: vec![],
+        undetermined,
+        warnings: robot.warnings.clone(),
+    }
 }
 
 /// The flags, as a manifest's `[robot]` would have them.
@@ -127,7 +160,7 @@ fn answer<'a>(robot: &'a RobotPoses, found: &'a Pivot) -> Answer<'a> {
         covariance: found.tip_covariance.map(rows),
         point_in_base_m: known(found.point_in_base.vector(), found.point_known),
         point_covariance: found.point_covariance.map(rows),
-        sigma_mm: found.sigma * 1e3,
+        sigma_mm: Some(found.sigma * 1e3),
         residual: found.spread().map(Into::into),
         held_out: found.held_out().map(Into::into),
         poses: robot.names.iter().enumerate().map(pose).collect(),
@@ -159,12 +192,12 @@ fn warnings(robot: &RobotPoses, found: &Pivot) -> Vec<Warning> {
 }
 
 /// For people, in 80 columns.
-fn text(a: &Answer, found: &Pivot) -> String {
+fn text(a: &Answer) -> String {
     let mut text = format!("\n{}\n", output::verdict(a.verdict));
     text += &a.reasons.iter().map(|reason| output::wrapped("  ", reason)).collect::<String>();
-    let sigmas = |covariance: Option<Matrix3<f64>>| {
+    let sigmas = |covariance: Option<[[f64; 3]; 3]>| {
         covariance.map_or(String::new(), |c| {
-            let [x, y, z] = [0, 1, 2].map(|k| c[(k, k)].max(0.0).sqrt() * 1e3);
+            let [x, y, z] = [0, 1, 2].map(|k| c[k][k].max(0.0).sqrt() * 1e3);
             format!("  one sigma    {x:11.3} {y:11.3} {z:11.3}   mm\n")
         })
     };
@@ -173,9 +206,12 @@ fn text(a: &Answer, found: &Pivot) -> String {
         format!("  {name:<13}{x:>11} {y:>11} {z:>11}   mm\n")
     };
     text += &format!("\ntip in the flange\n{}", line("x y z", a.tip_in_flange_m));
-    text += &sigmas(found.tip_covariance);
+    text += &sigmas(a.covariance);
     text += &format!("\npoint in the base\n{}", line("x y z", a.point_in_base_m));
-    text += &sigmas(found.point_covariance);
+    text += &sigmas(a.point_covariance);
+    if a.poses.is_empty() {
+        return text;
+    }
     text += &format!("\n  {:<20}{:>14}{:>14}\n", "pose", "off by", "left out");
     for pose in &a.poses {
         let left_out = pose.held_out_mm.map_or("-".into(), |mm| format!("{mm:.3} mm"));
