@@ -222,6 +222,7 @@ impl NoiseModel {
     }
 
     /// Information of a view's misfit.
+    #[allow(dead_code, reason = "for fits that weigh views")]
     pub(super) fn weight(&self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
         let covariance = self.covariance(view, hand_eye, setup);
         linalg::invert_spd(&covariance).unwrap_or_else(Matrix6::zeros)
