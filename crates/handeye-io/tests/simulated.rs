@@ -132,7 +132,9 @@ fn scans_of_every_format_hold_the_same_points() {
     });
     let [depth, ply, pcd] = &scans;
     assert_eq!((ply.width(), ply.height()), (160, 120));
-    let bits = |s: &handeye::Scan| s.points().iter().flatten().map(|x| x.to_bits()).sum::<u32>();
+    let bits = |s: &handeye::Scan| -> Vec<u32> {
+        s.points().iter().flatten().map(|x| x.to_bits()).collect()
+    };
     assert_eq!(bits(ply), bits(pcd));
     for (a, b) in depth.points().iter().zip(ply.points()) {
         assert_eq!(a[2].is_nan(), b[2].is_nan());

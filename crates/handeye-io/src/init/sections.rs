@@ -135,7 +135,7 @@ fn camera(kinds: &Kinds, page: &mut Page) {
 
 // ---------------------------------------------------------------- robot
 
-fn poses_of<'a>(kinds: &'a Kinds, captures: Option<usize>) -> Vec<(&'a Group, &'a Poses)> {
+fn poses_of(kinds: &Kinds, captures: Option<usize>) -> Vec<(&Group, &Poses)> {
     let mut all: Vec<(&Group, &Poses)> = kinds
         .iter()
         .filter_map(|(g, k)| if let Kind::Poses(p) = k { Some((g, p)) } else { None })
