@@ -167,8 +167,7 @@ mod tests {
 
     #[test]
     fn exact_captures_have_no_held_out_error() {
-        let views: Vec<View> =
-            exact_pairs(&truths()[0], 8).into_iter().map(|pair| View::bare(pair)).collect();
+        let views: Vec<View> = exact_pairs(&truths()[0], 8).into_iter().map(View::bare).collect();
         for estimator in [
             Estimator::ClosedForm(Method::Shah),
             Estimator::LeastSquares,

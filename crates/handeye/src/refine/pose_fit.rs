@@ -166,7 +166,7 @@ pub fn fit_fixed_weights(views: &[View], start: &HandEye, metres_per_rad: f64) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::tests::{assert_same, exact_pairs, truths};
+    use crate::solve::tests::{exact_pairs, truths};
 
     fn views(count: usize) -> Vec<View> {
         exact_pairs(&truths()[0], count).into_iter().map(View::bare).collect()
