@@ -29,7 +29,12 @@ pub(super) fn strays(captures: &[Readings], found: &Consensus) -> Vec<Finding> {
     }
     all.extend(moved(captures, found, limit));
     let out: Vec<usize> = (0..captures.len()).filter(|&i| !found.agrees[i]).collect();
-    if all.is_empty() && out.len() > 1 && out.len() as f64 > MOST_STRAYS * captures.len() as f64 {
+    let rest = captures.len() - out.len();
+    if all.is_empty()
+        && out.len() > 1
+        && rest >= FEWEST
+        && out.len() as f64 > MOST_STRAYS * captures.len() as f64
+    {
         all.push(Finding { fault: Fault::Disagreeing(out), after: None });
     }
     all
