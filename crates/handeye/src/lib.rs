@@ -14,6 +14,7 @@ pub mod lens;
 pub mod lie;
 pub mod linalg;
 pub mod observation;
+pub mod pivot;
 pub mod predict;
 pub mod refine;
 pub mod register;
@@ -24,6 +25,7 @@ pub mod solve;
 pub mod target;
 pub mod target_art;
 pub mod touches;
+pub mod verify;
 
 pub use calibrate::{Config, Session, calibrate};
 pub use calibration::{Calibration, Verdict};

@@ -7,6 +7,7 @@ mod map;
 mod picture;
 mod plot;
 mod scene;
+mod touch_test;
 
 use std::fmt::Write;
 
@@ -16,6 +17,7 @@ use handeye::{
 };
 
 pub use picture::{MarkedCorner, Picture};
+pub use touch_test::{TouchTest, touch_test_html};
 
 /// What the page shows.
 pub struct Report<'a> {
