@@ -100,6 +100,7 @@ fn session(pairs: Pairs, path: &Path) -> Result<Session, Failure> {
     }
     Ok(Session {
         camera_from_views: false,
+        known_position: None,
         setup: pairs.setup,
         target: None,
         camera: None,

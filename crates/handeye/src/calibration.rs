@@ -186,6 +186,20 @@ pub struct Scale {
     pub sigma: f64,
 }
 
+/// The determined part of `mount_from_camera` where the data leave directions free.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Determined {
+    /// Its rotation; `None` where a rotation is free.
+    pub rotation_xyzw: Option<[f64; 4]>,
+    /// Its translation without the components along the free directions; `None` where a rotation is
+    /// free.
+    pub translation_across_m: Option<[f64; 3]>,
+    /// Axes of the mount about which the camera may turn.
+    pub free_rotations: Vec<[f64; 3]>,
+    /// Directions of the mount along which the camera may shift.
+    pub free_translations: Vec<[f64; 3]>,
+}
+
 /// The camera as the calibration found it, where it was free.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CameraResult {
@@ -251,6 +265,9 @@ pub struct Calibration {
     pub rejected: Vec<String>,
     /// Directions that the data leave free, in words.
     pub undetermined: Vec<String>,
+    /// What is known of the answer where a direction is free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub determined: Option<Determined>,
     /// What the poses can determine.
     pub diversity: Option<Diversity>,
     /// Where the error comes from.

@@ -165,6 +165,25 @@ pub(crate) fn inverse_spd(m: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(inverse)
 }
 
+/// Inverse of a symmetric matrix in which directions may be free: these get the standard deviation
+/// `sigma`.
+pub(crate) fn inverse_with_free(m: &DMatrix<f64>, sigma: f64) -> Option<DMatrix<f64>> {
+    let (scaled, scale) = scaled(m)?;
+    let eigen = scaled.symmetric_eigen();
+    let n = m.nrows();
+    let mut inverse = DMatrix::zeros(n, n);
+    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+        let direction = vector.component_mul(&scale);
+        let free = sigma * sigma / direction.norm_squared();
+        let variance = if *value > LEAST_EIGENVALUE { 1.0 / value } else { free };
+        inverse.ger(variance, &direction, &direction, 1.0);
+    }
+    inverse.iter().all(|x| x.is_finite()).then_some(inverse)
+}
+
+/// Eigenvalues of a matrix of unit diagonal below this are zero but for rounding.
+const LEAST_EIGENVALUE: f64 = 1e-13;
+
 /// Row and column of every entry, in the order of storage.
 fn indices(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(move |j| (0..n).map(move |i| (i, j)))

@@ -136,12 +136,6 @@ fn no_consensus(session: &Session, readings: &[Readings], error: &Error, result:
     }
     result.diversity = (pairs.len() > 1).then(|| evaluate::diversity(&pairs));
     result.reasons.push(error.to_string());
-    if let Some(axis) = motions::single_axis(&pairs) {
-        let mount = session.setup.mount();
-        let axis = diagnose::axis_name(&axis);
-        result.undetermined.push(format!("translation along the rotation axis {axis} of {mount}"));
-        return;
-    }
     result.undetermined.push(format!("the pose of the camera on the {}", session.setup.mount()));
     if !motions::rotates(&pairs) {
         return;

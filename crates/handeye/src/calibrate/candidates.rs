@@ -34,7 +34,7 @@ pub(super) fn estimate<'a>(
     if !optics.extras.is_empty() {
         views.views = optics::with_sights(&views);
     }
-    let problem = joint::views_problem(setup, &views.views, &optics.extras);
+    let problem = joint::views_problem(views.session, &views.views, &optics.extras);
     let mut fit = match refine::fit_joint(&problem, &found.hand_eye, &config.known) {
         Ok(fit) => fit,
         Err(error) => {
@@ -44,8 +44,7 @@ pub(super) fn estimate<'a>(
         }
     };
     captures::orient_target(&mut views, &mut fit);
-    let problem = joint::views_problem(setup, &views.views, &optics.extras);
-    result.undetermined = diagnose::undetermined(&fit, setup);
+    let problem = joint::views_problem(views.session, &views.views, &optics.extras);
     optics.report(views.session, &fit, result);
     verdict::judge_scale(&views, &fit, config, result);
     let volume = volume(&views, &fit)?;
@@ -61,6 +60,7 @@ pub(super) fn estimate<'a>(
         joint.warn(&views, result);
     }
     let (best, whole) = joint.as_ref().map_or((&fit, &problem), |j| (&j.fit, &j.problem));
+    name_free(&views, &fit, best, result);
     let spread_of = |covariance: &DMatrix<f64>, p: &Vector3<f64>| {
         optics::spread(&views, &best.extras, &(covariance * inflation(best)?), p)
     };
@@ -98,6 +98,28 @@ pub(super) fn estimate<'a>(
     }
     captures::report_touches(&views, &paired, joint.as_ref(), result);
     Some(views)
+}
+
+/// Names what the best answer leaves free, and what views alone would have.
+fn name_free(views: &Views, fit: &JointFit, best: &JointFit, result: &mut Calibration) {
+    let (setup, pairs) = (views.session.setup, pairs_of(views));
+    let free = diagnose::free_directions(best);
+    result.undetermined = diagnose::in_words(&free, &pairs, setup);
+    if !free.is_empty() {
+        result.determined = Some(verdict::determined(&best.hand_eye.mount_from_camera, &free));
+        return;
+    }
+    let by_views = diagnose::free_directions(fit);
+    if !by_views.is_empty() {
+        let what = diagnose::in_words(&by_views, &pairs, setup).join(", ");
+        result.warnings.push(Warning::new(
+            "determined-by-touches",
+            format!(
+                "the views do not determine {what}: the touches alone do, and nothing else checks \
+                 them; tilt the robot about a second axis if it can"
+            ),
+        ));
+    }
 }
 
 /// A candidate with what its choice needs.
@@ -162,8 +184,7 @@ impl Judge<'_> {
         let by_estimator = |(name, estimator)| self.view_candidate(fit, name, &estimator);
         let mut judged: Vec<Judged> = all.into_iter().filter_map(by_estimator).collect();
         if config.method.is_none() {
-            let problem =
-                joint::views_problem(self.views.session.setup, &self.views.views, &fit.extras);
+            let problem = joint::views_problem(self.views.session, &self.views.views, &fit.extras);
             let left_out = held_out_views(&problem, fit, &self.known);
             judged.push(self.judged(fit, likeliest.into(), &fit.hand_eye, left_out));
         }

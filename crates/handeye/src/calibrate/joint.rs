@@ -4,9 +4,9 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
-use super::{agreement::Views, boards::Boards};
+use super::{Session, agreement::Views, boards::Boards};
 use crate::{
-    Setup, Warning,
+    Warning,
     calibration::Calibration,
     evaluate,
     refine::{
@@ -41,8 +41,14 @@ pub(super) struct Conflict {
 }
 
 /// Views alone.
-pub(super) fn views_problem(setup: Setup, views: &[View], extras: &[Extra]) -> Problem {
-    Problem { setup, views: views.to_vec(), boards: vec![], extras: extras.to_vec() }
+pub(super) fn views_problem(session: &Session, views: &[View], extras: &[Extra]) -> Problem {
+    Problem {
+        setup: session.setup,
+        views: views.to_vec(),
+        boards: vec![],
+        extras: extras.to_vec(),
+        known_position: session.known_position,
+    }
 }
 
 /// Fits views and touches together; `extras` are free beside the tip.
@@ -54,10 +60,8 @@ pub(super) fn fit(
     known: &KnownNoise,
 ) -> Option<Joint> {
     let mut problem = Problem {
-        setup: views.session.setup,
-        views: views.views.clone(),
         boards: boards.boards.clone(),
-        extras: [extras, &tip(TIP_PRIOR)].concat(),
+        ..views_problem(views.session, &views.views, &[extras, &tip(TIP_PRIOR)].concat())
     };
     if problem.boards.is_empty() {
         return None;

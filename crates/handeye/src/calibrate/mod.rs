@@ -20,7 +20,7 @@ use crate::{
     Correspondence, Error, Intrinsics, Observation, Placement, Setup, TargetModel, Touch,
     Workspace,
     calibration::{Answer, Calibration, Misfit, Verdict},
-    refine::noise::KnownNoise,
+    refine::{KnownPosition, noise::KnownNoise},
     register::IcpConfig,
     solve::Method,
 };
@@ -49,6 +49,8 @@ pub struct Session {
     pub correspondences: Vec<Correspondence>,
     /// Where the answer will be used, in the base (eye-to-hand) or the camera (eye-in-hand).
     pub workspace: Option<Workspace>,
+    /// What is known of the camera's place on the mount.
+    pub known_position: Option<KnownPosition>,
 }
 
 /// What the user wants of a calibration.
@@ -183,6 +185,7 @@ fn empty(session: &Session) -> Calibration {
         touches: vec![],
         rejected: vec![],
         undetermined: vec![],
+        determined: None,
         diversity: None,
         error_budget: vec![],
         advice: vec![],

@@ -123,7 +123,7 @@ fn fitted(
     start: &crate::HandEye,
     config: &Config,
 ) -> Option<JointFit> {
-    let problem = views_problem(views.session.setup, sighted, extras);
+    let problem = views_problem(views.session, sighted, extras);
     refine::fit_joint(&problem, start, &config.known).ok()
 }
 
@@ -147,7 +147,7 @@ fn what_to_free(
         sets.extend(more);
     }
     let fit = |extras: &[Extra]| {
-        let problem = views_problem(given.setup, sighted, extras);
+        let problem = views_problem(given, sighted, extras);
         let fit = refine::fit_joint(&problem, start, &config.known).ok()?;
         Some((problem, fit))
     };

@@ -2,8 +2,8 @@
 
 use super::{Config, agreement::Views};
 use crate::{
-    Warning,
-    calibration::{Answer, Calibration, Scale, Verdict},
+    Camera, Mount, Pose, Warning,
+    calibration::{Answer, Calibration, Determined, Scale, Verdict},
     diagnose,
     refine::JointFit,
 };
@@ -67,12 +67,31 @@ fn hide_undetermined(result: &mut Calibration) {
     if result.reasons.is_empty() {
         result.reasons.push(format!(
             "the data do not determine {}: tilt the robot by 30 degrees and more about two axes, \
-             or touch corners",
+             or touch corners, or give the position along that direction as `[known_position]`",
             result.undetermined.join(", ")
         ));
     }
     result.hand_eye = Answer::default();
+    result.candidates.iter_mut().for_each(|k| k.hand_eye = Answer::default());
     result.predicted_tre_mm = None;
+}
+
+/// What is known of a pose of which something is free.
+pub(super) fn determined(x: &Pose<Mount, Camera>, free: &[diagnose::Free]) -> Determined {
+    let along = |is_rotation: bool| {
+        free.iter().filter(move |f| f.is_rotation == is_rotation).map(|f| f.axis)
+    };
+    let t = x.translation();
+    let across = along(false).fold(t, |t, axis| t - axis * axis.dot(&t));
+    // a rotation that is free swings the camera about: no position is left
+    let turns = along(true).next().is_some();
+    let q = x.iso().rotation;
+    Determined {
+        rotation_xyzw: (!turns).then(|| [q.i, q.j, q.k, q.w]),
+        translation_across_m: (!turns).then(|| across.into()),
+        free_rotations: along(true).map(Into::into).collect(),
+        free_translations: along(false).map(Into::into).collect(),
+    }
 }
 
 /// What the data say against themselves.

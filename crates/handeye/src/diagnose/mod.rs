@@ -4,12 +4,17 @@ pub mod explain;
 mod size;
 mod strays;
 
+use nalgebra::{Matrix3, Vector3};
+
 use crate::{
     HandEye, Pose, PosePair, Setup, Target,
     detect::sight::{CAMERA, Sight, TARGET_SCALE},
     predict,
     refine::{self, Extra, ExtraKind, JointFit, Problem, View, noise::KnownNoise},
-    solve::consensus::{self, Consensus, Readings},
+    solve::{
+        consensus::{self, Consensus, Readings},
+        motions,
+    },
 };
 
 /// A mistake in how all poses were written or read.
@@ -110,7 +115,8 @@ pub fn target_scale(
     let fit_scale = |views: &[View], start: &HandEye| {
         let scaling = |v: &View| View { sight: Some(by_scale(v).into()), ..v.clone() };
         let views = views.iter().map(scaling).collect();
-        let problem = Problem { setup, views, boards: vec![], extras: vec![size] };
+        let problem =
+            Problem { setup, views, boards: vec![], extras: vec![size], known_position: None };
         let fit = refine::fit_joint(&problem, start, known).ok()?;
         Some((1.0 + fit.extra(size.kind)?.0, fit.extra(size.kind)?.1, fit))
     };
@@ -171,22 +177,62 @@ pub fn exchanged(
 /// Largest standard deviations of an answer that still counts as determined: 3 degrees, 20 mm.
 const FREE: (f64, f64) = (0.052, 0.02);
 
-/// Directions of `mount_from_camera` that the data leave free, in the user's words.
-pub fn undetermined(fit: &JointFit, setup: Setup) -> Vec<String> {
+/// What the data leave free of `mount_from_camera`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Free {
+    /// A rotation, or else a translation.
+    pub is_rotation: bool,
+    /// About or along which direction, in the mount.
+    pub axis: Vector3<f64>,
+}
+
+/// Directions of `mount_from_camera` that the data leave free.
+pub fn free_directions(fit: &JointFit) -> Vec<Free> {
     let Some(covariance) = fit.pose_covariance() else {
-        return vec![format!("the pose of the camera on the {}", setup.mount())];
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        return [true, false]
+            .into_iter()
+            .flat_map(|is_rotation| axes.map(|axis| Free { is_rotation, axis }))
+            .collect();
     };
-    let x = covariance.fixed_view::<6, 6>(0, 0);
     let r = fit.hand_eye.mount_from_camera.rotation();
-    let mut named = Vec::new();
-    for (block, limit, what) in [(0, FREE.0, "rotation about"), (3, FREE.1, "translation along")] {
-        let s: nalgebra::Matrix3<f64> = x.fixed_view::<3, 3>(block, block).into_owned();
+    let mut free = Vec::new();
+    for (block, limit) in [(0, FREE.0), (3, FREE.1)] {
+        let s: Matrix3<f64> = covariance.fixed_view::<3, 3>(block, block).into_owned();
         let eigen = s.symmetric_eigen();
         for k in 0..3 {
             if eigen.eigenvalues[k].max(0.0).sqrt() > limit {
                 let axis = r * eigen.eigenvectors.column(k);
-                named.push(format!("{what} {} of {}", axis_name(&axis), setup.mount()));
+                // the same direction has the same sign in every run
+                let sign = if axis[axis.iamax()] < 0.0 { -1.0 } else { 1.0 };
+                free.push(Free { is_rotation: block == 0, axis: axis * sign });
             }
+        }
+    }
+    free
+}
+
+/// Cosine of the angle between a direction and the robot's one axis up to which they are the same.
+const ALONG: f64 = 0.999;
+
+/// Free directions in the user's words.
+pub fn in_words(free: &[Free], pairs: &[PosePair], setup: Setup) -> Vec<String> {
+    let mount = setup.mount();
+    let count = |is_rotation| free.iter().filter(|f| f.is_rotation == is_rotation).count();
+    let mut named = Vec::new();
+    let single = motions::single_axis(pairs);
+    for (is_rotation, all, what) in [
+        (true, "the rotation of the camera on", "rotation about"),
+        (false, "the position of the camera on", "translation along"),
+    ] {
+        if count(is_rotation) == 3 {
+            named.push(format!("{all} {mount}"));
+            continue;
+        }
+        for f in free.iter().filter(|f| f.is_rotation == is_rotation) {
+            let turning = single.is_some_and(|a| a.dot(&f.axis).abs() > ALONG);
+            let which = if turning { "the rotation axis " } else { "" };
+            named.push(format!("{what} {which}{} of {mount}", axis_name(&f.axis)));
         }
     }
     named

@@ -28,7 +28,7 @@
 //! D. Harville, *Maximum likelihood approaches to variance component estimation*, JASA 72, 1977;
 //! M. Ulrich and M. Hillemann, *Uncertainty-aware hand-eye calibration*, IEEE T-RO 40, 2024.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Vector3};
 
 use super::{
     extra::{Extra, ExtraKind},
@@ -37,7 +37,7 @@ use super::{
     system::{State, System},
     touched::{self, TouchRows, TouchedBoard},
 };
-use crate::{Error, HandEye, Setup, lie, linalg};
+use crate::{Camera, Error, HandEye, Mount, Pose, Setup, lie, linalg};
 
 /// All that the fit rests on.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +50,26 @@ pub struct Problem {
     pub boards: Vec<TouchedBoard>,
     /// What is free beside `X` and `Y`.
     pub extras: Vec<Extra>,
+    /// What the user knows of where the camera sits.
+    pub known_position: Option<KnownPosition>,
+}
+
+/// The camera's position along one direction, as measured by other means.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownPosition {
+    /// The direction, in the mount; of unit length.
+    pub axis: Vector3<f64>,
+    /// The position along it (m).
+    pub value_m: f64,
+    /// Its standard deviation (m).
+    pub sigma_m: f64,
+}
+
+impl KnownPosition {
+    /// Misfit of an answer in standard deviations.
+    pub(super) fn misfit(&self, x: &Pose<Mount, Camera>) -> f64 {
+        (self.axis.dot(&x.translation()) - self.value_m) / self.sigma_m
+    }
 }
 
 /// The answer, and how sure it is.
@@ -127,7 +147,13 @@ pub fn fit_views(
     known: &KnownNoise,
     setup: Setup,
 ) -> Result<JointFit, Error> {
-    let problem = Problem { setup, views: views.to_vec(), boards: vec![], extras: vec![] };
+    let problem = Problem {
+        setup,
+        views: views.to_vec(),
+        boards: vec![],
+        extras: vec![],
+        known_position: None,
+    };
     fit_joint(&problem, start, known)
 }
 

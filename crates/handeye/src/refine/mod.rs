@@ -12,7 +12,7 @@ mod system;
 pub mod touched;
 
 pub use extra::{Extra, ExtraKind};
-pub use joint::{JointFit, Problem, fit_joint, fit_views};
+pub use joint::{JointFit, KnownPosition, Problem, fit_joint, fit_views};
 pub use noise::{KnownNoise, NoiseModel, Sigma, Source};
 pub use pose_fit::{View, fit_fixed_weights};
 pub use touched::{TouchedBoard, TouchedCorner};

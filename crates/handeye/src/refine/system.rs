@@ -39,6 +39,10 @@ impl State {
     }
 }
 
+/// Standard deviation (rad, m) of what nothing determines: far beyond any answer, and yet a number
+/// that the algebra can work with. No measurement notices it.
+const FREE_SIGMA: f64 = 10.0;
+
 /// One block of equations, divided by the root of its covariance.
 struct ViewBlock {
     residual: Vector6<f64>,
@@ -129,7 +133,28 @@ impl System {
         }
         system.add_sights(state);
         system.add_priors(problem, state);
+        system.add_known_position(problem, state);
+        (0..12).for_each(|k| system.h[(k, k)] += FREE_SIGMA.powi(-2));
         system
+    }
+
+    fn add_known_position(&mut self, problem: &Problem, state: &State) {
+        let Some(known) = &problem.known_position else { return };
+        let x = &state.hand_eye.mount_from_camera;
+        let j = known.axis.transpose() * x.rotation() / known.sigma_m;
+        let e = known.misfit(x);
+        for a in 0..3 {
+            self.g[3 + a] += j[a] * e;
+            for b in 0..3 {
+                self.h[(3 + a, 3 + b)] += j[a] * j[b];
+            }
+        }
+        self.cost += e * e;
+    }
+
+    /// Inverse of the information; what the data leave free has [`FREE_SIGMA`].
+    fn covariance(&self) -> Option<DMatrix<f64>> {
+        linalg::inverse_spd(&self.h).or_else(|| linalg::inverse_with_free(&self.h, FREE_SIGMA))
     }
 
     fn add_sights(&mut self, state: &State) {
@@ -222,6 +247,8 @@ impl System {
             );
             cost += rows.residual.dot(&block.cholesky.solve(&rows.residual));
         }
+        let known = problem.known_position.as_ref();
+        cost += known.map_or(0.0, |k| k.misfit(&state.hand_eye.mount_from_camera).powi(2));
         let prior = |(e, x): (&Extra, &f64)| ((x - e.prior_mean) / e.prior_sigma).powi(2);
         let priors: f64 = problem.extras.iter().zip(&state.values).map(prior).sum();
         cost + priors + self.sights.cost(&state.values)
@@ -235,7 +262,7 @@ impl System {
         prior: &NoiseModel,
         known: &KnownNoise,
     ) -> f64 {
-        let Some(covariance) = linalg::inverse_spd(&self.h) else { return 0.0 };
+        let Some(covariance) = self.covariance() else { return 0.0 };
         let moments = self.moments(&covariance);
         let free: Vec<usize> = (0..noise.sigmas.len())
             .filter(|&k| known.sigma(noise.sigmas[k].source).is_none())
@@ -325,7 +352,7 @@ impl System {
     }
 
     pub fn finish(self, problem: &Problem, state: State) -> JointFit {
-        let covariance = linalg::inverse_spd(&self.h);
+        let covariance = self.covariance();
         let rows = self.boards.iter().map(|b| b.rows.residual.len()).sum::<usize>();
         let equations = 6 * self.views.len() + rows;
         let log_h = Cholesky::new(self.h.clone()).map_or(f64::INFINITY, |c| {

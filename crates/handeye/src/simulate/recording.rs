@@ -115,6 +115,7 @@ impl Recording<'_> {
         let placements = (0..cell.placements).map(|k| self.placement(k)).collect();
         Session {
             camera_from_views: false,
+            known_position: None,
             setup: cell.setup,
             target: Some(cell.target.clone()),
             camera: Some(cell.intrinsics),

@@ -18,7 +18,7 @@
 use crate::{
     Anchor, Camera, Error, HandEye, Mount, Pose, PosePair, Target,
     refine::{View, fit_fixed_weights},
-    solve::{self, FEWEST_POSES, Method, motions},
+    solve::{self, FEWEST_POSES, Method, few_axes, motions},
 };
 
 /// One capture with every reading of its picture.
@@ -58,7 +58,8 @@ const METRES_PER_RAD: f64 = 0.3;
 /// Finds the largest agreement between captures.
 ///
 /// # Errors
-/// As [`solve::solve`]; also when fewer than three captures, or fewer than half, agree.
+/// Fewer than three captures; none that agree; a robot that does not move. Rotations about one axis
+/// only, or none, are no error here: the answer is one of those that fit.
 pub fn consensus(captures: &[Readings]) -> Result<Consensus, Error> {
     let readable: Vec<usize> =
         (0..captures.len()).filter(|&i| !captures[i].camera_from_target.is_empty()).collect();
@@ -66,18 +67,18 @@ pub fn consensus(captures: &[Readings]) -> Result<Consensus, Error> {
     if first.len() < FEWEST_POSES {
         return Err(solve::too_few(first.len()));
     }
-    motions::check_axes(&first)?;
+    let axes = motions::check_axes(&first);
     let mut best: Option<(f64, HandEye)> = None;
     for triple in triples(readable.len()) {
         let triple = triple.map(|k| readable[k]);
-        for start in hypotheses(captures, triple) {
+        for start in hypotheses(captures, triple, axes.is_ok()) {
             let score = score(captures, &start);
             if best.is_none_or(|(s, _)| score < s) {
                 best = Some((score, start));
             }
         }
     }
-    let (_, start) = best.ok_or_else(no_agreement)?;
+    let (_, start) = best.ok_or_else(|| axes.err().unwrap_or_else(no_agreement))?;
     let hand_eye = polish(captures, start);
     Ok(settle(captures, hand_eye))
 }
@@ -121,8 +122,9 @@ fn triples(n: usize) -> Vec<[usize; 3]> {
     all
 }
 
-/// Answers of one triple, for the combinations of readings that its motions allow.
-fn hypotheses(captures: &[Readings], triple: [usize; 3]) -> Vec<HandEye> {
+/// Answers of one triple, for the combinations of readings that its motions allow. Where the
+/// rotations have fewer than two axes, one of the answers that fit.
+fn hypotheses(captures: &[Readings], triple: [usize; 3], two_axes: bool) -> Vec<HandEye> {
     let [i, j, k] = triple.map(|c| &captures[c]);
     let mut allowed: Vec<(f64, [PosePair; 3])> = Vec::new();
     for a in 0..i.camera_from_target.len() {
@@ -142,7 +144,10 @@ fn hypotheses(captures: &[Readings], triple: [usize; 3]) -> Vec<HandEye> {
     }
     allowed.sort_by(|x, y| x.0.total_cmp(&y.0));
     allowed.truncate(MOST_COMBINATIONS);
-    allowed.iter().filter_map(|(_, pairs)| solve::solve(pairs, Method::Shah).ok()).collect()
+    let answer = |pairs: &[PosePair; 3]| {
+        if two_axes { solve::solve(pairs, Method::Shah).ok() } else { few_axes::solve(pairs) }
+    };
+    allowed.iter().filter_map(|(_, pairs)| answer(pairs)).collect()
 }
 
 /// By how much robot and camera disagree on the angle of one motion; `None` when beyond belief.

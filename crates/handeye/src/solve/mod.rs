@@ -10,6 +10,7 @@ mod chou_kamel;
 pub mod consensus;
 mod daniilidis;
 mod dornaika_horaud;
+pub mod few_axes;
 mod horaud_dornaika;
 mod jacobi;
 mod kronecker;
