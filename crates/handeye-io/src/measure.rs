@@ -317,6 +317,7 @@ fn session(
         touches: dataset.touches.clone(),
         correspondences: dataset.correspondences.clone(),
         workspace: dataset.workspace.map(|w| w.corners),
+        known_position: dataset.known_position,
     }
 }
 

@@ -8,7 +8,7 @@ use handeye::{
     Calibration, Distortion, Intrinsics, Pose, Setup, Verdict, Warning,
     calibration::{
         Advice, Answer, BudgetEntry, CameraResult, Candidate, CaptureResult, DepthResult,
-        Diversity, Misfit, PoseCovariance, Scale, TouchResult,
+        Determined, Diversity, Misfit, PoseCovariance, Scale, TouchResult,
     },
     predict::{PredictedTre, TreMap, TreSlice},
 };
@@ -85,6 +85,12 @@ fn full() -> Calibration {
         }],
         rejected: vec!["02".into()],
         undetermined: vec!["z".into()],
+        determined: Some(Determined {
+            rotation_xyzw: Some([0.0, 0.0, 0.0, 1.0]),
+            translation_across_m: Some([0.0; 3]),
+            free_rotations: vec![[1.0, 0.0, 0.0]],
+            free_translations: vec![[1.0, 0.0, 0.0]],
+        }),
         diversity: Some(Diversity {
             captures: 1,
             largest_rotation_deg: 0.0,

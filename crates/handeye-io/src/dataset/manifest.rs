@@ -32,6 +32,7 @@ pub(crate) struct Manifest {
     pub(super) placements: Vec<PlacementSpec>,
     pub(super) touches: Option<TouchesSpec>,
     pub(super) workspace: Option<WorkspaceSpec>,
+    pub(super) known_position: Option<KnownPositionSpec>,
     #[serde(default)]
     pub(super) noise: NoiseSpec,
     #[serde(default)]
@@ -260,6 +261,15 @@ pub(super) struct WorkspaceSpec {
     pub(super) frame: super::WorkspaceFrame,
     pub(super) minimum_mm: [f64; 3],
     pub(super) maximum_mm: [f64; 3],
+}
+
+/// The camera's position along one direction of the base (eye-to-hand) or flange (eye-in-hand).
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct KnownPositionSpec {
+    pub(super) axis: [f64; 3],
+    pub(super) value_mm: f64,
+    pub(super) sigma_mm: f64,
 }
 
 #[derive(Debug, Clone, Copy, Default, Deserialize)]

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use handeye::{
     Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics, Pose, Scan, Setup,
-    Target, TargetModel, Touch, Warning, Workspace,
+    Target, TargetModel, Touch, Warning, Workspace, refine::KnownPosition,
 };
 use serde::Deserialize;
 
@@ -52,6 +52,8 @@ pub struct Dataset {
     pub correspondences: Vec<Correspondence>,
     /// The box in which the robot will work.
     pub workspace: Option<WorkspaceBox>,
+    /// What is known of the camera's place on the mount.
+    pub known_position: Option<KnownPosition>,
     /// What the manifest says of the noise.
     pub noise: Noise,
     /// What the job tolerates.

@@ -2,13 +2,19 @@
 
 use std::path::PathBuf;
 
-use handeye::{Base, Camera, Flange, Intrinsics, Pose, Setup, Target, Touch, Warning, Workspace};
+use handeye::{
+    Base, Camera, Flange, Intrinsics, Pose, Setup, Target, Touch, Warning, Workspace,
+    refine::KnownPosition,
+};
 use nalgebra::Vector3;
 
 use super::{
     CaptureSource, Dataset, Limits, Noise, PlacementSource, WorkspaceBox,
     corners::{CornerReading, Corners},
-    manifest::{LimitsSpec, Manifest, NoiseSpec, PlacementSpec, PoseTable, Source, WorkspaceSpec},
+    manifest::{
+        KnownPositionSpec, LimitsSpec, Manifest, NoiseSpec, PlacementSpec, PoseTable, Source,
+        WorkspaceSpec,
+    },
     pairing::{self, Series},
     poses::{self, Named},
     touches,
@@ -62,6 +68,7 @@ impl Opening {
             placements,
             correspondences,
             workspace: m.workspace.as_ref().map(|w| self.workspace(w)).transpose()?,
+            known_position: m.known_position.map(|k| self.known_position(&k)).transpose()?,
             noise: self.noise(&m.noise)?,
             limits: self.limits(&m.limits)?,
             notation: m.robot.as_ref().and_then(|r| r.table().notation),
@@ -315,6 +322,25 @@ impl Opening {
         }
         let corners = Workspace { minimum: minimum / 1000.0, maximum: maximum / 1000.0 };
         Ok(WorkspaceBox { frame: spec.frame, corners })
+    }
+
+    fn known_position(&self, spec: &KnownPositionSpec) -> Result<KnownPosition, Error> {
+        let axis = Vector3::from(spec.axis).try_normalize(1e-9).filter(|a| a.norm().is_finite());
+        let axis = axis.ok_or_else(|| {
+            malformed(
+                self.source.place("known_position.axis"),
+                "the axis has no length",
+                "give a direction of the body that carries the camera, such as [0, 0, 1]",
+            )
+        })?;
+        if !spec.value_mm.is_finite() {
+            let what = "value_mm is not a number";
+            let advice = "give the camera's position along the axis, mm";
+            return Err(malformed(self.source.place("known_position.value_mm"), what, advice));
+        }
+        let sigma = self.positive("known_position.sigma_mm", Some(spec.sigma_mm), 1e-3)?;
+        let sigma_m = sigma.unwrap_or(1e-3);
+        Ok(KnownPosition { axis, value_m: spec.value_mm * 1e-3, sigma_m })
     }
 
     fn noise(&self, spec: &NoiseSpec) -> Result<Noise, Error> {

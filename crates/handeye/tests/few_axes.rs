@@ -1,0 +1,139 @@
+//! Robots that turn about one axis only, or not at all: what the motions determine is given, what
+//! they do not is named, and a touch or a measured height fills it in.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use handeye::{
+    Base, Calibration, Camera, Config, Flange, Observation, Point, Pose, Session, Setup, Target,
+    TargetModel, TargetPose, Touch, Verdict, calibrate, refine::KnownPosition, simulate::Random,
+};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
+
+fn flange_from_camera() -> Pose<Flange, Camera> {
+    Pose::claim(Isometry3::new(Vector3::new(0.07, -0.03, 0.05), Vector3::new(0.1, -0.05, 0.6)))
+}
+
+fn base_from_target() -> Pose<Base, Target> {
+    Pose::claim(Isometry3::new(Vector3::new(0.45, 0.1, 0.02), Vector3::new(0.0, 0.0, 0.3)))
+}
+
+/// Twelve views from above, the flange turned about its own z by multiples of `turn`.
+fn session(turn: f64) -> Session {
+    let mut random = Random::new(11);
+    let view = |k: usize| {
+        let down = UnitQuaternion::from_scaled_axis(Vector3::x() * std::f64::consts::PI);
+        let rotation = down * UnitQuaternion::from_scaled_axis(Vector3::z() * turn * k as f64);
+        let at = Vector3::new(
+            random.between(0.3, 0.6),
+            random.between(-0.1, 0.3),
+            random.between(0.5, 0.7),
+        );
+        let base_from_flange: Pose<Base, Flange> =
+            Pose::claim(Isometry3::from_parts(at.into(), rotation));
+        let exact: Pose<Camera, Target> =
+            (base_from_flange * flange_from_camera()).inverse() * base_from_target();
+        let (w, t) = (random.normal3() * 2e-4, random.normal3() * 1e-4);
+        let noise = Vector6::new(w.x, w.y, w.z, t.x, t.y, t.z);
+        Observation {
+            capture: format!("{k:02}"),
+            base_from_flange,
+            corners: vec![],
+            surface: vec![],
+            candidates: vec![TargetPose {
+                camera_from_target: exact.retract(&noise),
+                covariance: None,
+            }],
+        }
+    };
+    Session {
+        setup: Setup::EyeInHand,
+        target: Some(TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 }),
+        camera: None,
+        camera_from_views: false,
+        observations: (0..12).map(view).collect(),
+        placements: vec![],
+        touches: vec![],
+        correspondences: vec![],
+        workspace: None,
+        known_position: None,
+    }
+}
+
+fn touched(corners: &[u32]) -> Vec<Touch> {
+    let board = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
+    let touch = |&corner: &u32| Touch {
+        placement: "board".into(),
+        corner,
+        in_base: Point::from_vector((base_from_target() * board.corner(corner).unwrap()).vector()),
+        base_from_flange: None,
+    };
+    corners.iter().map(touch).collect()
+}
+
+fn off(found: &Calibration) -> (f64, f64) {
+    let x = found.hand_eye.mount_from_camera.unwrap();
+    let e: Vector6<f64> = flange_from_camera().rename().local(&x);
+    (e.fixed_rows::<3>(0).norm(), e.fixed_rows::<3>(3).norm())
+}
+
+#[test]
+fn one_axis_leaves_the_position_along_it() {
+    let found = calibrate(&session(0.5), &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
+    assert_eq!(found.undetermined, ["translation along the rotation axis z of flange"]);
+    assert!(found.hand_eye.mount_from_camera.is_none() && found.predicted_tre_mm.is_none());
+    let known = found.determined.unwrap();
+    assert!(Vector3::from(known.free_translations[0]).z > 0.9999);
+    let truth = flange_from_camera();
+    let [x, y, z, w] = known.rotation_xyzw.unwrap();
+    let rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
+    assert!(rotation.angle_to(&truth.iso().rotation) < 1e-3);
+    let off = Vector3::from(known.translation_across_m.unwrap()) - truth.translation();
+    assert!(off.xy().norm() < 3e-4, "{off}");
+}
+
+#[test]
+fn a_touch_determines_it_and_is_named_for_it() {
+    let session = Session { touches: touched(&[0, 8, 45]), ..session(0.5) };
+    let found = calibrate(&session, &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Accepted, "{:?} {:?}", found.reasons, found.undetermined);
+    assert!(found.warnings.iter().any(|w| w.code == "determined-by-touches"));
+    let (angle, distance) = off(&found);
+    assert!(angle < 1e-3 && distance < 1e-3, "{angle} {distance}");
+}
+
+#[test]
+fn a_measured_height_determines_it() {
+    let z = flange_from_camera().translation().z;
+    let known = KnownPosition { axis: Vector3::z(), value_m: z, sigma_m: 5e-4 };
+    let session = Session { known_position: Some(known), ..session(0.5) };
+    let found = calibrate(&session, &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Accepted, "{:?} {:?}", found.reasons, found.undetermined);
+    let (angle, distance) = off(&found);
+    assert!(angle < 1e-3 && distance < 1e-3, "{angle} {distance}");
+    let covariance = found.hand_eye.covariance.mount_from_camera.unwrap();
+    let along = covariance[5][5].sqrt();
+    assert!((3e-4..2e-3).contains(&along), "{along}");
+}
+
+#[test]
+fn no_rotation_leaves_the_whole_position() {
+    let found = calibrate(&session(0.0), &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
+    assert_eq!(found.undetermined, ["the position of the camera on flange"]);
+    let [x, y, z, w] = found.determined.unwrap().rotation_xyzw.unwrap();
+    let rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
+    assert!(rotation.angle_to(&flange_from_camera().iso().rotation) < 1e-3);
+}
+
+#[test]
+fn a_robot_that_stands_still_determines_nothing() {
+    let mut still = session(0.5);
+    let first = still.observations[0].clone();
+    still.observations.iter_mut().for_each(|o| {
+        (o.base_from_flange, o.candidates) = (first.base_from_flange, first.candidates.clone());
+    });
+    let found = calibrate(&still, &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
+    assert!(found.hand_eye.mount_from_camera.is_none() && !found.undetermined.is_empty());
+}
