@@ -130,7 +130,11 @@ pub fn summary(c: &Calibration) {
 
 fn transform(c: &Calibration) -> String {
     let Some(pose) = &c.hand_eye.mount_from_camera else {
-        return "\n".to_owned() + &wrapped("not determined: ", &c.undetermined.join(", "));
+        let mut text = "\n".to_owned() + &wrapped("not determined: ", &c.undetermined.join(", "));
+        for line in c.determined.iter().flat_map(|d| d.lines()) {
+            text += &wrapped("determined: ", &line);
+        }
+        return text;
     };
     let (t, q) = (pose.translation() * 1e3, pose.iso().rotation.coords);
     let mut text = format!("\n{}  ({})\n", c.name, c.method);

@@ -200,6 +200,27 @@ pub struct Determined {
     pub free_translations: Vec<[f64; 3]>,
 }
 
+impl Determined {
+    /// What is known, for people: one line a quantity, mm.
+    pub fn lines(&self) -> Vec<String> {
+        let axis = |a: &[f64; 3]| format!("({:.4}, {:.4}, {:.4})", a[0], a[1], a[2]);
+        let mut lines = vec![];
+        if let Some([x, y, z, w]) = self.rotation_xyzw {
+            lines.push(format!("quaternion {x:.7} {y:.7} {z:.7} {w:.7} (x y z w)"));
+        }
+        if let Some(t) = self.translation_across_m
+            && self.free_translations.len() < 3
+        {
+            let [x, y, z] = t.map(|v| v * 1e3);
+            let free: Vec<String> =
+                self.free_translations.iter().map(|a| format!(" + any {}", axis(a))).collect();
+            lines.push(format!("translation ({x:.3}, {y:.3}, {z:.3}) mm{}", free.concat()));
+        }
+        lines.extend(self.free_rotations.iter().map(|a| format!("free to turn about {}", axis(a))));
+        lines
+    }
+}
+
 /// The camera as the calibration found it, where it was free.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CameraResult {

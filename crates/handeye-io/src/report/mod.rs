@@ -135,11 +135,12 @@ fn transform(report: &Report) -> String {
     };
     let Some(pose) = &c.hand_eye.mount_from_camera else {
         let missing = escape(&c.undetermined.join(", "));
-        return section(
-            &c.name,
-            "",
-            &format!("<p>No transform is given. Not determined: {missing}.</p>"),
-        );
+        let mut content = format!("<p>No transform is given. Not determined: {missing}.</p>");
+        if let Some(known) = &c.determined {
+            let lines = escape(&known.lines().join("\n"));
+            let _ = write!(content, "<h3>What is determined</h3><pre>{lines}</pre>");
+        }
+        return section(&c.name, "", &content);
     };
     let m = pose.matrix();
     let row = |i: usize| {
