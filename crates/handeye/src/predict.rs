@@ -185,6 +185,9 @@ pub fn map(
     }
 }
 
+/// Halvings of the interval in which the 95 % point lies: to a millionth of it.
+const HALVINGS: usize = 20;
+
 /// Length below which 95 % of the errors lie: squared lengths are matched to gamma distributions
 /// by their two moments, and the mixture over the volume is inverted by bisection.
 fn quantile95(moments: &[(f64, f64)]) -> f64 {
@@ -203,7 +206,7 @@ fn quantile95(moments: &[(f64, f64)]) -> f64 {
     if !(high > 0.0 && high.is_finite()) {
         return high;
     }
-    for _ in 0..60 {
+    for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
         if below(middle) < 0.95 { low = middle } else { high = middle }
     }

@@ -30,8 +30,14 @@ pub(super) fn boards(views: &Views, fit: &JointFit, optics: &Optics) -> Boards {
             found.add(None, target, &session.touches, &all);
         }
         Setup::EyeToHand => {
+            let excess = match &session.camera {
+                Some(camera) if !optics.extras.is_empty() => {
+                    Some(optics::excess(session, target, camera))
+                }
+                _ => None,
+            };
             for placement in &session.placements {
-                let Some(seen) = seen(placement, views, fit, target, optics) else { continue };
+                let Some(seen) = seen(placement, views, fit, target, excess) else { continue };
                 let own: Vec<usize> = (0..session.touches.len())
                     .filter(|&k| session.touches[k].placement == placement.id)
                     .collect();
@@ -61,27 +67,30 @@ impl Boards {
     }
 }
 
-/// The placement in the reading that puts its corners where they were touched.
+/// The placement in the reading that puts its corners where they were touched; with an `excess`,
+/// also what its corners know of the camera.
 fn seen(
     placement: &Placement,
     views: &Views,
     fit: &JointFit,
     target: &TargetModel,
-    optics: &Optics,
+    excess: Option<Option<f64>>,
 ) -> Option<View> {
     let x = &fit.hand_eye.mount_from_camera;
     let chosen = captures::oriented(placement, &views.session.touches, x, target);
     let pose = chosen.candidates.first()?;
     let carry = lie::adjoint(views.target_from_corner.inverse().iso());
     let own = &pose.camera_from_target;
-    let sight = (!optics.extras.is_empty())
-        .then(|| optics::sight_of_placement(views.session, &chosen.corners, &chosen.surface, own));
+    let sight = excess.and_then(|excess| {
+        let (corners, surface) = (&chosen.corners, &chosen.surface);
+        optics::sight_of_placement(views.session, excess, corners, surface, own)
+    });
     let unused: Pose<crate::Anchor, crate::Mount> = Pose::identity();
     let about_corner: Pose<crate::Camera, Target> =
         pose.camera_from_target * views.target_from_corner;
     Some(View {
         pair: PosePair { anchor_from_mount: unused, camera_from_target: about_corner },
         covariance: pose.covariance.map(|c| carry * c * carry.transpose()),
-        sight: sight.flatten().map(|s| s.carried(&carry).into()),
+        sight: sight.map(|s| s.carried(&carry).into()),
     })
 }

@@ -287,7 +287,8 @@ fn depth_warning(depth: &DepthResult) -> Warning {
     )
 }
 
-fn excess(session: &Session, target: &TargetModel, camera: &Intrinsics) -> Option<f64> {
+/// What lens model and print typically leave in a corner, px.
+pub(super) fn excess(session: &Session, target: &TargetModel, camera: &Intrinsics) -> Option<f64> {
     let pictures = session.observations.iter().map(|o| o.corners.as_slice());
     let placed = session.placements.iter().map(|p| p.corners.as_slice());
     detect::typical_excess(pictures.chain(placed).filter(|c| !c.is_empty()), target, camera)
@@ -326,12 +327,12 @@ fn sight_of(
 /// What the picture of a placement knows of camera and depth.
 pub(super) fn sight_of_placement(
     session: &Session,
+    excess: Option<f64>,
     corners: &[crate::ImageCorner],
     surface: &[SurfaceCorner],
     pose: &Pose<Camera, Target>,
 ) -> Option<Sight> {
     let (target, camera) = (session.target.as_ref()?, session.camera.as_ref()?);
-    let excess = excess(session, target, camera);
     detect::sighted(corners, surface, target, camera, excess, pose).map(|(_, sight)| sight)
 }
 

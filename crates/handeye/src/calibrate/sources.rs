@@ -126,7 +126,11 @@ fn gap(session: &Session, target: &TargetModel, camera: &Intrinsics) -> (f64, f6
         .observations
         .iter()
         .filter_map(|o| {
-            let picture = detect::target_poses(&o.corners, &[], target, camera).ok()?;
+            let near = |p: &TargetPose| {
+                let start = &p.camera_from_target;
+                Some(detect::sighted(&o.corners, &[], target, camera, None, start)?.0)
+            };
+            let picture: Vec<detect::PosedTarget> = o.candidates.iter().filter_map(near).collect();
             let scan = scan_pose(&o.surface, target)?.camera_from_target;
             let apart = |p: &detect::PosedTarget| {
                 let p = p.pose.camera_from_target;

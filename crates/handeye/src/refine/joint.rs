@@ -23,7 +23,7 @@
 //! ```
 //!
 //! and Fisher's scoring divides it by `θ_k θ_l/2 Σ tr(V⁻¹ G_k V⁻¹ G_l)`. Few captures tell little
-//! about the noise, so each component carries a prior worth [`PRIOR_VIEWS`] captures.
+//! about the noise, so each component carries a prior worth two captures.
 //!
 //! D. Harville, *Maximum likelihood approaches to variance component estimation*, JASA 72, 1977;
 //! M. Ulrich and M. Hillemann, *Uncertainty-aware hand-eye calibration*, IEEE T-RO 40, 2024.
