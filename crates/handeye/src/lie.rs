@@ -123,6 +123,12 @@ pub fn right_jacobian_inverse(xi: &Vector6<f64>) -> Matrix6<f64> {
     left_jacobian_inverse(&-xi)
 }
 
+/// `ad(ξ)` of SE(3): `J_r(ξ)⁻¹ = J_l(ξ)⁻¹ + ad(ξ)`.
+pub fn ad(xi: &Vector6<f64>) -> Matrix6<f64> {
+    let k = hat(&omega(xi));
+    blocks(&k, &Matrix3::zeros(), &hat(&nu(xi)), &k)
+}
+
 /// The block `Q(ω, v)` that couples rotation into translation.
 fn coupling(xi: &Vector6<f64>) -> Matrix3<f64> {
     let (k, p) = (hat(&omega(xi)), hat(&nu(xi)));

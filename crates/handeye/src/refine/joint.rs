@@ -103,7 +103,7 @@ const MOST_ROUNDS: usize = 100;
 const SIGMA_CHANGE: f64 = 3e-4;
 /// The unknowns have converged when the squared step, in units of their own information, is below
 /// this. One more step follows, which squares the rest.
-pub(super) const STEP: f64 = 1e-8;
+const STEP: f64 = 1e-6;
 /// A step longer than this, in the same units, comes from a start and not from noise.
 const FAR: f64 = 1.0;
 /// Captures' worth of prior belief in the first noise level.

@@ -14,7 +14,7 @@ use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::View;
-use crate::{HandEye, Setup, lie};
+use crate::{HandEye, PosePair, Setup, lie};
 
 /// One source of error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -110,13 +110,11 @@ pub(super) fn columns(view: &View) -> [Source; COLUMNS] {
 }
 
 /// `B_i`, in the Target frame, rotation first.
-pub(super) fn factor(view: &View, hand_eye: &HandEye, setup: Setup) -> Factor {
+pub(super) fn factor(view: &View, pair: &PosePair, hand_eye: &HandEye, setup: Setup) -> Factor {
     let mut b = Factor::zeros();
     let target_from_flange: Isometry3<f64> = match setup {
         // the mount is the flange: through the camera
-        Setup::EyeInHand => {
-            (hand_eye.mount_from_camera * view.pair.camera_from_target).iso().inverse()
-        }
+        Setup::EyeInHand => (hand_eye.mount_from_camera * pair.camera_from_target).iso().inverse(),
         // the anchor is the flange
         Setup::EyeToHand => hand_eye.anchor_from_target.iso().inverse(),
     };
@@ -218,7 +216,7 @@ impl NoiseModel {
 
     /// Covariance of a view's misfit, in the Target frame.
     pub fn covariance(&self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
-        covariance(&factor(view, hand_eye, setup), &columns(view), &self.variances())
+        covariance(&factor(view, &view.pair, hand_eye, setup), &columns(view), &self.variances())
     }
 }
 

@@ -4,12 +4,12 @@
 
 use std::ops::AddAssign;
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, OMatrix, SMatrix, SVector, U6, Vector6};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, SMatrix, SVector, Vector6};
 
 use super::{
     JointFit, Problem,
     extra::{Extra, ExtraKind},
-    joint::{LEAST_SIGMA, PRIOR_TOUCHES, PRIOR_VIEWS, STEP},
+    joint::{LEAST_SIGMA, PRIOR_TOUCHES, PRIOR_VIEWS},
     noise::{self, COLUMNS, Factor, KnownNoise, NoiseModel, Sigma, Source},
     pose_fit::{self, Vector12, View},
     touched::{self, TouchRows, TouchedBoard},
@@ -39,14 +39,16 @@ impl State {
     }
 }
 
+/// A step shorter than this, squared and in units of the information, needs no check: the model is
+/// as good as linear there.
+const NEAR: f64 = 1e-2;
+
 /// Standard deviation (rad, m) of what nothing determines: far beyond any answer, and yet a number
 /// that the algebra can work with. No measurement notices it.
 const FREE_SIGMA: f64 = 10.0;
 
-/// One block of equations, divided by the root of its covariance.
-struct ViewBlock {
-    residual: Vector6<f64>,
-    jacobian: OMatrix<f64, U6, Dyn>,
+/// What a view's six equations were divided by, and the noise's factor, divided likewise.
+struct ViewNoise {
     factor: Factor,
     columns: [Source; COLUMNS],
     root: Matrix6<f64>,
@@ -65,7 +67,10 @@ pub(super) struct System {
     cost_of_sights: f64,
     log_determinant: f64,
     sights: Sights,
-    views: Vec<ViewBlock>,
+    /// Six rows a view, divided by the root of their covariance.
+    jacobian: DMatrix<f64>,
+    residual: DVector<f64>,
+    views: Vec<ViewNoise>,
     boards: Vec<BoardBlock>,
 }
 
@@ -122,12 +127,12 @@ impl System {
             cost_of_sights: 0.0,
             log_determinant: 0.0,
             sights: Sights::of(problem, &variances),
+            jacobian: DMatrix::zeros(6 * problem.views.len(), p),
+            residual: DVector::zeros(6 * problem.views.len()),
             views: Vec::with_capacity(problem.views.len()),
             boards: vec![],
         };
-        for view in &problem.views {
-            system.add_view(view_block(problem, view, state, &variances));
-        }
+        system.add_views(problem, state, &variances);
         for board in &problem.boards {
             system.add_board(board_block(problem, board, state, &variances));
         }
@@ -152,6 +157,19 @@ impl System {
         self.cost += e * e;
     }
 
+    /// A root `W` of the covariance, `C = W Wᵀ`.
+    fn covariance_root(&self) -> Option<DMatrix<f64>> {
+        let n = self.h.nrows();
+        let (scaled, scale) = linalg::scaled(&self.h)?;
+        if let Some(cholesky) = Cholesky::new(scaled) {
+            let inverse = cholesky.l().solve_lower_triangular(&DMatrix::identity(n, n))?;
+            return Some(DMatrix::from_fn(n, n, |i, j| inverse[(j, i)] * scale[i]));
+        }
+        let eigen = self.covariance()?.symmetric_eigen();
+        let roots = eigen.eigenvalues.map(|v| v.max(0.0).sqrt());
+        Some(eigen.eigenvectors * DMatrix::from_diagonal(&roots))
+    }
+
     /// Inverse of the information; what the data leave free has [`FREE_SIGMA`].
     fn covariance(&self) -> Option<DMatrix<f64>> {
         linalg::inverse_spd(&self.h).or_else(|| linalg::inverse_with_free(&self.h, FREE_SIGMA))
@@ -167,12 +185,59 @@ impl System {
         self.cost += self.cost_of_sights;
     }
 
-    fn add_view(&mut self, block: ViewBlock) {
-        self.h.gemm_tr(1.0, &block.jacobian, &block.jacobian, 1.0);
-        self.g.gemv_tr(1.0, &block.jacobian, &block.residual, 1.0);
-        self.cost += block.residual.norm_squared();
-        self.log_determinant += 2.0 * block.root.diagonal().iter().map(|d| d.ln()).sum::<f64>();
-        self.views.push(block);
+    fn add_views(&mut self, problem: &Problem, state: &State, variances: &Variances) {
+        let seen = SeenMount::of(problem, state);
+        for (i, view) in problem.views.iter().enumerate() {
+            let noise = self.fill(6 * i, view, problem, state, &seen, variances);
+            self.views.push(noise);
+        }
+        add_squares(&mut self.h, &self.jacobian);
+        self.g.gemv_tr(1.0, &self.jacobian, &self.residual, 1.0);
+        self.cost += self.residual.norm_squared();
+        for view in &self.views {
+            let product: f64 = view.root.diagonal().iter().product();
+            self.log_determinant += 2.0 * product.ln();
+        }
+    }
+
+    /// Writes the equations of one view.
+    fn fill(
+        &mut self,
+        row: usize,
+        view: &View,
+        problem: &Problem,
+        state: &State,
+        seen: &SeenMount,
+        variances: &Variances,
+    ) -> ViewNoise {
+        let pair = view.with(&problem.extras, &state.values);
+        let (r, j) = pose_fit::misfit_with_jacobian(&seen.hand_eye, &pair);
+        let mut factor = noise::factor(view, &pair, &seen.hand_eye, problem.setup);
+        let columns = noise::columns(view);
+        let covariance = noise::covariance(&factor, &columns, variances);
+        let root = covariance.cholesky().map_or_else(Matrix6::identity, |c| c.l());
+        self.residual.fixed_rows_mut::<6>(row).copy_from(&r);
+        self.jacobian.fixed_view_mut::<6, 12>(row, 0).copy_from(&j);
+        if !problem.extras.is_empty() {
+            let by_x: Matrix6<f64> = j.fixed_view::<6, 6>(0, 0).into_owned();
+            let by_c = -lie::left_jacobian_inverse(&r);
+            for (k, extra) in problem.extras.iter().enumerate() {
+                let column = match (extra.kind, &seen.carry) {
+                    (ExtraKind::Camera(which), _) => by_c * view.by_camera(which),
+                    // to first order: the derivative of exp(carry δ) differs by the square of δ
+                    (ExtraKind::Systematic(axis), Some(carry)) => by_x * carry.column(axis),
+                    _ => continue,
+                };
+                self.jacobian.fixed_view_mut::<6, 1>(row, 12 + k).copy_from(&column);
+            }
+        }
+        let rows = self.jacobian.nrows();
+        divide(&root, &mut self.residual.as_mut_slice()[row..row + 6]);
+        for column in self.jacobian.as_mut_slice().chunks_exact_mut(rows) {
+            divide(&root, &mut column[row..row + 6]);
+        }
+        factor.as_mut_slice().chunks_exact_mut(6).for_each(|column| divide(&root, column));
+        ViewNoise { factor, columns, root }
     }
 
     fn add_board(&mut self, block: BoardBlock) {
@@ -203,8 +268,8 @@ impl System {
             if let Some(step) = self.step(damping) {
                 let length = step.dot(&(&self.h * &step));
                 let next = state.moved(&step);
-                let there = self.cost_at(problem, &next);
-                if there <= self.cost * (1.0 + 1e-12) || length < STEP {
+                let near = length < NEAR;
+                if near || self.cost_at(problem, &next) <= self.cost * (1.0 + 1e-12) {
                     *state = next;
                     return length;
                 }
@@ -230,10 +295,12 @@ impl System {
     /// The cost elsewhere, for the weights of here.
     fn cost_at(&self, problem: &Problem, state: &State) -> f64 {
         let mut cost = 0.0;
-        for (view, block) in problem.views.iter().zip(&self.views) {
-            let r = view_misfit(problem, view, state);
-            let white = block.root.solve_lower_triangular(&r);
-            cost += white.map_or(f64::INFINITY, |w| w.norm_squared());
+        let seen = SeenMount::of(problem, state);
+        for (view, noise) in problem.views.iter().zip(&self.views) {
+            let pair = view.with(&problem.extras, &state.values);
+            let mut r = pose_fit::misfit(&seen.hand_eye, &pair);
+            divide(&noise.root, r.as_mut_slice());
+            cost += r.norm_squared();
         }
         let variances = state.noise.variances();
         for (board, block) in problem.boards.iter().zip(&self.boards) {
@@ -262,8 +329,8 @@ impl System {
         prior: &NoiseModel,
         known: &KnownNoise,
     ) -> f64 {
-        let Some(covariance) = self.covariance() else { return 0.0 };
-        let moments = self.moments(&covariance);
+        let Some(root) = self.covariance_root() else { return 0.0 };
+        let moments = self.moments(&root);
         let free: Vec<usize> = (0..noise.sigmas.len())
             .filter(|&k| known.sigma(noise.sigmas[k].source).is_none())
             .collect();
@@ -300,13 +367,16 @@ impl System {
     }
 
     /// Both sides of the REML equations, and their information, by number of the source.
-    fn moments(&self, covariance: &DMatrix<f64>) -> Moments {
+    fn moments(&self, root: &DMatrix<f64>) -> Moments {
         let mut sum = Moments::default();
-        for block in &self.views {
-            sum.add_view(block, covariance);
+        // what the unknowns take away of each equation
+        let spent = &self.jacobian * root;
+        for (i, view) in self.views.iter().enumerate() {
+            sum.add_view(view, &self.residual.fixed_rows::<6>(6 * i).into(), &spent, 6 * i);
         }
+        let covariance = root * root.transpose();
         for block in &self.boards {
-            sum.add_board(block, covariance);
+            sum.add_board(block, &covariance);
         }
         sum
     }
@@ -316,10 +386,11 @@ impl System {
         let p = self.h.nrows();
         let share = |source: Source, theta: f64| {
             let mut m = DMatrix::zeros(p, p);
-            for block in &self.views {
-                for (c, own) in block.columns.iter().enumerate() {
+            for (i, view) in self.views.iter().enumerate() {
+                for (c, own) in view.columns.iter().enumerate() {
                     if *own == source {
-                        let through = block.jacobian.tr_mul(&block.factor.column(c));
+                        let rows = self.jacobian.fixed_rows::<6>(6 * i);
+                        let through = rows.tr_mul(&view.factor.column(c));
                         m.ger(theta, &through, &through, 1.0);
                     }
                 }
@@ -387,17 +458,26 @@ struct Moments {
 }
 
 impl Moments {
-    fn add_view(&mut self, block: &ViewBlock, covariance: &DMatrix<f64>) {
-        let u = block.factor.transpose() * block.residual;
-        let traces = block.factor.transpose() * block.factor;
-        // p x columns
-        let through = block.jacobian.tr_mul(&block.factor);
-        let spent = covariance * &through;
-        for (c, source) in block.columns.iter().enumerate() {
+    fn add_view(
+        &mut self,
+        view: &ViewNoise,
+        residual: &Vector6<f64>,
+        spent: &DMatrix<f64>,
+        row: usize,
+    ) {
+        let u = view.factor.transpose() * residual;
+        let traces = view.factor.transpose() * view.factor;
+        for (c, source) in view.columns.iter().enumerate() {
             let i = source.index();
+            let f: [f64; 6] = view.factor.column(c).into_owned().into();
+            let taken: f64 = spent
+                .as_slice()
+                .chunks_exact(spent.nrows())
+                .map(|column| dot(&f, &column[row..row + 6]).powi(2))
+                .sum();
             self.found[i] += u[c] * u[c];
-            self.expected[i] += traces[(c, c)] - through.column(c).dot(&spent.column(c));
-            for (d, other) in block.columns.iter().enumerate() {
+            self.expected[i] += traces[(c, c)] - taken;
+            for (d, other) in view.columns.iter().enumerate() {
                 self.information[(i, other.index())] += traces[(c, d)].powi(2);
             }
         }
@@ -439,52 +519,61 @@ fn systematic_in_camera(problem: &Problem, state: &State) -> Option<Matrix6<f64>
 }
 
 /// `X` as the views see it: with the systematic difference, where the mount is the base.
-fn seen_hand_eye(problem: &Problem, state: &State) -> (HandEye, Option<Matrix6<f64>>) {
-    let carry = systematic_in_camera(problem, state);
-    let Some(carry) = carry else { return (state.hand_eye, None) };
-    let at = |k| super::extra::value(&problem.extras, &state.values, ExtraKind::Systematic(k));
-    let delta = carry * Vector6::from_fn(|k, _| at(k));
-    let mount_from_camera = state.hand_eye.mount_from_camera.retract(&delta);
-    (HandEye { mount_from_camera, ..state.hand_eye }, Some(carry))
+struct SeenMount {
+    hand_eye: HandEye,
+    /// How the systematic difference moves `X`.
+    carry: Option<Matrix6<f64>>,
 }
 
-fn view_misfit(problem: &Problem, view: &View, state: &State) -> Vector6<f64> {
-    let (hand_eye, _) = seen_hand_eye(problem, state);
-    pose_fit::misfit(&hand_eye, &view.with(&problem.extras, &state.values))
-}
-
-fn view_block(problem: &Problem, view: &View, state: &State, variances: &Variances) -> ViewBlock {
-    let (hand_eye, carry) = seen_hand_eye(problem, state);
-    let pair = view.with(&problem.extras, &state.values);
-    let view = View { pair, ..view.clone() };
-    let (r, j) = pose_fit::misfit_with_jacobian(&hand_eye, &pair);
-    let factor = noise::factor(&view, &hand_eye, problem.setup);
-    let columns = noise::columns(&view);
-    let covariance = noise::covariance(&factor, &columns, variances);
-    let root = covariance.cholesky().map_or_else(Matrix6::identity, |c| c.l());
-    let white = |m: &OMatrix<f64, U6, Dyn>| {
-        let mut m = m.clone();
-        root.solve_lower_triangular_mut(&mut m);
-        m
-    };
-    let mut jacobian = OMatrix::<f64, U6, Dyn>::zeros(12 + problem.extras.len());
-    jacobian.fixed_view_mut::<6, 12>(0, 0).copy_from(&j);
-    let by_x: Matrix6<f64> = j.fixed_view::<6, 6>(0, 0).into_owned();
-    let by_c = (!problem.extras.is_empty()).then(|| -lie::left_jacobian_inverse(&r));
-    for (k, extra) in problem.extras.iter().enumerate() {
-        let column = match (extra.kind, &carry, &by_c) {
-            (ExtraKind::Camera(which), _, Some(by_c)) => by_c * view.by_camera(which),
-            // to first order: the exact derivative of exp(carry δ) differs by the square of δ
-            (ExtraKind::Systematic(axis), Some(carry), _) => by_x * carry.column(axis),
-            _ => continue,
+impl SeenMount {
+    fn of(problem: &Problem, state: &State) -> Self {
+        let Some(carry) = systematic_in_camera(problem, state) else {
+            return Self { hand_eye: state.hand_eye, carry: None };
         };
-        jacobian.column_mut(12 + k).copy_from(&column);
+        let at = |k| super::extra::value(&problem.extras, &state.values, ExtraKind::Systematic(k));
+        let delta = carry * Vector6::from_fn(|k, _| at(k));
+        let mount_from_camera = state.hand_eye.mount_from_camera.retract(&delta);
+        Self { hand_eye: HandEye { mount_from_camera, ..state.hand_eye }, carry: Some(carry) }
     }
-    let mut white_factor = factor;
-    root.solve_lower_triangular_mut(&mut white_factor);
-    let mut residual = r;
-    root.solve_lower_triangular_mut(&mut residual);
-    ViewBlock { residual, jacobian: white(&jacobian), factor: white_factor, columns, root }
+}
+
+/// `H + JᵀJ`, both halves.
+fn add_squares(h: &mut DMatrix<f64>, j: &DMatrix<f64>) {
+    let columns: Vec<&[f64]> = j.as_slice().chunks_exact(j.nrows().max(1)).collect();
+    for (a, left) in columns.iter().enumerate() {
+        for (b, right) in columns[..=a].iter().enumerate() {
+            let sum = sum_of_products(left, right);
+            h[(a, b)] += sum;
+            if a != b {
+                h[(b, a)] += sum;
+            }
+        }
+    }
+}
+
+/// In four sums, which a processor adds side by side.
+fn sum_of_products(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
+    for (x, y) in a4.zip(b4) {
+        for k in 0..4 {
+            sums[k] += x[k] * y[k];
+        }
+    }
+    sums[0] + sums[1] + (sums[2] + sums[3]) + rest
+}
+
+/// `L⁻¹ x` in place.
+fn divide(root: &Matrix6<f64>, x: &mut [f64]) {
+    for i in 0..6 {
+        let known: f64 = (0..i).map(|k| root[(i, k)] * x[k]).sum();
+        x[i] = (x[i] - known) / root[(i, i)];
+    }
+}
+
+fn dot(a: &[f64; 6], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 fn board_block(
