@@ -1,8 +1,9 @@
 //! The whole calibration on simulated cells, against the truth.
 //!
-//! `cargo run --release -p handeye --example monte_carlo -- [TRIALS] [TRIALS OF THE FIRST] [FILE]`
+//! `cargo run --release -p handeye --example monte_carlo -- [TRIALS] [TRIALS OF THE FIRST] [FILE] [PART]`
 //!
-//! Prints a table; with a FILE, writes it between the markers `monte_carlo` there.
+//! Prints a table; with a FILE, writes it between the markers `monte_carlo` there. PART keeps the
+//! rows whose names contain it.
 
 use std::{collections::BTreeMap, env, fs};
 
@@ -334,7 +335,8 @@ fn main() {
     let number = |k: usize, or: u64| args.get(k).and_then(|a| a.parse().ok()).unwrap_or(or);
     let (trials, first) = (number(0, 20), number(1, 20));
     let mut table = String::from(HEAD);
-    for (k, scenario) in SCENARIOS.iter().enumerate() {
+    let wanted = |s: &Scenario| args.get(3).is_none_or(|part| s.name.contains(part.as_str()));
+    for (k, scenario) in SCENARIOS.iter().enumerate().filter(|(_, s)| wanted(s)) {
         let mut sums = Sums::default();
         (0..if k == 0 { first } else { trials }).for_each(|t| sums.add(scenario, t));
         let row = sums.row(scenario.name);

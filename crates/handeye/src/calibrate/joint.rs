@@ -173,7 +173,10 @@ fn worst_touch(problem: &Problem, fit: &JointFit) -> Option<(usize, usize)> {
 
 /// Strengths of a systematic difference that are tried.
 const STRENGTHS: [f64; 6] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0];
-/// Beside a wrong tip, a systematic difference must raise the logarithm of the likelihood by more.
+/// Chance of a disagreement as large, when there is none, below which a systematic difference is
+/// part of the model. One that is none costs more than it saves.
+const NOTICED: f64 = 0.05;
+/// Beside a wrong tip, it must raise the logarithm of the likelihood by more.
 const EXPLAINED_GAIN: f64 = 3.0;
 /// Sizes of a tip's error that are tried, m.
 const TIP_SIZES: [f64; 6] = [0.25e-3, 0.5e-3, 1e-3, 2e-3, 5e-3, 20e-3];
@@ -192,7 +195,8 @@ fn conflict(problem: &Problem, fit: &JointFit, explained: bool) -> Option<Confli
     let gains = STRENGTHS.map(|s| gain(&h, &g, s));
     let best = (0..gains.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b]))?;
     // a tip that had to be found leaves little that could tell a second difference from noise
-    let strength = if explained && gains[best] < EXPLAINED_GAIN { 0.0 } else { STRENGTHS[best] };
+    let noticed = if explained { gains[best] > EXPLAINED_GAIN } else { p_value < NOTICED };
+    let strength = if noticed { STRENGTHS[best] } else { 0.0 };
     Some(Conflict { p_value, strength })
 }
 
