@@ -87,8 +87,10 @@ fn full() -> Calibration {
             sigma_mm: Some(0.0),
             sigma_deg: Some(0.0),
         }],
-        time_offset_s: 0.0,
-        scale: 1.0,
+        time_offset_s: Some(0.0),
+        time_offset_sigma_s: Some(0.0),
+        scale: Some(1.0),
+        scale_sigma: Some(0.0),
         target_scale: Some(Scale { value: 1.0, sigma: 0.0 }),
         warnings: vec![Warning::new("code", "message")],
     }

@@ -240,10 +240,18 @@ pub struct Calibration {
     pub diversity: Option<Diversity>,
     /// Where the error comes from.
     pub error_budget: Vec<BudgetEntry>,
-    /// Camera time minus robot time; pairs are taken at the same moment.
-    pub time_offset_s: f64,
-    /// Factor that was taken out of the measured distances: one, the target's size is trusted.
-    pub scale: f64,
+    /// Camera time minus robot time; zero for pairs, which are taken at the same moment, null where
+    /// streams do not tell it.
+    pub time_offset_s: Option<f64>,
+    /// Its standard deviation, where it was estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_offset_sigma_s: Option<f64>,
+    /// Factor that was taken out of the measured distances, `measured = scale * metric`: one where
+    /// the target's size is trusted, null where the factor is free and the motions do not tell it.
+    pub scale: Option<f64>,
+    /// Its standard deviation, where it was estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale_sigma: Option<f64>,
     /// Size of the target as the robot sees it, for comparison.
     pub target_scale: Option<Scale>,
     /// The camera, where its parameters were part of the fit.

@@ -34,7 +34,9 @@ pub(super) fn estimate<'a>(
     if !optics.extras.is_empty() {
         views.views = optics::with_sights(&views);
     }
-    let problem = joint::views_problem(setup, &views.views, &optics.extras);
+    config.unknown.set_free(&mut views, &found.hand_eye);
+    let extras = [optics.extras.as_slice(), &config.unknown.extras()].concat();
+    let problem = joint::views_problem(setup, &views.views, &extras);
     let mut fit = match refine::fit_joint(&problem, &found.hand_eye, &config.known) {
         Ok(fit) => fit,
         Err(error) => {
@@ -47,13 +49,14 @@ pub(super) fn estimate<'a>(
     result.undetermined = diagnose::undetermined(&fit, setup);
     result.error_budget = verdict::budget(&fit);
     optics.report(views.session, &fit, result);
+    config.unknown.report(&fit, result);
     verdict::judge_scale(&views, &fit, config, result);
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
     let joint = joint::fit(
         &views,
         &boards::boards(&views, &fit, optics),
-        &optics.extras,
+        &extras,
         &fit,
         &config.known,
     );

@@ -13,6 +13,7 @@ mod joint;
 mod optics;
 mod points;
 mod sources;
+mod unknown;
 mod verdict;
 
 use crate::{
@@ -26,6 +27,7 @@ use crate::{
 
 pub use captures::relabelling;
 use optics::Optics;
+pub use unknown::Unknown;
 
 /// Everything that was measured in one cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,6 +63,8 @@ pub struct Config {
     pub known: KnownNoise,
     /// Error (95 %, predicted) that the job tolerates, mm.
     pub max_error_mm: Option<f64>,
+    /// What is free beside both poses.
+    pub unknown: Unknown,
 }
 
 /// Version of the result's format.
@@ -184,8 +188,10 @@ fn empty(session: &Session) -> Calibration {
         undetermined: vec![],
         diversity: None,
         error_budget: vec![],
-        time_offset_s: 0.0,
-        scale: 1.0,
+        time_offset_s: Some(0.0),
+        time_offset_sigma_s: None,
+        scale: Some(1.0),
+        scale_sigma: None,
         target_scale: None,
         camera: None,
         depth: None,
