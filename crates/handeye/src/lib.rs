@@ -21,11 +21,13 @@ pub mod repeat;
 pub mod scan;
 pub mod simulate;
 pub mod solve;
+pub mod streams;
 pub mod target;
 pub mod target_art;
 pub mod touches;
+pub mod unscaled;
 
-pub use calibrate::{Config, Session, calibrate};
+pub use calibrate::{Config, Session, Unknown, calibrate};
 pub use calibration::{Calibration, Verdict};
 pub use camera::{Distortion, Intrinsics};
 pub use error::{Error, Warning};
@@ -37,4 +39,6 @@ pub use observation::{
 };
 pub use scan::Scan;
 pub use solve::Method;
+pub use streams::{Stamped, Streams, calibrate_streams};
 pub use target::TargetModel;
+pub use unscaled::calibrate_unscaled;

@@ -53,13 +53,8 @@ pub(super) fn estimate<'a>(
     verdict::judge_scale(&views, &fit, config, result);
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
-    let joint = joint::fit(
-        &views,
-        &boards::boards(&views, &fit, optics),
-        &extras,
-        &fit,
-        &config.known,
-    );
+    let joint =
+        joint::fit(&views, &boards::boards(&views, &fit, optics), &extras, &fit, &config.known);
     if let Some(joint) = &joint {
         result.error_budget = verdict::budget(&joint.fit);
         joint.warn(&views, result);

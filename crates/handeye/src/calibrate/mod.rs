@@ -12,6 +12,7 @@ mod captures;
 mod joint;
 mod optics;
 mod points;
+pub(crate) mod settle;
 mod sources;
 mod unknown;
 mod verdict;
@@ -123,7 +124,7 @@ fn from_views(
 }
 
 /// Captures and touches in the order of their names, whatever order they came in.
-fn in_order(session: &Session) -> Session {
+pub(crate) fn in_order(session: &Session) -> Session {
     let mut session = session.clone();
     session.observations.sort_by(|a, b| natural(&a.capture, &b.capture));
     session.placements.sort_by(|a, b| natural(&a.id, &b.id));
@@ -165,6 +166,17 @@ pub fn natural(a: &str, b: &str) -> std::cmp::Ordering {
             return order;
         }
     }
+}
+
+/// The result of a session that has no answer.
+pub(crate) fn without_answer(session: &Session) -> Result<Calibration, Error> {
+    if session.observations.is_empty() {
+        return Err(Error::Invalid("nothing to calibrate from: no captures".into()));
+    }
+    let mut result = empty(session);
+    result.captures = session.observations.iter().map(agreement::first_report).collect();
+    result.captures.iter_mut().for_each(|c| c.used = false);
+    Ok(result)
 }
 
 fn empty(session: &Session) -> Calibration {

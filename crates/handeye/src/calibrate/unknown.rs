@@ -45,11 +45,8 @@ const FREE_TIME: f64 = 0.5;
 
 impl Unknown {
     /// The unknowns, about where the data stand now.
-    pub(crate) fn extras(&self) -> Vec<Extra> {
-        let scale = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), ANY_SCALE);
-        let clock = Extra::about_zero(ExtraKind::Camera(CLOCK), ANY_TIME);
-        let free = [self.scale.then_some(scale), self.clock().then_some(clock)];
-        free.into_iter().flatten().collect()
+    pub(super) fn extras(&self) -> Vec<Extra> {
+        extras(self.scale, self.clock())
     }
 
     fn clock(&self) -> bool {
@@ -66,12 +63,7 @@ impl Unknown {
     }
 
     /// A view that moves with the unknowns.
-    pub(crate) fn freed(
-        &self,
-        view: &View,
-        velocity: Option<&Vector6<f64>>,
-        at: &HandEye,
-    ) -> View {
+    pub(crate) fn freed(&self, view: &View, velocity: Option<&Vector6<f64>>, at: &HandEye) -> View {
         let c = &view.pair.camera_from_target;
         let mut by = SMatrix::<f64, 6, CAMERA>::zeros();
         if self.scale {
@@ -102,6 +94,13 @@ impl Unknown {
             result.time_offset_sigma_s = found.map(|t| t.1);
         }
     }
+}
+
+/// The unknowns that are free.
+pub(super) fn extras(scale: bool, clock: bool) -> Vec<Extra> {
+    let unit = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), ANY_SCALE);
+    let time = Extra::about_zero(ExtraKind::Camera(CLOCK), ANY_TIME);
+    [scale.then_some(unit), clock.then_some(time)].into_iter().flatten().collect()
 }
 
 /// `measured / metric` and its standard deviation; `None` where the fit leaves it open.

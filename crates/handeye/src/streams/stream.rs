@@ -14,7 +14,7 @@
 
 use nalgebra::{Isometry3, Vector6};
 
-use crate::{Error, linalg, lie};
+use crate::{Error, lie, linalg};
 
 /// One pose and its time (s).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,9 +75,8 @@ impl Stream {
         let (mut times, mut poses) = (vec![], vec![]);
         for same_time in sorted.chunk_by(|a, b| a.time_s == b.time_s) {
             let first = same_time[0];
-            let differs = |s: &Stamped<Isometry3<f64>>| {
-                lie::log(&first.pose.inv_mul(&s.pose)).norm() > SAME
-            };
+            let differs =
+                |s: &Stamped<Isometry3<f64>>| lie::log(&first.pose.inv_mul(&s.pose)).norm() > SAME;
             if same_time.iter().any(differs) {
                 cleaned.conflicting += same_time.len();
                 continue;
@@ -182,9 +181,8 @@ mod tests {
     fn a_screw_motion_is_followed_exactly() {
         let twist = Vector6::new(0.3, -0.2, 0.5, 0.1, 0.4, -0.3);
         let pose = |t: f64| smooth(0.4) * lie::exp(&(twist * t));
-        let all: Vec<_> = [0.0, 0.11, 0.19, 0.3, 0.42]
-            .map(|t| Stamped { time_s: t, pose: pose(t) })
-            .into();
+        let all: Vec<_> =
+            [0.0, 0.11, 0.19, 0.3, 0.42].map(|t| Stamped { time_s: t, pose: pose(t) }).into();
         let stream = Stream::new(&all, "robot").unwrap();
         for t in [0.0, 0.05, 0.2, 0.31, 0.42] {
             assert!(lie::log(&pose(t).inv_mul(&stream.at(t).unwrap())).norm() < 1e-12);
@@ -195,7 +193,8 @@ mod tests {
     #[test]
     fn the_error_between_samples_falls_with_the_fourth_power_of_the_interval() {
         let worst = |step: f64| {
-            let stream = Stream::new(&sampled(&even((4.0 / step) as usize + 1, step)), "r").unwrap();
+            let stream =
+                Stream::new(&sampled(&even((4.0 / step) as usize + 1, step)), "r").unwrap();
             let miss = |t: f64| lie::log(&smooth(t).inv_mul(&stream.at(t).unwrap())).norm();
             (0..100).map(|k| miss(1.0 + 0.02 * f64::from(k))).fold(0.0, f64::max)
         };
@@ -228,7 +227,9 @@ mod tests {
         assert!(stream.at(0.95).is_none());
         assert!(stream.at(0.9).is_some());
         assert!(stream.at(1.45).is_some());
-        assert!(stream.at(-1e-9).is_none() && stream.at(3.91).is_none() && stream.at(3.9).is_some());
+        assert!(
+            stream.at(-1e-9).is_none() && stream.at(3.91).is_none() && stream.at(3.9).is_some()
+        );
         assert!(stream.at(f64::NAN).is_none());
     }
 
