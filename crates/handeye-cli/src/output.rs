@@ -135,6 +135,18 @@ fn transform(c: &Calibration) -> String {
             s(2).to_degrees()
         );
     }
+    text + &unknowns(c)
+}
+
+/// Time offset and scale, where they were estimated.
+fn unknowns(c: &Calibration) -> String {
+    let mut text = String::new();
+    if let (Some(offset), Some(sigma)) = (c.time_offset_s, c.time_offset_sigma_s) {
+        text += &format!("  time offset  {offset:11.6} +- {sigma:.6} s, camera minus robot\n");
+    }
+    if let (Some(scale), Some(sigma)) = (c.scale, c.scale_sigma) {
+        text += &format!("  scale        {scale:11.6} +- {sigma:.6}, measured over metric\n");
+    }
     text
 }
 

@@ -6,7 +6,7 @@ use super::unknown::{self, Unknown, extras};
 use crate::{
     Error, HandEye, PosePair, Setup, evaluate,
     refine::{self, JointFit, KnownNoise, Problem, View},
-    solve::consensus::{self, Readings},
+    solve::consensus::{self, Consensus, Readings},
 };
 
 /// Where the unknowns stand.
@@ -31,15 +31,13 @@ pub(crate) struct Settled {
     /// The views that agree, and the fit of them.
     pub views: Vec<View>,
     pub fit: JointFit,
-    /// Mean of `ln(1 + d²)` over all captures, `d` their misfit in units of 0.3 degrees and 2 mm.
-    pub misfit: f64,
 }
 
 /// Most rounds; three settle it from a start within a tenth.
 const ROUNDS: usize = 12;
 /// A move below this part of its standard deviation needs no further look.
 const STILL: f64 = 0.03;
-/// Units of the robust misfit: 0.3 degrees, 2 mm.
+/// Units of the robust misfit (rad, m).
 const UNIT: (f64, f64) = (0.3 / 180.0 * std::f64::consts::PI, 2e-3);
 
 /// Fits the unknowns from `start`; `at` gives the captures for a stand.
@@ -73,19 +71,21 @@ fn look(
     known: &KnownNoise,
     captures: Captures,
 ) -> Result<Settled, Error> {
-    let readings: Vec<Readings> = captures.pairs.iter().map(readings).collect();
-    let found = consensus::consensus(&readings)?;
-    let used: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();
+    let found = agreement(&captures.pairs)?;
+    let used = (0..captures.pairs.len()).filter(|&i| found.agrees[i]);
     let free = Unknown { scale: free_scale, ..Unknown::default() };
     let velocity = |i: usize| captures.velocities.as_ref().map(|v| &v[i]);
-    let view =
-        |&i: &usize| free.freed(&View::bare(captures.pairs[i]), velocity(i), &found.hand_eye);
-    let views: Vec<View> = used.iter().map(view).collect();
+    let view = |i: usize| free.freed(&View::bare(captures.pairs[i]), velocity(i), &found.hand_eye);
+    let views: Vec<View> = used.map(view).collect();
     let extras = extras(free_scale, captures.velocities.is_some());
     let problem = Problem { setup, views, boards: vec![], extras };
     let fit = refine::fit_joint(&problem, &found.hand_eye, known)?;
-    let misfit = misfit(&fit.hand_eye, &captures.pairs);
-    Ok(Settled { stand, views: problem.views, fit, misfit })
+    Ok(Settled { stand, views: problem.views, fit })
+}
+
+/// What most of these captures agree on.
+pub(crate) fn agreement(pairs: &[PosePair]) -> Result<Consensus, Error> {
+    consensus::consensus(&pairs.iter().map(readings).collect::<Vec<Readings>>())
 }
 
 fn readings(pair: &PosePair) -> Readings {
@@ -95,7 +95,7 @@ fn readings(pair: &PosePair) -> Readings {
     }
 }
 
-/// Mean of `ln(1 + d²)`.
+/// Mean of `ln(1 + d²)` over all captures, `d` their misfit in units of 0.3 degrees and 2 mm.
 pub(crate) fn misfit(hand_eye: &HandEye, pairs: &[PosePair]) -> f64 {
     let one = |pair: &PosePair| {
         let (angle, distance) = evaluate::loop_misfit(hand_eye, pair);

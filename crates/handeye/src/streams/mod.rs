@@ -144,31 +144,46 @@ fn starts(both: &Both) -> Vec<f64> {
     all
 }
 
-/// The best of all starts, with the samples that are its views.
+/// Views that tell good starts from bad ones.
+const FEW_VIEWS: usize = 40;
+
+/// Offset and scale settled from the best start, with the samples that are its views.
 fn settle_streams(
     both: &Both,
     unknown_scale: bool,
     config: &Config,
 ) -> Result<(Settled, Vec<usize>), Error> {
-    let mut best: Option<(Settled, Vec<usize>)> = None;
     let mut first_error = None;
+    let mut ranked: Vec<(f64, f64)> = vec![];
     for start in starts(both) {
-        match settle_from(both, start, unknown_scale, config) {
-            Ok(found) => {
-                if best.as_ref().is_none_or(|b| found.0.misfit < b.0.misfit) {
-                    best = Some(found);
-                }
-            }
+        match misfit_at(both, start, unknown_scale) {
+            Ok(misfit) => ranked.push((misfit, start)),
             Err(error) => first_error = first_error.or(Some(error)),
         }
     }
-    best.ok_or_else(|| {
-        first_error.unwrap_or(Error::NotDetermined {
-            what: "at no time offset do robot and camera turn alike for long enough: either does \
-                   not move, moves at a constant speed, or they were not recorded together"
-                .into(),
-        })
-    })
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (_, start) in ranked {
+        match settle_from(both, start, unknown_scale, config) {
+            Ok(found) => return Ok(found),
+            Err(error) => first_error = first_error.or(Some(error)),
+        }
+    }
+    Err(first_error.unwrap_or(Error::NotDetermined {
+        what: "at no time offset do robot and camera turn alike for long enough: either does not \
+               move, moves at a constant speed, or they were not recorded together"
+            .into(),
+    }))
+}
+
+/// How well a few views agree at an offset.
+fn misfit_at(both: &Both, offset: f64, unknown_scale: bool) -> Result<f64, Error> {
+    let chosen = choose::choose(both, offset, FEW_VIEWS);
+    let mut pairs = both.captures(&chosen, offset, 1.0).pairs;
+    if unknown_scale {
+        let scale = unscaled::first_scale(&pairs)?;
+        pairs = both.captures(&chosen, offset, scale).pairs;
+    }
+    settle::agreement(&pairs).map(|found| settle::misfit(&found.hand_eye, &pairs))
 }
 
 /// Settles offset and scale from a first offset, with fewer views as long as neighbours err alike.
