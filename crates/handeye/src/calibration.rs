@@ -260,6 +260,9 @@ pub struct Calibration {
     /// The depth of scans, where it was part of the fit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth: Option<DepthResult>,
+    /// What is proven of the least-squares fit, where that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<crate::certify::Certificate>,
     /// What to know.
     pub warnings: Vec<Warning>,
 }

@@ -3,6 +3,7 @@
 pub mod calibrate;
 pub mod calibration;
 pub mod camera;
+pub mod certify;
 pub mod detect;
 pub mod diagnose;
 pub mod error;

@@ -207,6 +207,7 @@ fn empty(session: &Session) -> Calibration {
         target_scale: None,
         camera: None,
         depth: None,
+        certificate: None,
         warnings: vec![],
     }
 }
