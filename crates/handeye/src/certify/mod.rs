@@ -104,7 +104,7 @@ mod tests {
         Pose,
         lie::tangent,
         simulate::Random,
-        solve::tests::{assert_same, exact_pairs, truths},
+        solve::tests::{assert_same, exact_pairs, pose, truths},
     };
 
     /// Fifteen pairs with noise of these sizes (rad, m per axis) on both sides.
@@ -145,13 +145,28 @@ mod tests {
         assert!(worst < 1e-8, "{worst}");
     }
 
+    /// Turns about one axis but for a few degrees, hardly any travel: a camera turned the other way
+    /// round nearly fits as well.
+    fn nearly_one_axis(truth: &HandEye) -> Vec<PosePair> {
+        let one = |k: u32| {
+            let s = f64::from(k);
+            let anchor_from_mount = pose(
+                [0.01 * s.sin(), 0.0, 0.5],
+                [0.1 * (1.3 * s).sin(), 0.1 * (2.1 * s).cos(), 0.9 * s],
+            );
+            let seen = (anchor_from_mount * truth.mount_from_camera).inverse();
+            PosePair { anchor_from_mount, camera_from_target: seen * truth.anchor_from_target }
+        };
+        (0..7).map(one).collect()
+    }
+
     #[test]
     fn a_minimum_that_is_not_global_is_not_certified() {
         let mut random = Random::new(5);
-        let pairs = noisy(&truths()[0], 7, 5e-3, 2e-3);
+        let pairs = nearly_one_axis(&truths()[0]);
         let best = certify(&pairs, &truths()[0]).unwrap();
         let mut wrong = 0;
-        for _ in 0..40 {
+        for _ in 0..30 {
             let mut any = || nalgebra::Isometry3::new(random.normal3(), random.normal3() * 2.0);
             let start = HandEye {
                 mount_from_camera: Pose::claim(any()),
