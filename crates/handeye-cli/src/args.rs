@@ -81,6 +81,9 @@ pub struct SolveArgs {
     /// andreff-scaled, lu-chou, wu.
     #[arg(long)]
     pub method: Option<String>,
+    /// Try to prove that no other pair of poses fits better in the sense of least squares.
+    #[arg(long)]
+    pub certify: bool,
 }
 
 /// Arguments of `calibrate`.

@@ -162,3 +162,122 @@ fn draws(n: usize) -> Vec<[usize; DRAWN]> {
     let all = (0..DRAWS).map(|_| draw());
     all.filter(|s| s.windows(2).all(|w| w[0] != w[1])).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        HandEye, Observation, Setup, TargetPose, Verdict, lie,
+        simulate::Random,
+        solve::tests::{exact_pairs, noisy_pairs, pose, truths},
+    };
+
+    fn session(setup: Setup, pairs: &[PosePair], scale: f64) -> Session {
+        let observation = |(k, p): (usize, &PosePair)| Observation {
+            capture: format!("{k:02}"),
+            base_from_flange: match setup {
+                Setup::EyeInHand => p.anchor_from_mount.rename(),
+                Setup::EyeToHand => p.anchor_from_mount.inverse().rename(),
+            },
+            corners: vec![],
+            surface: vec![],
+            candidates: vec![TargetPose {
+                camera_from_target: shrunk(&p.camera_from_target, 1.0 / scale),
+                covariance: None,
+            }],
+        };
+        Session {
+            setup,
+            target: None,
+            camera: None,
+            camera_from_views: false,
+            observations: pairs.iter().enumerate().map(observation).collect(),
+            placements: vec![],
+            touches: vec![],
+            correspondences: vec![],
+            workspace: None,
+        }
+    }
+
+    fn solved(session: &Session) -> Calibration {
+        calibrate_unscaled(session, &Config::default()).unwrap()
+    }
+
+    fn miss(found: &Calibration, truth: &HandEye) -> f64 {
+        found.hand_eye.mount_from_camera.unwrap().distance_to(&truth.mount_from_camera)
+    }
+
+    #[test]
+    fn exact_poses_in_any_unit_give_metres() {
+        for setup in [Setup::EyeInHand, Setup::EyeToHand] {
+            for truth in truths() {
+                for scale in [0.001, 0.3, 1.0, 1000.0] {
+                    let found = solved(&session(setup, &exact_pairs(&truth, 15), scale));
+                    assert_eq!(found.verdict, Verdict::Accepted);
+                    assert!((found.scale.unwrap() / scale - 1.0).abs() < 1e-6);
+                    assert!(miss(&found, &truth) < 1e-6);
+                    let y = found.hand_eye.anchor_from_target.unwrap();
+                    assert!(y.distance_to(&truth.anchor_from_target) < 1e-6);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn under_noise_the_error_of_the_scale_stays_inside_its_sigma() {
+        let (mut squares, trials) = (0.0, 40);
+        for seed in 0..trials {
+            let mut random = Random::new(seed);
+            let mut pairs = exact_pairs(&truths()[0], 20);
+            for pair in &mut pairs {
+                let off = lie::tangent(&(random.normal3() * 2e-3), &(random.normal3() * 2e-3));
+                pair.camera_from_target = pair.camera_from_target.retract(&off);
+            }
+            let found = solved(&session(Setup::EyeInHand, &pairs, 0.2));
+            squares += ((found.scale.unwrap() - 0.2) / found.scale_sigma.unwrap()).powi(2);
+        }
+        let mean = squares / trials as f64;
+        assert!((0.5..1.8).contains(&mean), "{mean}");
+    }
+
+    #[test]
+    fn wrong_captures_do_not_spoil_the_scale() {
+        let mut pairs = noisy_pairs(&truths()[0], 20);
+        for k in [1, 6, 11, 16] {
+            pairs[k].camera_from_target =
+                pose([0.1, 0.2, 0.4 + 0.1 * k as f64], [0.1, 2.0, k as f64]);
+        }
+        let found = solved(&session(Setup::EyeInHand, &pairs, 5.0));
+        assert!((found.scale.unwrap() / 5.0 - 1.0).abs() < 0.02, "{:?}", found.scale);
+        assert_eq!(found.rejected, ["01", "06", "11", "16"]);
+    }
+
+    #[test]
+    fn a_mount_that_only_turns_about_a_point_leaves_the_scale_open() {
+        for noise in [0.0, 5e-4] {
+            let mut random = Random::new(3);
+            let mut pairs = exact_pairs(&truths()[0], 20);
+            for pair in &mut pairs {
+                let mut iso = *pair.anchor_from_mount.iso();
+                iso.translation.vector = nalgebra::Vector3::new(0.5, 0.1, 0.6);
+                pair.anchor_from_mount = Pose::claim(iso);
+                let seen = (pair.anchor_from_mount * truths()[0].mount_from_camera).inverse()
+                    * truths()[0].anchor_from_target;
+                let off = lie::tangent(&(random.normal3() * noise), &(random.normal3() * noise));
+                pair.camera_from_target = seen.retract(&off);
+            }
+            let found = solved(&session(Setup::EyeInHand, &pairs, 2.0));
+            assert_eq!(found.verdict, Verdict::Undetermined, "{noise}: {:?}", found.reasons);
+            assert_eq!((found.scale, found.hand_eye.mount_from_camera), (None, None));
+            assert!(found.undetermined.iter().any(|u| u == SCALE), "{:?}", found.undetermined);
+        }
+    }
+
+    #[test]
+    fn the_order_of_the_captures_does_not_matter() {
+        let one = session(Setup::EyeInHand, &noisy_pairs(&truths()[0], 12), 3.0);
+        let mut other = one.clone();
+        other.observations.reverse();
+        assert_eq!(solved(&one), solved(&other));
+    }
+}

@@ -2,7 +2,10 @@
 
 mod input;
 
-use handeye::{Calibration, Config, Method, calibrate, calibrate_streams, calibrate_unscaled};
+use handeye::{
+    Calibration, Config, Method, calibrate, calibrate_streams, calibrate_unscaled,
+    certify::certify_result,
+};
 
 use crate::{
     args::{Manners, SolveArgs},
@@ -15,7 +18,10 @@ pub fn run(args: &SolveArgs, manners: &Manners) -> Result<u8, Failure> {
     let method = args.method.as_deref().map(method).transpose()?;
     let input = input::read(&args.pairs)?;
     let config = Config { method, known: input.noise, ..Config::default() };
-    let calibration = solved(&input, &config)?;
+    let mut calibration = solved(&input, &config)?;
+    if args.certify {
+        calibration.certificate = certify_result(&calibration)?;
+    }
     show(&calibration, manners);
     Ok(calibration.exit_code())
 }
