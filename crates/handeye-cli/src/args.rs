@@ -39,6 +39,8 @@ pub enum Command {
     Calibrate(CalibrateArgs),
     /// Solve for the transform from pairs of robot and target poses in a JSON file.
     Solve(SolveArgs),
+    /// Say what is wrong with a dataset: notation, units, direction, order, size, strays.
+    Check(CheckArgs),
     /// Write a result as a robot, ROS, OpenCV or another program reads it.
     Export(ExportArgs),
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
@@ -47,6 +49,10 @@ pub enum Command {
     Target(TargetArgs),
     /// Compare several results of one cell: do they agree?
     Repeat(RepeatArgs),
+    /// Find a tool's tip from flange poses with the tip on one fixed point.
+    Tcp(TcpArgs),
+    /// Test a calibration on touched points: does the robot find what the camera measures?
+    Verify(VerifyArgs),
     /// Find the target's corners in pictures.
     Detect(DetectArgs),
     /// Write a simulated dataset whose truth is known.
@@ -231,4 +237,91 @@ pub struct DetectArgs {
     /// Folder for pictures with the corners and their ids drawn in.
     #[arg(long)]
     pub draw: Option<PathBuf>,
+}
+
+/// Arguments of `tcp`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye tcp pivot.csv --notation kuka --direction base_from_flange\n  handeye tcp pivot.json --field 'poses.*.flange' --notation euler-xyz-extrinsic \\\n      --length-unit mm --direction base_from_flange --json\n  handeye tcp pivot.toml\n\n\
+Lead the tip onto one fixed point from 6 to 10 directions, 30 degrees and more apart, and save the\n\
+flange pose each time. pivot.toml holds the same keys as the [robot] of a manifest."
+)]
+pub struct TcpArgs {
+    /// File of flange poses, or a pattern; or a TOML file with a `[robot]`.
+    pub poses: PathBuf,
+    /// How the poses are written: ur, kuka, matrix4x4, euler-xyz-extrinsic, ...
+    #[arg(long)]
+    pub notation: Option<String>,
+    /// base_from_flange (where the flange is) or flange_from_base.
+    #[arg(long)]
+    pub direction: Option<String>,
+    /// m, mm, cm or inch [default: the maker's].
+    #[arg(long)]
+    pub length_unit: Option<String>,
+    /// deg or rad [default: the notation's].
+    #[arg(long)]
+    pub angle_unit: Option<String>,
+    /// Where the numbers stand in a JSON, YAML or XML file, such as 'poses.*.flange'.
+    #[arg(long, value_delimiter = ',')]
+    pub field: Vec<String>,
+    /// First and last record, such as 1..5.
+    #[arg(long)]
+    pub rows: Option<String>,
+    /// Columns in the notation's order, by number from 1 or by name.
+    #[arg(long, value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// Lines before the table.
+    #[arg(long, default_value_t = 0)]
+    pub skip_header: u32,
+    /// Spread of the tip (root mean square) beyond which the answer is rejected.
+    #[arg(long, default_value_t = 2.0)]
+    pub limit_mm: f64,
+}
+
+/// Arguments of `verify`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye verify result touches.csv --tolerance-mm 1\n  handeye verify result/calibration.json new-touches/ --out result --json\n\n\
+touches.csv, a line for each touch (the flange where a camera on it measured):\n  id,camera_x_mm,camera_y_mm,camera_z_mm,touched_x_mm,touched_y_mm,touched_z_mm\n    [,flange_x_mm,flange_y_mm,flange_z_mm,flange_qx,flange_qy,flange_qz,flange_qw]\n\n\
+Exit code 0: passed; 3: failed. With --tolerance-mm, 95 % of the touches must lie within it;\n\
+without, the touches must agree with the uncertainty that the calibration states (p >= 0.01)."
+)]
+pub struct VerifyArgs {
+    /// calibration.json, or the folder that holds it.
+    pub calibration: PathBuf,
+    /// CSV or JSON file of points seen and touched; or a dataset with touches that are new.
+    pub touches: PathBuf,
+    /// Largest distance between tip and prediction that the job allows.
+    #[arg(long)]
+    pub tolerance_mm: Option<f64>,
+    /// How well the tip was led onto the points: standard deviation, each axis.
+    #[arg(long, default_value_t = 0.2)]
+    pub touch_noise_mm: f64,
+    /// How well the camera measured the points of the file: standard deviation, each axis.
+    #[arg(long, default_value_t = 0.2)]
+    pub camera_noise_mm: f64,
+    /// Folder for verify.html; it is made if need be.
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `check`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye check cell/\n  handeye check cell/ --apply\n  handeye check cell.toml --root /data/cell --json\n\n\
+Reads the robot's numbers in every notation, unit and direction, in other orders, and with another\n\
+size of the target, and says which explains the captures best. --apply writes the corrected\n\
+manifest and keeps the old one as handeye.toml.bak: of the explanation that the data single out, or\n\
+of the one you choose by its number where they cannot (--apply=2).\n\n\
+Exit code 0: nothing is wrong; 3: something is."
+)]
+pub struct CheckArgs {
+    /// Folder with `handeye.toml`, or a manifest.
+    pub dataset: PathBuf,
+    /// Where the manifest's names are relative to, if not to its own folder.
+    #[arg(long)]
+    pub root: Option<PathBuf>,
+    /// Write the corrected manifest; a number chooses among explanations that fit alike.
+    #[arg(long, value_name = "NUMBER", num_args = 0..=1, require_equals = true, default_missing_value = "0")]
+    pub apply: Option<usize>,
 }

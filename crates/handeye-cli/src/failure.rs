@@ -87,6 +87,15 @@ impl Failure {
         Failure::Input(Box::new(problem))
     }
 
+    /// The same, in this file.
+    pub fn in_file(mut self, file: &Path) -> Self {
+        if let Failure::Input(problem) = &mut self {
+            problem.message = format!("{}: {}", file.display(), problem.message);
+            problem.file = Some(file.into());
+        }
+        self
+    }
+
     /// The same, in this capture.
     pub fn with_capture(mut self, id: &str) -> Self {
         if let Failure::Input(problem) = &mut self {

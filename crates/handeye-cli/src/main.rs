@@ -2,6 +2,7 @@
 
 mod args;
 mod calibrate;
+mod check;
 mod demo;
 mod detect;
 mod export;
@@ -14,6 +15,8 @@ mod report;
 mod simulate;
 mod solve;
 mod target;
+mod tcp;
+mod verify;
 
 use std::{env, process::ExitCode};
 
@@ -57,6 +60,9 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Init(args) => init::run(args, &program.manners),
         Command::Target(args) => target::run(args, &program.manners),
         Command::Repeat(args) => repeat::run(args, &program.manners),
+        Command::Tcp(args) => tcp::run(args, &program.manners),
+        Command::Verify(args) => verify::run(args, &program.manners),
+        Command::Check(args) => check::run(args, &program.manners),
         Command::Detect(args) => detect::run(args, &program.manners),
         Command::Simulate(args) => simulate::run(args, &program.manners),
         Command::Demo(args) => demo::run(args, &program.manners),

@@ -7,7 +7,7 @@ use std::{
 
 use clap::CommandFactory;
 use clap_complete::Shell;
-use handeye::{Calibration, Verdict, calibration::Candidate, certify::Certificate};
+use handeye::{Calibration, Verdict, Warning, calibration::Candidate, certify::Certificate};
 use serde::Serialize;
 
 use crate::args::{Manners, Program};
@@ -69,10 +69,15 @@ pub fn completions(shell: Shell) {
 
 /// Warnings, to standard error.
 pub fn warnings(calibration: &Calibration, manners: &Manners) {
+    warn(&calibration.warnings, manners);
+}
+
+/// The same, of any result.
+pub fn warn(warnings: &[Warning], manners: &Manners) {
     if manners.quiet {
         return;
     }
-    for warning in &calibration.warnings {
+    for warning in warnings {
         eprint!("{}", wrapped_to(&format!("warning [{}]: ", warning.code), 2, &warning.message));
     }
 }
@@ -86,12 +91,24 @@ fn paint(text: &str, code: &str) -> String {
     }
 }
 
-fn verdict(v: Verdict) -> String {
-    match v {
-        Verdict::Accepted => paint("ACCEPTED", "1;32"),
-        Verdict::Rejected => paint("REJECTED", "1;31"),
-        Verdict::Undetermined => paint("UNDETERMINED", "1;33"),
-    }
+/// The verdict's word.
+pub fn verdict(v: Verdict) -> String {
+    let word = match v {
+        Verdict::Accepted => "ACCEPTED",
+        Verdict::Rejected => "REJECTED",
+        Verdict::Undetermined => "UNDETERMINED",
+    };
+    verdict_as(v, word)
+}
+
+/// Another word in the verdict's colour.
+pub fn verdict_as(v: Verdict, word: &str) -> String {
+    let colour = match v {
+        Verdict::Accepted => "1;32",
+        Verdict::Rejected => "1;31",
+        Verdict::Undetermined => "1;33",
+    };
+    paint(word, colour)
 }
 
 /// The result for people, in 80 columns.

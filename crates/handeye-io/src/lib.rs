@@ -6,6 +6,7 @@
 #![allow(clippy::result_large_err, reason = "an error ends the reading: its size costs nothing")]
 
 mod camera;
+pub mod checkup;
 mod dataset;
 pub mod drawing;
 mod error;
@@ -21,14 +22,15 @@ mod scan;
 pub mod simulated;
 mod table;
 mod target_file;
+mod touch_file;
 mod tree;
 pub mod units;
 mod xml;
 
 pub use camera::read_intrinsics;
 pub use dataset::{
-    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource, WorkspaceBox,
-    WorkspaceFrame,
+    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource, RobotFile,
+    RobotPoses, WorkspaceBox, WorkspaceFrame, columns, read_robot_poses,
 };
 pub use error::{Error, Place};
 pub use files::write_atomically;
@@ -36,3 +38,4 @@ pub use image::{image_size, read_image};
 pub use init::{FirstManifest, Question, first_manifest};
 pub use scan::{ScanOptions, read_scan};
 pub use target_file::{read_target, target_toml};
+pub use touch_file::{TouchedPoint, read_touched_points};

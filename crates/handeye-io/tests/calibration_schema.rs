@@ -5,12 +5,13 @@
 use std::{collections::BTreeSet, fs};
 
 use handeye::{
-    Calibration, Pose, Setup, Verdict, Warning,
+    Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
     calibration::{
-        Answer, BudgetEntry, Candidate, CaptureResult, Diversity, Misfit, PoseCovariance, Scale,
-        TouchResult,
+        Advice, Answer, BudgetEntry, CameraResult, Candidate, CaptureResult, DepthResult,
+        Diversity, Misfit, PoseCovariance, Scale, TouchResult,
     },
-    predict::PredictedTre,
+    certify::Certificate,
+    predict::{PredictedTre, TreMap, TreSlice},
 };
 use nalgebra::Vector3;
 use serde_json::Value;
@@ -48,7 +49,17 @@ fn full() -> Calibration {
             predicted_tre_mm: Some(0.0),
             note: Some("n".into()),
         }],
-        predicted_tre_mm: Some(PredictedTre { rms: 0.0, p95: 0.0, r#where: "w".into() }),
+        predicted_tre_mm: Some(PredictedTre {
+            rms: 0.0,
+            p95: 0.0,
+            r#where: "w".into(),
+            map: Some(TreMap {
+                frame: "camera".into(),
+                minimum_mm: [0.0; 3],
+                maximum_mm: [1.0; 3],
+                slices: vec![TreSlice { axes: [0, 1], p95_mm: vec![vec![Some(1.0)]] }],
+            }),
+        }),
         residual: misfit,
         held_out: misfit,
         captures: vec![CaptureResult {
@@ -86,12 +97,37 @@ fn full() -> Calibration {
             sigma: "s".into(),
             sigma_mm: Some(0.0),
             sigma_deg: Some(0.0),
+            sigma_uncertainty: Some(0.1),
+            at_workpiece_mm: Some(0.0),
         }],
+        advice: vec![Advice { change: "c".into(), predicted_tre_mm: 0.0 }],
         time_offset_s: Some(0.0),
         time_offset_sigma_s: Some(0.0),
         scale: Some(1.0),
         scale_sigma: Some(0.0),
         target_scale: Some(Scale { value: 1.0, sigma: 0.0 }),
+        camera: Some(CameraResult {
+            intrinsics: Intrinsics {
+                distortion: Distortion::BrownConrady([0.0; 12]),
+                ..Intrinsics::pinhole(1, 1, 1.0, 1.0, 0.0, 0.0)
+            },
+            sigma_fx: 0.0,
+            sigma_fy: 0.0,
+            sigma_cx: 0.0,
+            sigma_cy: 0.0,
+        }),
+        depth: Some(DepthResult { scale: 1.0, sigma_scale: 0.0, bias_mm: 0.0, sigma_bias_mm: 0.0 }),
+        certificate: Some(Certificate {
+            certified: true,
+            gap: 0.0,
+            min_eigenvalue: 0.0,
+            least_squares: HandEye {
+                mount_from_camera: Pose::identity(),
+                anchor_from_target: Pose::identity(),
+            },
+            rotation_to_answer_deg: 0.0,
+            translation_to_answer_mm: 0.0,
+        }),
         warnings: vec![Warning::new("code", "message")],
     }
 }

@@ -160,6 +160,21 @@ pub struct BudgetEntry {
     /// Standard deviation, degrees per axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sigma_deg: Option<f64>,
+    /// How unsure that standard deviation is, as a part of it; `None` where it was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma_uncertainty: Option<f64>,
+    /// What it contributes to the predicted error (root mean square), mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_workpiece_mm: Option<f64>,
+}
+
+/// A change and what it would do.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Advice {
+    /// What to change.
+    pub change: String,
+    /// Predicted error (root mean square) then, mm.
+    pub predicted_tre_mm: f64,
 }
 
 /// Size of the target as the robot's motions see it, over the declared one.
@@ -240,6 +255,9 @@ pub struct Calibration {
     pub diversity: Option<Diversity>,
     /// Where the error comes from.
     pub error_budget: Vec<BudgetEntry>,
+    /// What would make the predicted error smaller, the most helpful first.
+    #[serde(default)]
+    pub advice: Vec<Advice>,
     /// Camera time minus robot time; zero for pairs, which are taken at the same moment, null where
     /// streams do not tell it.
     pub time_offset_s: Option<f64>,

@@ -15,6 +15,7 @@ pub mod lens;
 pub mod lie;
 pub mod linalg;
 pub mod observation;
+pub mod pivot;
 pub mod predict;
 pub mod refine;
 pub mod register;
@@ -27,6 +28,7 @@ pub mod target;
 pub mod target_art;
 pub mod touches;
 pub mod unscaled;
+pub mod verify;
 
 pub use calibrate::{Config, Session, Unknown, calibrate};
 pub use calibration::{Calibration, Verdict};

@@ -8,7 +8,7 @@
 //! *General approach to first-order error prediction in rigid point registration*, IEEE T-MI 30(3),
 //! 2011.
 
-use nalgebra::{Matrix3, Matrix6, Vector3};
+use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Gamma};
 
@@ -23,6 +23,32 @@ pub struct PredictedTre {
     pub p95: f64,
     /// Which volume, in words.
     pub r#where: String,
+    /// The error in three slices through the volume.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map: Option<TreMap>,
+}
+
+/// Predicted error (95 %) in three orthogonal slices through the middle of a volume.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TreMap {
+    /// The frame of the box: `camera`, `base` or `flange`.
+    pub frame: String,
+    /// Lower corner of the box, mm.
+    pub minimum_mm: [f64; 3],
+    /// Upper corner of the box, mm.
+    pub maximum_mm: [f64; 3],
+    /// The slices.
+    pub slices: Vec<TreSlice>,
+}
+
+/// One slice of a [`TreMap`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TreSlice {
+    /// Axes (0, 1, 2 for x, y, z) along columns and rows.
+    pub axes: [usize; 2],
+    /// Rows of cells, from lower to higher; each the error (95 %) at its middle, mm; `None` where
+    /// the camera does not see.
+    pub p95_mm: Vec<Vec<Option<f64>>>,
 }
 
 /// Points spread over the volume in which the answer will be used, in the camera frame (m).
@@ -32,6 +58,12 @@ pub struct Volume {
     pub points: Vec<Vector3<f64>>,
     /// Which volume, in words.
     pub name: String,
+    /// The frame in which it is a box: `camera`, `base` or `flange`.
+    pub frame: &'static str,
+    /// Lower and upper corner in that frame, m.
+    pub corners: (Vector3<f64>, Vector3<f64>),
+    /// From that frame to the camera.
+    pub camera_from_box: Isometry3<f64>,
 }
 
 /// Sample points along each edge of the box.
@@ -57,12 +89,21 @@ impl Volume {
             .flat_map(|(i, j)| (0..SAMPLES).map(move |k| (i, j, k)))
             .map(|(i, j, k)| Vector3::new(at(0, i), at(1, j), at(2, k)))
             .collect();
-        Self { points, name: name.into() }
+        Self {
+            points,
+            name: name.into(),
+            frame: "camera",
+            corners: (*low, *high),
+            camera_from_box: Isometry3::identity(),
+        }
     }
 
-    /// Moves all points.
-    pub fn map(mut self, f: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Self {
-        self.points.iter_mut().for_each(|p| *p = f(p));
+    /// The same box, in another frame than the camera's.
+    pub fn seen_from(mut self, camera_from_box: &Isometry3<f64>, frame: &'static str) -> Self {
+        for p in &mut self.points {
+            *p = camera_from_box.transform_vector(p) + camera_from_box.translation.vector;
+        }
+        (self.camera_from_box, self.frame) = (*camera_from_box, frame);
         self
     }
 }
@@ -91,17 +132,56 @@ pub fn tre_of_points(
     spread: &[Matrix3<f64>],
     offset: impl Fn(&Vector3<f64>) -> Vector3<f64>,
 ) -> PredictedTre {
-    let moment = |(p, s): (&Vector3<f64>, &Matrix3<f64>)| {
-        let b = offset(p);
-        // mean and variance of the squared length of N(b, s)
-        (s.trace() + b.norm_squared(), 2.0 * (s * s).trace() + 4.0 * b.dot(&(s * b)))
-    };
+    let moment = |(p, s): (&Vector3<f64>, &Matrix3<f64>)| moments(s, &offset(p));
     let moments: Vec<(f64, f64)> = volume.points.iter().zip(spread).map(moment).collect();
     let mean = moments.iter().map(|m| m.0).sum::<f64>() / moments.len().max(1) as f64;
     PredictedTre {
         rms: mean.sqrt() * 1e3,
         p95: quantile95(&moments) * 1e3,
         r#where: volume.name.clone(),
+        map: None,
+    }
+}
+
+/// Mean and variance of the squared length of `N(b, s)`.
+fn moments(s: &Matrix3<f64>, b: &Vector3<f64>) -> (f64, f64) {
+    (s.trace() + b.norm_squared(), 2.0 * (s * s).trace() + 4.0 * b.dot(&(s * b)))
+}
+
+/// Cells along each edge of a slice.
+const CELLS: usize = 16;
+
+/// The error in slices through the middle of a volume; `spread` and `offset` as in [`tre_of_points`],
+/// `None` where the camera does not see.
+pub fn map(
+    volume: &Volume,
+    spread: impl Fn(&Vector3<f64>) -> Option<Matrix3<f64>>,
+    offset: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+) -> TreMap {
+    let (low, high) = volume.corners;
+    let middle = 0.5 * (low + high);
+    let along = |axis: usize, k: usize| {
+        low[axis] + (high[axis] - low[axis]) * (k as f64 + 0.5) / CELLS as f64
+    };
+    let at = |p: &Vector3<f64>| {
+        let c = &volume.camera_from_box;
+        let p = c.transform_vector(p) + c.translation.vector;
+        Some(quantile95(&[moments(&spread(&p)?, &offset(&p))]) * 1e3)
+    };
+    let slice = |axes: [usize; 2]| {
+        let cell = |row: usize, column: usize| {
+            let mut p = middle;
+            (p[axes[0]], p[axes[1]]) = (along(axes[0], column), along(axes[1], row));
+            at(&p)
+        };
+        let row = |row: usize| (0..CELLS).map(|column| cell(row, column)).collect();
+        TreSlice { axes, p95_mm: (0..CELLS).map(row).collect() }
+    };
+    TreMap {
+        frame: volume.frame.into(),
+        minimum_mm: (low * 1e3).into(),
+        maximum_mm: (high * 1e3).into(),
+        slices: [[0, 1], [0, 2], [1, 2]].map(slice).into(),
     }
 }
 
@@ -163,7 +243,8 @@ mod tests {
     fn a_rotation_error_grows_with_the_distance() {
         let s = Matrix6::from_diagonal(&nalgebra::Vector6::new(1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0));
         let near = volume();
-        let far = near.clone().map(|p| p * 2.0);
+        let mut far = near.clone();
+        far.points.iter_mut().for_each(|p| *p *= 2.0);
         let (near, far) =
             (tre(&near, &s, |_| Vector3::zeros()), tre(&far, &s, |_| Vector3::zeros()));
         assert!((far.rms / near.rms - 2.0).abs() < 1e-9);

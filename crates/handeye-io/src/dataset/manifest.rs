@@ -16,7 +16,7 @@ use crate::{
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Manifest {
+pub(crate) struct Manifest {
     pub(super) setup: Setup,
     pub(super) target: Option<TargetModel>,
     pub(super) camera: Option<CameraSpec>,
@@ -280,7 +280,7 @@ pub(super) struct LimitsSpec {
 
 impl Manifest {
     /// Reads the text of a manifest; every error has its line.
-    pub(super) fn parse(source: &Source) -> Result<Manifest, Error> {
+    pub(crate) fn parse(source: &Source) -> Result<Manifest, Error> {
         toml::from_str(&source.text).map_err(|e| {
             let line = e.span().map(|span| source.line_at(span.start));
             let place = Place { line, ..Place::file(&source.path) };
@@ -303,9 +303,9 @@ fn advice(message: &str) -> String {
 }
 
 /// A manifest's text, for finding its lines.
-pub(super) struct Source {
-    pub(super) path: PathBuf,
-    pub(super) text: String,
+pub(crate) struct Source {
+    pub(crate) path: PathBuf,
+    pub(crate) text: String,
 }
 
 impl Source {

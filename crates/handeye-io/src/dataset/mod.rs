@@ -5,6 +5,8 @@ mod manifest;
 mod opening;
 mod pairing;
 mod poses;
+mod rereading;
+mod robot_file;
 mod touches;
 
 use std::path::{Path, PathBuf};
@@ -20,8 +22,10 @@ use crate::{
     files, image,
     scan::{self, ScanOptions},
 };
-use manifest::{Manifest, Source};
+pub(crate) use manifest::{Manifest, Source};
 use opening::Opening;
+pub(crate) use rereading::{Rereading, rereadings};
+pub use robot_file::{RobotFile, RobotPoses, columns, read_robot_poses};
 pub use touches::FIXED_BOARD;
 
 /// Name of the manifest in a folder.
@@ -75,6 +79,8 @@ pub struct CaptureSource {
     pub corners: Option<Vec<ImageCorner>>,
     /// The board's pose found by another program.
     pub camera_from_target: Option<Pose<Camera, Target>>,
+    /// Which record of the robot's file.
+    pub(crate) robot_record: usize,
 }
 
 /// A board lying still, and the files of what the camera saw of it.

@@ -352,9 +352,11 @@ impl Opening {
 
 fn capture(id: String, indices: &[usize], series: &[Series], parts: &Parts) -> CaptureSource {
     let at = |what: &str| series.iter().position(|s| s.what == what).map(|i| indices[i]);
-    let robot = at("robot poses").map(|i| parts.robot[i].value);
+    let record = at("robot poses");
+    let robot = record.map(|i| parts.robot[i].value);
     CaptureSource {
         id,
+        robot_record: record.unwrap_or(0),
         base_from_flange: robot.unwrap_or(Pose::identity()),
         image: at("images").map(|i| parts.images[i].clone()),
         scan: at("scans").map(|i| parts.scans[i].clone()),

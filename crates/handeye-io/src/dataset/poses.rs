@@ -148,6 +148,20 @@ fn read(
     Ok((poses, warnings))
 }
 
+/// The numbers of the robot's poses as they stand in their files, and how they are read.
+pub(super) fn numbers_of_robot(
+    spec: &RobotSpec,
+    source: &Source,
+    root: &Path,
+) -> Result<(Reading, Vec<Vec<f64>>), Error> {
+    let table = PoseTable { dh: spec.dh.clone(), ..spec.table() };
+    let reading = Reading::of(&table, "robot", source, root)?;
+    let layout = table.layout(reading.is_matrix(), "robot", source)?;
+    let records = records(&table.poses, &layout, root, &source.place("robot.poses"))?;
+    let numbers = records.iter().map(|r| reading.numbers(r)).collect::<Result<_, _>>()?;
+    Ok((reading, numbers))
+}
+
 /// What the robot reported, one per record.
 pub(super) fn of_robot(
     spec: &RobotSpec,
@@ -180,7 +194,7 @@ pub(super) fn of_robot(
 }
 
 /// The tool whose poses are recorded; the flange itself unless the manifest says otherwise.
-fn tool(spec: &RobotSpec, source: &Source) -> Result<Pose<Flange, Tool>, Error> {
+pub(super) fn tool(spec: &RobotSpec, source: &Source) -> Result<Pose<Flange, Tool>, Error> {
     match (spec.frame, &spec.tool) {
         (PoseFrame::Flange, None) => Ok(Pose::identity()),
         (PoseFrame::Flange, Some(_)) => Err(source.undeclared(

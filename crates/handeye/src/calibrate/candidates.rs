@@ -1,11 +1,11 @@
 //! Every way to the answer, side by side, and the choice between them.
 
-use nalgebra::{Matrix3, Matrix6};
+use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
 
 use super::{
     Config,
     agreement::Views,
-    boards, captures,
+    boards, budget, captures,
     joint::{self, Joint, held_out_views},
     optics::{self, Optics},
     verdict,
@@ -46,8 +46,8 @@ pub(super) fn estimate<'a>(
         }
     };
     captures::orient_target(&mut views, &mut fit);
+    let problem = joint::views_problem(setup, &views.views, &optics.extras);
     result.undetermined = diagnose::undetermined(&fit, setup);
-    result.error_budget = verdict::budget(&fit);
     optics.report(views.session, &fit, result);
     config.unknown.report(&fit, result);
     verdict::judge_scale(&views, &fit, config, result);
@@ -56,11 +56,19 @@ pub(super) fn estimate<'a>(
     let joint =
         joint::fit(&views, &boards::boards(&views, &fit, optics), &extras, &fit, &config.known);
     if let Some(joint) = &joint {
-        result.error_budget = verdict::budget(&joint.fit);
         joint.warn(&views, result);
     }
-    let best = joint.as_ref().map_or(&fit, |j| &j.fit);
-    let spread = inflation(best).and_then(|f| optics::spread(&views, best, &volume, f));
+    let (best, whole) = joint.as_ref().map_or((&fit, &problem), |j| (&j.fit, &j.problem));
+    let spread_of = |covariance: &DMatrix<f64>, p: &Vector3<f64>| {
+        optics::spread(&views, &best.extras, &(covariance * inflation(best)?), p)
+    };
+    let all_spread = |covariance: &DMatrix<f64>| -> Option<Vec<Matrix3<f64>>> {
+        volume.points.iter().map(|p| spread_of(covariance, p)).collect()
+    };
+    let spread = best.covariance.as_ref().and_then(all_spread);
+    let rms = |covariance: &DMatrix<f64>| Some(budget::rms_mm(&all_spread(covariance)?));
+    result.error_budget = budget::budget(whole, best, &rms);
+    result.advice = budget::advice(whole, best, &rms);
     let judge = Judge {
         views: &views,
         volume: &volume,
@@ -75,6 +83,17 @@ pub(super) fn estimate<'a>(
         candidates.extend(joint.as_ref().and_then(|j| judge.joint_candidate(j)));
     }
     choose(candidates, &views, &volume, config, result);
+    if let (Some(tre), Some(covariance)) = (&mut result.predicted_tre_mm, &best.covariance)
+        && let Some(x) = &result.hand_eye.mount_from_camera
+    {
+        let seen = |p: &Vector3<f64>| {
+            let camera = views.session.camera.as_ref();
+            let hidden = camera.is_some_and(|c| !optics::in_picture(c, p));
+            if hidden { None } else { spread_of(covariance, p) }
+        };
+        let offset = predict::difference(&best.hand_eye.mount_from_camera, x);
+        tre.map = Some(predict::map(&volume, seen, offset));
+    }
     captures::report_touches(&views, &paired, joint.as_ref(), result);
     Some(views)
 }
@@ -420,11 +439,6 @@ pub(super) fn workspace_volume(setup: Setup, w: &Workspace, x: &Pose<Mount, Came
     let volume = Volume::of_box(&w.minimum, &w.maximum, "the workspace box of the manifest");
     match setup {
         Setup::EyeInHand => volume, // declared in the camera frame
-        Setup::EyeToHand => {
-            let camera_from_mount = x.iso().inverse();
-            volume.map(|p| {
-                camera_from_mount.transform_vector(p) + camera_from_mount.translation.vector
-            })
-        }
+        Setup::EyeToHand => volume.seen_from(&x.iso().inverse(), setup.mount()),
     }
 }

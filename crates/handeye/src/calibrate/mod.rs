@@ -7,6 +7,7 @@
 
 mod agreement;
 mod boards;
+mod budget;
 mod candidates;
 mod captures;
 mod joint;
@@ -200,6 +201,7 @@ fn empty(session: &Session) -> Calibration {
         undetermined: vec![],
         diversity: None,
         error_budget: vec![],
+        advice: vec![],
         time_offset_s: Some(0.0),
         time_offset_sigma_s: None,
         scale: Some(1.0),

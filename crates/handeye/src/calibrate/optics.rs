@@ -5,7 +5,7 @@
 //! with confidence that it is off; the same holds for the depth of scans. What is found moves the
 //! camera, all targets are posed anew, and the fit is linearised there again.
 
-use nalgebra::{Matrix3, Matrix3xX, SVector, Vector2, Vector3};
+use nalgebra::{DMatrix, Matrix3, Matrix6, SVector, Vector2, Vector3, Vector6};
 
 use super::{
     Config, Session,
@@ -22,7 +22,6 @@ use crate::{
         sight::{DEPTH_BIAS, DEPTH_SCALE, LENS, Sight, corrected},
     },
     evaluate,
-    predict::Volume,
     refine::{self, Extra, ExtraKind, JointFit, View},
     register::rigid_fit::point_jacobian,
 };
@@ -339,43 +338,45 @@ pub(super) fn sight_of_placement(
 /// Step of the numerical derivative by a lens parameter, as part of its standard deviation.
 const DERIVATIVE_STEP: f64 = 1e-2;
 
-/// Covariance (m²), in camera axes, of where points of the camera land. What pictures locate moves
-/// with the lens: a point keeps its pixel, and its distance follows its size in the picture. What
-/// scans locate moves with their depth. Both errors go along with that of `X`.
+/// Covariance (m²), in camera axes, of where a point of the camera lands, for a covariance of `X`,
+/// `Y` and the extras. What pictures locate moves with the lens: a point keeps its pixel, and its
+/// distance follows its size in the picture. What scans locate moves with their depth. Both errors
+/// go along with that of `X`.
 pub(super) fn spread(
     views: &Views,
-    fit: &JointFit,
-    volume: &Volume,
-    factor: f64,
-) -> Option<Vec<Matrix3<f64>>> {
-    let covariance = fit.covariance.as_ref()?;
+    extras: &[Extra],
+    covariance: &DMatrix<f64>,
+    p: &Vector3<f64>,
+) -> Option<Matrix3<f64>> {
     let scanned = views.session.observations.iter().any(|o| !o.surface.is_empty());
     let camera = views.session.camera.as_ref();
     let moves = |which: usize| scanned == (which < LENS);
-    let free: Vec<(usize, usize)> = (fit.extras.iter().enumerate())
-        .filter_map(|(k, e)| match e.kind {
-            ExtraKind::Camera(which) if moves(which) => Some((12 + k, which)),
-            _ => None,
-        })
-        .collect();
-    let rows: Vec<usize> = (0..6).chain(free.iter().map(|(row, _)| *row)).collect();
-    let own = covariance.select_rows(&rows).select_columns(&rows) * factor;
-    let one = |p: &Vector3<f64>| {
-        let mut j = Matrix3xX::zeros(rows.len());
-        j.fixed_columns_mut::<6>(0).copy_from(&point_jacobian(p));
-        for (k, (row, which)) in free.iter().enumerate() {
-            let sigma = covariance[(*row, *row)].sqrt();
-            let column = match *which {
-                DEPTH_SCALE => -p,
-                DEPTH_BIAS => -p / p.z,
-                lens => camera.and_then(|c| by_lens(c, p, lens - LENS, sigma)).unwrap_or_default(),
-            };
-            j.set_column(6 + k, &column);
+    let mut free = vec![];
+    for (k, extra) in extras.iter().enumerate() {
+        let ExtraKind::Camera(which) = extra.kind else { continue };
+        if !moves(which) {
+            continue;
         }
-        let spread = &j * &own * j.transpose();
-        Matrix3::from_fn(|a, b| spread[(a, b)])
-    };
-    Some(volume.points.iter().map(one).collect())
+        let sigma = covariance[(12 + k, 12 + k)].sqrt();
+        let column = match which {
+            DEPTH_SCALE => -p,
+            DEPTH_BIAS => -p / p.z,
+            lens => camera.and_then(|c| by_lens(c, p, lens - LENS, sigma)).unwrap_or_default(),
+        };
+        free.push((12 + k, column));
+    }
+    let own: Matrix6<f64> = covariance.fixed_view::<6, 6>(0, 0).into_owned();
+    let j = point_jacobian(p);
+    let mut s = j * own * j.transpose();
+    for (k, by_k) in &free {
+        let cross: Vector6<f64> = covariance.fixed_view::<6, 1>(0, *k).into_owned();
+        let mixed = j * cross * by_k.transpose();
+        s += mixed + mixed.transpose();
+        for (l, by_l) in &free {
+            s += by_k * by_l.transpose() * covariance[(*k, *l)];
+        }
+    }
+    s.iter().all(|x| x.is_finite()).then_some(s)
 }
 
 /// Whether a point of the camera lies in its picture.

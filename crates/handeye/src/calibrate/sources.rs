@@ -1,9 +1,9 @@
 //! Which measurement of the target to trust: its picture, its scan, or both together.
 //!
 //! Both are fused by default. But a lens that is not calibrated well, or a depth camera with a
-//! bias, spoils the fusion, and neither can tell which of them is wrong. The robot can: the whole
-//! calibration runs with either alone as well, and the least predicted error wins, which contains
-//! the misfit of picture, scan and robot.
+//! bias, spoils the fusion, and neither can tell which of them is wrong. The robot can: where they
+//! are far apart, the whole calibration runs with either alone as well, and the least predicted
+//! error wins, which contains the misfit of picture, scan and robot.
 
 use nalgebra::Vector3;
 
@@ -33,6 +33,10 @@ pub(super) fn best_source(session: &Session, run: impl Fn(&Session) -> Calibrati
     if 2 * scans < session.observations.len() || scans == 0 {
         return both;
     }
+    let gap = gap(session, target, camera);
+    if gap.0 < WORTH_TELLING.0 && gap.1 < WORTH_TELLING.1 {
+        return both;
+    }
     let mut all = vec![(Source::Both, both)];
     for source in [Source::Picture, Source::Scan] {
         all.push((source, run(&restricted(session, source, target, camera))));
@@ -41,7 +45,6 @@ pub(super) fn best_source(session: &Session, run: impl Fn(&Session) -> Calibrati
         let usable = c.verdict == Verdict::Accepted;
         (!usable, c.predicted_tre_mm.as_ref().map_or(f64::INFINITY, |t| t.rms))
     };
-    let gap = gap(session, target, camera);
     let best = (0..all.len())
         .min_by(|&i, &j| {
             let ((a, x), (b, y)) = (score(&all[i].1), score(&all[j].1));
@@ -142,7 +145,7 @@ fn gap(session: &Session, target: &TargetModel, camera: &Intrinsics) -> (f64, f6
     (median(angles), median(distances))
 }
 
-/// Disagreement of picture and scan that is worth telling: 0.5 degrees, 2 mm.
+/// Disagreement of picture and scan that is worth a look at either, and telling: 0.5 degrees, 2 mm.
 const WORTH_TELLING: (f64, f64) = (0.0087, 0.002);
 
 fn warn(result: &mut Calibration, source: Source, (angle, distance): (f64, f64)) {
@@ -151,16 +154,14 @@ fn warn(result: &mut Calibration, source: Source, (angle, distance): (f64, f64))
         Source::Picture => "only the pictures are used",
         Source::Scan => "only the scans are used",
     };
-    if angle > WORTH_TELLING.0 || distance > WORTH_TELLING.1 {
-        result.warnings.push(Warning::new(
-            "picture-and-scan-disagree",
-            format!(
-                "picture and scan put the target {:.1} mm and {:.2} degrees apart (median): check \
-                 the lens distortion of the picture's intrinsics and the depth camera's warm-up and \
-                 calibration; {used}, which predicts the least error",
-                distance * 1e3,
-                angle.to_degrees()
-            ),
-        ));
-    }
+    result.warnings.push(Warning::new(
+        "picture-and-scan-disagree",
+        format!(
+            "picture and scan put the target {:.1} mm and {:.2} degrees apart (median): check the \
+             lens distortion of the picture's intrinsics and the depth camera's warm-up and \
+             calibration; {used}, which predicts the least error",
+            distance * 1e3,
+            angle.to_degrees()
+        ),
+    ));
 }

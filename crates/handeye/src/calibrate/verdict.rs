@@ -3,9 +3,9 @@
 use super::{Config, agreement::Views};
 use crate::{
     Warning,
-    calibration::{Answer, BudgetEntry, Calibration, Scale, Verdict},
+    calibration::{Answer, Calibration, Scale, Verdict},
     diagnose,
-    refine::{self, JointFit, noise::Source},
+    refine::JointFit,
 };
 
 /// Predicted error (95 %) beyond which an answer is rejected when the user named no limit, mm.
@@ -111,21 +111,6 @@ fn imprecision(config: &Config, result: &Calibration) -> Vec<String> {
         None if result.hand_eye.mount_from_camera.is_none() => vec![],
         None => vec!["too little data to predict an error: add captures or touches".into()],
     }
-}
-
-pub(super) fn budget(fit: &JointFit) -> Vec<BudgetEntry> {
-    let text = |s: &refine::Sigma| match s.source {
-        Source::Picture => format!("{:.2} times what the corners' scatter says", s.sigma),
-        k if k.is_rotation() => format!("{:.4} deg per axis", s.sigma.to_degrees()),
-        _ => format!("{:.3} mm per axis", s.sigma * 1e3),
-    };
-    let entry = |s: &refine::Sigma| BudgetEntry {
-        source: s.source.name().into(),
-        sigma: text(s),
-        sigma_mm: (!s.source.is_rotation() && s.source != Source::Picture).then_some(s.sigma * 1e3),
-        sigma_deg: s.source.is_rotation().then_some(s.sigma.to_degrees()),
-    };
-    fit.noise.sigmas.iter().map(entry).collect()
 }
 
 pub(super) fn judge_scale(

@@ -134,16 +134,14 @@ pub fn fit_views(
 /// Fits the unknowns again for other problem, from an answer that is near: noise starts at, and
 /// is drawn towards, what `near` found.
 pub fn refit(problem: &Problem, near: &JointFit, known: &KnownNoise) -> JointFit {
-    let values = carried_values(problem, near);
-    let state = State { hand_eye: near.hand_eye, values, noise: near.noise.clone() };
+    let state = near.state(problem, &near.noise);
     let prior = first_noise(problem, &near.hand_eye, known);
     climb(problem, state, &prior, known)
 }
 
 /// Fits the unknowns for noise that is known.
 pub fn fit_with_noise(problem: &Problem, near: &JointFit) -> JointFit {
-    let values = carried_values(problem, near);
-    let mut state = State { hand_eye: near.hand_eye, values, noise: near.noise.clone() };
+    let mut state = near.state(problem, &near.noise);
     let mut system = System::at(problem, &state);
     for _ in 0..MOST_ROUNDS {
         let moved = system.advance(problem, &mut state);
@@ -157,9 +155,7 @@ pub fn fit_with_noise(problem: &Problem, near: &JointFit) -> JointFit {
 
 /// Information and gradient at an answer, for a problem that may have more unknowns.
 pub(crate) fn normal_equations(problem: &Problem, at: &JointFit) -> (DMatrix<f64>, DVector<f64>) {
-    let values = carried_values(problem, at);
-    let state = State { hand_eye: at.hand_eye, values, noise: at.noise.clone() };
-    let system = System::at(problem, &state);
+    let system = System::at(problem, &at.state(problem, &at.noise));
     (system.h, system.g)
 }
 
@@ -283,6 +279,26 @@ impl JointFit {
     /// Covariance of `(X, Y)`, marginal over everything else.
     pub fn pose_covariance(&self) -> Option<Matrix12> {
         self.covariance.as_ref().map(|c| c.fixed_view::<12, 12>(0, 0).into_owned())
+    }
+
+    /// The covariance of `(X, Y, extras)` as a sum over the sources of noise; `None` stands for what
+    /// was believed of the extras beforehand.
+    pub fn covariance_shares(&self, problem: &Problem) -> Vec<(Option<Source>, DMatrix<f64>)> {
+        let Some(covariance) = &self.covariance else { return vec![] };
+        let shares = System::at(problem, &self.state(problem, &self.noise)).shares(&self.noise);
+        let carried = |m: DMatrix<f64>| covariance * m * covariance;
+        shares.into_iter().map(|(source, m)| (source, carried(m))).collect()
+    }
+
+    /// The covariance of `(X, Y, extras)` as it were with other data of the same kind, or with
+    /// other noise.
+    pub fn covariance_for(&self, problem: &Problem, noise: &NoiseModel) -> Option<DMatrix<f64>> {
+        linalg::inverse_spd(&System::at(problem, &self.state(problem, noise)).h)
+    }
+
+    fn state(&self, problem: &Problem, noise: &NoiseModel) -> State {
+        let values = carried_values(problem, self);
+        State { hand_eye: self.hand_eye, values, noise: noise.clone() }
     }
 
     /// Squared Mahalanobis distance of a capture that the fit has not seen: its misfit against its

@@ -284,6 +284,41 @@ impl System {
         sum
     }
 
+    /// The information as a sum over the sources whose noise it weighs; `None` stands for priors.
+    pub fn shares(&self, noise: &NoiseModel) -> Vec<(Option<Source>, DMatrix<f64>)> {
+        let p = self.h.nrows();
+        let share = |source: Source, theta: f64| {
+            let mut m = DMatrix::zeros(p, p);
+            for block in &self.views {
+                for (c, own) in block.columns.iter().enumerate() {
+                    if *own == source {
+                        let through = block.jacobian.tr_mul(&block.factor.column(c));
+                        m.ger(theta, &through, &through, 1.0);
+                    }
+                }
+            }
+            for block in &self.boards {
+                let vj = block.cholesky.solve(&block.rows.jacobian);
+                for (_, shape) in block.rows.shapes.iter().filter(|(own, _)| *own == source) {
+                    m += vj.tr_mul(&(shape * &vj)) * theta;
+                }
+            }
+            m
+        };
+        let mut all: Vec<(Option<Source>, DMatrix<f64>)> = noise
+            .sigmas
+            .iter()
+            .map(|s| (Some(s.source), share(s.source, s.sigma * s.sigma)))
+            .collect();
+        if let Some((_, m)) = all.iter_mut().find(|(s, _)| *s == Some(Source::Picture)) {
+            let n = self.sights.information.nrows();
+            m.view_mut((12, 12), (n, n)).add_assign(&self.sights.information);
+        }
+        let rest = all.iter().fold(self.h.clone(), |rest, (_, m)| rest - m);
+        all.push((None, rest));
+        all
+    }
+
     /// The cost without what the corners say about the camera.
     pub fn cost_of_poses(&self) -> f64 {
         self.cost - self.cost_of_sights

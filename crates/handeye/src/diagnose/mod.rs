@@ -1,5 +1,9 @@
 //! Which mistake explains bad data: inversion, scale, exchange, stale poses.
 
+pub mod explain;
+mod size;
+mod strays;
+
 use crate::{
     HandEye, Pose, PosePair, Setup, Target,
     detect::sight::{CAMERA, Sight, TARGET_SCALE},

@@ -1,0 +1,159 @@
+//! `handeye check`: what is wrong with a dataset? The mistake that explains it best, with evidence.
+
+use std::path::{Path, PathBuf};
+
+use handeye::diagnose::explain::Score;
+use handeye_io::{
+    MANIFEST,
+    checkup::{self, Checkup, Explanation},
+};
+use serde::Serialize;
+
+use crate::{
+    args::{CheckArgs, Manners},
+    failure::Failure,
+    output,
+    progress::Progress,
+};
+
+#[derive(Serialize)]
+struct Answer {
+    #[serde(flatten)]
+    found: Checkup,
+    applied: Option<Applied>,
+}
+
+/// What was written.
+#[derive(Serialize)]
+struct Applied {
+    /// Which explanation, counted from 1.
+    explanation: usize,
+    /// The manifest as it was.
+    old_manifest: PathBuf,
+}
+
+pub fn run(args: &CheckArgs, manners: &Manners) -> Result<u8, Failure> {
+    let manifest = match args.dataset.is_dir() {
+        true => args.dataset.join(MANIFEST),
+        false => args.dataset.clone(),
+    };
+    let root = args.root.clone().or_else(|| manifest.parent().map(PathBuf::from));
+    let progress = Progress::new("reading captures", manners);
+    let root = root.unwrap_or_default();
+    let found = checkup::check(&manifest, &root, &|done, all| progress.tell(done, all))?;
+    drop(progress);
+    output::warn(&found.warnings, manners);
+    let applied = match args.apply {
+        Some(which) => apply(&manifest, &found, which)?,
+        None => None,
+    };
+    let answer = Answer { found, applied };
+    if manners.json {
+        output::json(&answer);
+    } else {
+        output::print(&text(&answer, args.apply.is_some()));
+    }
+    Ok(if answer.found.ok { 0 } else { 3 })
+}
+
+/// Applies the explanation that the data single out, or the one that the user chose (from 1).
+fn apply(manifest: &Path, found: &Checkup, which: usize) -> Result<Option<Applied>, Failure> {
+    let chosen: Option<&Explanation> = match which {
+        0 => found.decided(),
+        k => found.explanations.get(k - 1),
+    };
+    if which > found.explanations.len() {
+        let many = found.explanations.len();
+        return Err(Failure::Usage(format!(
+            "--apply={which}: there are {many} explanations; see them without --apply"
+        )));
+    }
+    let Some(chosen) = chosen.filter(|e| !e.changes.is_empty()) else { return Ok(None) };
+    let old_manifest = checkup::apply(manifest, chosen)?;
+    Ok(Some(Applied { explanation: which.max(1), old_manifest }))
+}
+
+fn misfit(score: Option<&Score>) -> String {
+    score.map_or("no agreement at all".into(), |s| {
+        format!("{:.2} mm, {:.3} degrees, {} agree", s.translation_mm, s.rotation_deg, s.agree)
+    })
+}
+
+/// What speaks for an explanation.
+fn evidence(declared: Option<&Score>, e: &Explanation) -> String {
+    let Some(after) = &e.after else { return String::new() };
+    let mut text = format!("    median misfit    {}\n", misfit(Some(after)));
+    text += &match (e.p_value, declared) {
+        (Some(p), _) => format!("    evidence         chance of it in a right dataset: {p:.1e}\n"),
+        (None, Some(d)) => {
+            format!("    evidence         {:.1} times closer\n", d.score / after.score)
+        }
+        (None, None) => String::new(),
+    };
+    text
+}
+
+/// For people, in 80 columns.
+fn text(answer: &Answer, apply: bool) -> String {
+    let a = &answer.found;
+    let mut text = String::from("\n");
+    text += &match (a.ok, a.explanations.is_empty()) {
+        (true, _) => output::wrapped("", "Nothing is wrong that captures can tell."),
+        (false, true) => output::wrapped(
+            "",
+            "The captures do not agree, and none of the usual mistakes explains it: check the \
+             target, the lens, and that pictures and robot poses belong together.",
+        ),
+        (false, false) if a.alike > 1 => output::wrapped(
+            "",
+            &format!("Cannot tell between these {}: they fit the captures alike.", a.alike),
+        ),
+        (false, false) => String::new(),
+    };
+    text += &format!("\n  as declared, of {} captures\n", a.captures);
+    text += &format!("    median misfit    {}\n", misfit(a.declared.as_ref()));
+    for (k, e) in a.explanations.iter().enumerate() {
+        text += "\n";
+        text += &output::wrapped(&format!("{}  ", k + 1), &e.message);
+        text += &evidence(a.declared.as_ref(), e);
+        for c in &e.changes {
+            let table = if c.table.is_empty() { String::new() } else { format!("[{}] ", c.table) };
+            text += &format!("    {table}{} = {}\n", c.key, c.value);
+        }
+    }
+    if let Some(r) = &a.runner_up {
+        let what = format!("next best of {} readings: {}", a.readings_tried, r.message);
+        text += "\n";
+        text += &output::wrapped("   ", &what);
+        text += &format!("    median misfit    {}\n", misfit(Some(&r.after)));
+    }
+    if !a.not_seen.is_empty() {
+        text += "\n";
+        text += &output::wrapped("  the target was not found in: ", &a.not_seen.join(", "));
+    }
+    text + &applied(answer, apply)
+}
+
+fn applied(answer: &Answer, apply: bool) -> String {
+    let a = &answer.found;
+    match &answer.applied {
+        Some(done) => {
+            let changed: Vec<String> = a.explanations[done.explanation - 1]
+                .changes
+                .iter()
+                .map(|c| format!("{} = {}", c.key, c.value))
+                .collect();
+            format!(
+                "\nmanifest corrected: {}\nthe old one: {}\n",
+                changed.join(", "),
+                done.old_manifest.display()
+            )
+        }
+        None if apply && a.ok => "\nnothing applied: nothing is wrong\n".into(),
+        None if apply && a.alike > 1 => {
+            "\nnothing applied: choose one of them, for example --apply=1\n".into()
+        }
+        None if apply => "\nnothing applied: a manifest cannot express the correction\n".into(),
+        None => String::new(),
+    }
+}

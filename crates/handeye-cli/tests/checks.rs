@@ -1,0 +1,212 @@
+//! `check`, `tcp` and `verify`: what they promise, and what they refuse.
+
+#![allow(clippy::unwrap_used, reason = "a test fails loudly")]
+
+mod folder;
+
+use std::fmt::Write as _;
+
+use folder::{Folder, Run, handeye};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+fn pose(rotation: [f64; 3], translation: [f64; 3]) -> Isometry3<f64> {
+    Isometry3::from_parts(
+        Vector3::from(translation).into(),
+        UnitQuaternion::from_scaled_axis(Vector3::from(rotation)),
+    )
+}
+
+/// A cell whose manifest has `wrong` in place of `right`.
+fn cell(right: &str, wrong: &str) -> Folder {
+    let folder = Folder::new();
+    let made = handeye(&folder, &["simulate", "cell", "--no-images", "--touches", "0", "--quiet"]);
+    assert_eq!(made.code, 0, "{}", made.stderr);
+    let manifest = folder.read("cell/handeye.toml");
+    assert!(manifest.contains(right), "{manifest}");
+    folder.put("cell/handeye.toml", &manifest.replace(right, wrong));
+    folder
+}
+
+fn check(folder: &Folder, more: &[&str]) -> Run {
+    handeye(folder, &[&["check", "cell", "--json", "--quiet"], more].concat())
+}
+
+#[test]
+fn a_cell_in_order_raises_no_alarm() {
+    let folder = cell("", "");
+    let run = check(&folder, &["--apply"]);
+    let found = run.json();
+    assert_eq!((run.code, found["ok"].as_bool()), (0, Some(true)), "{found}");
+    assert!(found["applied"].is_null() && found["declared"]["agree"] == 15, "{found}");
+    assert!(!folder.list("cell").contains(&"handeye.toml.bak".to_owned()));
+}
+
+#[test]
+fn one_explanation_is_applied_and_comments_stay() {
+    let folder = cell("length_unit = \"m\"", "length_unit = \"mm\" # guessed");
+    let (before, measured) = (folder.read("cell/handeye.toml"), folder.read("cell/robot.csv"));
+    let told = check(&folder, &[]);
+    let found = told.json();
+    assert_eq!((told.code, &found["alike"]), (3, &1.into()), "{found}");
+    let (first, declared) = (&found["explanations"][0], &found["declared"]);
+    assert!(first["after"]["score"].as_f64() < declared["score"].as_f64().or(Some(1e9)), "{found}");
+    assert!(found["runner_up"]["after"]["score"].is_number(), "{found}");
+    assert_eq!(folder.read("cell/handeye.toml"), before, "nothing is written unasked");
+    assert_eq!(check(&folder, &["--apply"]).json()["applied"]["explanation"], 1);
+    let after = folder.read("cell/handeye.toml");
+    assert!(after.contains("length_unit = \"m\"  # guessed"), "{after}");
+    assert!(after.starts_with("# A simulated cell"), "{after}");
+    assert_eq!(folder.read("cell/handeye.toml.bak"), before);
+    assert_eq!(folder.read("cell/robot.csv"), measured);
+    assert_eq!(check(&folder, &[]).code, 0);
+}
+
+#[test]
+fn of_explanations_that_fit_alike_none_is_applied_unasked() {
+    let folder = cell("\"base_from_flange\"", "\"flange_from_base\"");
+    let before = folder.read("cell/handeye.toml");
+    let run = check(&folder, &["--apply"]);
+    let found = run.json();
+    assert_eq!((run.code, &found["alike"]), (3, &2.into()), "{found}");
+    assert!(found["applied"].is_null(), "{found}");
+    assert_eq!(folder.read("cell/handeye.toml"), before);
+    let text = handeye(&folder, &["check", "cell"]).stdout;
+    assert!(text.contains("Cannot tell between these 2"), "{text}");
+    assert_eq!(check(&folder, &["--apply=3"]).code, 2);
+    assert_eq!(check(&folder, &["--apply=1"]).json()["applied"]["explanation"], 1);
+    assert_eq!(check(&folder, &[]).code, 0);
+}
+
+#[test]
+fn what_cannot_be_checked_is_refused() {
+    let folder = cell("setup = \"eye-in-hand\"", "setup = 7");
+    let run = check(&folder, &[]);
+    assert_eq!(run.code, 1);
+    let message = run.json()["error"]["message"].to_string();
+    assert!(message.contains("handeye.toml:2"), "{message}");
+    assert_eq!(handeye(&folder, &["check", "nowhere", "--quiet"]).code, 1);
+}
+
+const TIP: [f64; 3] = [0.012, -0.034, 0.207];
+
+/// Flange poses that hold the tip on a point, turned by so much; metres and a rotation vector.
+fn pivot(count: usize, turn: f64) -> String {
+    (0..count).fold(String::new(), |mut text, k| {
+        let wave = |n: f64| turn * (k as f64 * n + 0.4 * n * n).sin();
+        let rotation = [3.0 + wave(1.3), wave(2.1), wave(3.4)];
+        let lever = pose(rotation, [0.0; 3]).rotation * Vector3::from(TIP);
+        let t = Vector3::new(0.5, 0.1, 0.05) - lever;
+        let [a, b, c] = rotation;
+        let _ = writeln!(text, "{:.6},{:.6},{:.6},{a:.6},{b:.6},{c:.6}", t.x, t.y, t.z);
+        text
+    })
+}
+
+fn tcp(folder: &Folder, file: &str) -> Run {
+    let how = ["--notation", "rotation-vector", "--length-unit", "m"];
+    let rest = ["--direction", "base_from_flange", "--json", "--quiet"];
+    handeye(folder, &[&["tcp", file], &how[..], &rest[..]].concat())
+}
+
+#[test]
+fn a_pivot_tells_the_tip_with_its_covariance() {
+    let folder = Folder::new();
+    folder.put("good.csv", &pivot(8, 0.6));
+    let run = tcp(&folder, "good.csv");
+    let found = run.json();
+    assert_eq!((run.code, &found["verdict"]), (0, &"accepted".into()), "{found}");
+    for k in 0..3 {
+        assert!((found["tip_in_flange_m"][k].as_f64().unwrap() - TIP[k]).abs() < 1e-5, "{found}");
+        assert!(found["covariance"][k][k].as_f64().unwrap() > 0.0, "{found}");
+    }
+}
+
+#[test]
+fn poor_pivots_are_refused_with_their_file() {
+    let folder = Folder::new();
+    folder.put("few.csv", &pivot(3, 0.6));
+    folder.put("nan.csv", &pivot(6, 0.6).replacen("0.", "nan", 1));
+    folder.put("empty.csv", "");
+    for (file, code) in [
+        ("few.csv", "too-few-data"),
+        ("nan.csv", "malformed"),
+        ("empty.csv", "malformed"),
+        ("none.csv", "cannot-read"),
+    ] {
+        let run = tcp(&folder, file);
+        let error = run.json()["error"].clone();
+        assert_eq!((run.code, &error["code"]), (1, &code.into()), "{file}: {error}");
+        assert!(error["message"].to_string().contains(file), "{error}");
+    }
+    folder.put("same.csv", &pivot(6, 0.0));
+    let run = tcp(&folder, "same.csv");
+    let found = run.json();
+    assert_eq!((run.code, &found["verdict"]), (3, &"undetermined".into()), "{found}");
+    assert!(found["tip_in_flange_m"][0].is_null() && !found["undetermined"][0].is_null());
+    assert_eq!(handeye(&folder, &["tcp", "few.csv"]).code, 2);
+}
+
+/// A calibrated cell in a folder of its own.
+fn calibrated() -> Folder {
+    let folder = cell("", "");
+    let how = ["--setup", "eye-to-hand", "--touches", "0", "--quiet", "--no-images"];
+    assert_eq!(handeye(&folder, &[&["simulate", "hand"], &how[..]].concat()).code, 0);
+    let run = handeye(&folder, &["calibrate", "hand", "--out", "result", "--json", "--quiet"]);
+    assert_eq!(run.code, 0, "{}", run.stdout);
+    folder
+}
+
+/// Points seen by the camera, and touched so many millimetres beside them.
+fn touches(folder: &Folder, off_mm: f64) -> String {
+    let text = folder.read("result/calibration.json");
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let x = &found["hand_eye"]["mount_from_camera"];
+    let number = |key: &str, k: usize| x[key][k].as_f64().unwrap();
+    let q = nalgebra::Quaternion::from(std::array::from_fn(|k| number("rotation_xyzw", k)));
+    let rotation = UnitQuaternion::from_quaternion(q);
+    let t = Vector3::from_fn(|k, _| number("translation_m", k));
+    let mut text = String::from(
+        "id,camera_x_mm,camera_y_mm,camera_z_mm,touched_x_mm,touched_y_mm,touched_z_mm\n",
+    );
+    for k in 0..8 {
+        let wave = |n: f64| (f64::from(k) * n).sin();
+        let seen = Vector3::new(0.15 * wave(1.1), 0.1 * wave(2.3), 0.9 + 0.05 * wave(3.1));
+        let there = (rotation * seen + t) * 1e3 + Vector3::new(off_mm, 0.0, 0.0);
+        let seen = seen * 1e3;
+        let _ = writeln!(
+            text,
+            "t{k},{},{},{},{},{},{}",
+            seen.x, seen.y, seen.z, there.x, there.y, there.z
+        );
+    }
+    text
+}
+
+fn verify(folder: &Folder, file: &str, more: &[&str]) -> Run {
+    handeye(folder, &[&["verify", "result", file, "--json", "--quiet"], more].concat())
+}
+
+#[test]
+fn touches_pass_or_fail_for_the_tolerance_of_the_user() {
+    let folder = calibrated();
+    folder.put("near.csv", &touches(&folder, 0.3));
+    folder.put("far.csv", &touches(&folder, 4.0));
+    folder.put("nan.csv", &touches(&folder, 0.3).replacen("t1,", "t1,nan", 1));
+    for (file, tolerance, code) in [("near.csv", "2", 0), ("far.csv", "2", 3), ("far.csv", "5", 0)]
+    {
+        let run = verify(&folder, file, &["--tolerance-mm", tolerance, "--out", "report"]);
+        let found = run.json();
+        assert_eq!(run.code, code, "{file} {tolerance}: {found}");
+        assert_eq!(found["touches"].as_array().unwrap().len(), 8);
+        assert!(folder.read("report/verify.html").contains("</html>"));
+    }
+    assert_eq!(verify(&folder, "near.csv", &[]).code, 0);
+    let disagrees = verify(&folder, "far.csv", &[]);
+    assert_eq!(disagrees.code, 3, "4 mm beside what is stated: {}", disagrees.stdout);
+    for file in ["nan.csv", "none.csv"] {
+        let run = verify(&folder, file, &[]);
+        assert_eq!(run.code, 1, "{}", run.stdout);
+        assert!(run.json()["error"]["message"].to_string().contains(file));
+    }
+    assert_eq!(verify(&folder, "near.csv", &["--tolerance-mm", "-1"]).code, 2);
+}

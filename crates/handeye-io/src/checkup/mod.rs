@@ -1,0 +1,320 @@
+//! What is wrong with a dataset: the mistakes that explain it, in words and as changes of its
+//! manifest.
+
+mod amend;
+mod words;
+
+use std::path::Path;
+
+use handeye::{
+    Base, Flange, Pose, Session, Setup, Target, TargetModel, Warning,
+    diagnose::explain::{self, Diagnosis, Fault, Finding, Score},
+    solve::consensus::Readings,
+};
+use nalgebra::{Isometry3, Vector3};
+use serde::Serialize;
+
+pub use amend::apply;
+
+use crate::{
+    Dataset, Error, Place,
+    dataset::{Rereading, rereadings},
+    error::malformed,
+    files, measure,
+};
+
+/// A value of the manifest to change.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Change {
+    /// Table of the manifest; empty for keys before the first table.
+    pub table: &'static str,
+    /// Key in it.
+    pub key: String,
+    /// Its new value, as TOML.
+    pub value: String,
+}
+
+/// A mistake, and what speaks for it.
+#[derive(Debug, Clone, Serialize)]
+pub struct Explanation {
+    /// For programs.
+    pub code: &'static str,
+    /// For people.
+    pub message: String,
+    /// The captures with it corrected; `None` where that needs new captures.
+    pub after: Option<Score>,
+    /// Chance of evidence as strong when nothing is wrong; `None` where the scores say it.
+    pub p_value: Option<f64>,
+    /// Captures concerned; empty where all are.
+    pub captures: Vec<String>,
+    /// Changes of the manifest that correct it; empty where none can.
+    pub changes: Vec<Change>,
+}
+
+/// The best reading that does not explain the captures.
+#[derive(Debug, Clone, Serialize)]
+pub struct RunnerUp {
+    /// For people.
+    pub message: String,
+    /// How well the captures would agree.
+    pub after: Score,
+}
+
+/// What was found.
+#[derive(Debug, Clone, Serialize)]
+pub struct Checkup {
+    /// Nothing is wrong that captures can tell.
+    pub ok: bool,
+    /// The captures as declared; `None` when they agree on nothing at all.
+    pub declared: Option<Score>,
+    /// Mistakes, best explanation first.
+    pub explanations: Vec<Explanation>,
+    /// How many of the first explanations the data cannot tell apart.
+    pub alike: usize,
+    /// The best reading that does not explain.
+    pub runner_up: Option<RunnerUp>,
+    /// Captures that show the target.
+    pub captures: usize,
+    /// Captures that do not.
+    pub not_seen: Vec<String>,
+    /// Other readings of the same numbers that were tried.
+    pub readings_tried: usize,
+    /// What looked suspicious when the files were read.
+    pub warnings: Vec<Warning>,
+}
+
+impl Checkup {
+    /// The one explanation that the data single out, where a manifest can express it.
+    pub fn decided(&self) -> Option<&Explanation> {
+        let first = self.explanations.first()?;
+        (self.alike == 1 && !first.changes.is_empty()).then_some(first)
+    }
+}
+
+/// The dataset and all that is known of it.
+struct Case {
+    setup: Setup,
+    target: Option<TargetModel>,
+    /// The text of the manifest.
+    text: String,
+    /// Names of the captures that show the target.
+    names: Vec<String>,
+    /// Poses of the board come from elsewhere: nobody knows their direction.
+    bare: bool,
+    robot: Vec<Rereading>,
+    declared: Vec<Readings>,
+    readings: Vec<Vec<Readings>>,
+}
+
+/// Looks for mistakes in the dataset of a manifest whose names are relative to `root`; `progress`
+/// is told how many captures of how many are read.
+///
+/// # Errors
+/// As [`Dataset::open`]; also when too few captures show the target.
+pub fn check(
+    manifest: &Path,
+    root: &Path,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Checkup, Error> {
+    let dataset = Dataset::open_with_root(manifest, root)?;
+    let measured = measure::measure(&dataset, progress)?;
+    let session = measured.session;
+    let robot = rereadings(manifest, root, &dataset)?;
+    let (seen, blind): (Vec<usize>, Vec<usize>) =
+        (0..dataset.captures.len()).partition(|&i| !session.observations[i].candidates.is_empty());
+    let name = |i: &usize| session.observations[*i].capture.clone();
+    if seen.len() < explain::FEWEST {
+        return Err(too_few(manifest, seen.len(), measured.not_found.first()));
+    }
+    let declared = of_session(&session, &seen, |i| session.observations[i].base_from_flange);
+    let case = Case {
+        setup: dataset.setup,
+        target: dataset.target.clone(),
+        text: files::text(manifest)?,
+        names: seen.iter().map(name).collect(),
+        bare: session.observations.iter().all(|o| o.corners.is_empty()),
+        readings: robot
+            .iter()
+            .map(|r| of_session(&session, &seen, |i| r.base_from_flange[i]))
+            .collect(),
+        robot,
+        declared,
+    };
+    let found = explain::explain(&case.declared, &case.readings);
+    let mut checkup = checkup(&case, &found);
+    checkup.not_seen = blind.iter().map(name).collect();
+    checkup.warnings = measured.warnings;
+    Ok(checkup)
+}
+
+fn too_few(manifest: &Path, seen: usize, reason: Option<&(String, String)>) -> Error {
+    let what = format!(
+        "the target was seen in {seen} captures, {} are needed to contradict a mistake",
+        explain::FEWEST
+    );
+    let advice = reason.map_or("add captures".into(), |(capture, why)| {
+        format!("check [target] and the pictures (capture {capture}: {why})")
+    });
+    malformed(Place::file(manifest), what, advice)
+}
+
+fn of_session(
+    session: &Session,
+    seen: &[usize],
+    robot: impl Fn(usize) -> Pose<Base, Flange>,
+) -> Vec<Readings> {
+    let shift = session.target.as_ref().map_or(Vector3::zeros(), |t| t.reference().vector());
+    let corner: Pose<Target, Target> =
+        Pose::claim(Isometry3::translation(shift.x, shift.y, shift.z));
+    let one = |&i: &usize| Readings {
+        anchor_from_mount: session.setup.anchor_from_mount(robot(i)),
+        camera_from_target: session.observations[i]
+            .candidates
+            .iter()
+            .map(|c| c.camera_from_target * corner)
+            .collect(),
+    };
+    seen.iter().map(one).collect()
+}
+
+fn checkup(case: &Case, found: &Diagnosis) -> Checkup {
+    let mut explanations = Vec::new();
+    let mut alike = 0;
+    for (k, finding) in found.findings.iter().enumerate() {
+        let same = explained(case, finding);
+        if k < found.alike {
+            alike += same.len();
+        }
+        explanations.extend(same);
+    }
+    let runner_up = found
+        .runner_up
+        .as_ref()
+        .map(|(fault, after)| RunnerUp { message: words::message(case, fault), after: *after });
+    Checkup {
+        ok: found.findings.is_empty() && found.declared.is_some_and(|d| agrees(&d, case)),
+        declared: found.declared,
+        explanations,
+        alike,
+        runner_up,
+        captures: case.names.len(),
+        not_seen: vec![],
+        readings_tried: case.readings.len(),
+        warnings: vec![],
+    }
+}
+
+/// Whether half of the captures agree, to what cells in working order reach.
+fn agrees(score: &Score, case: &Case) -> bool {
+    /// Degrees and mm: twice the misfit of the poorest measured cell that is known to be in order.
+    const MOST: (f64, f64) = (2.5, 15.0);
+    2 * score.agree > case.names.len()
+        && score.rotation_deg < MOST.0
+        && score.translation_mm < MOST.1
+}
+
+/// No arm is wrong in length by more than this; a printed target may be. Of the length.
+const MOST_ROBOT_SCALE: f64 = 0.05;
+
+/// A finding, and what amounts to the same in the data.
+fn explained(case: &Case, finding: &Finding) -> Vec<Explanation> {
+    let fault = &finding.fault;
+    let own = Explanation {
+        code: words::code(fault),
+        message: words::message(case, fault),
+        after: finding.after,
+        p_value: None,
+        captures: words::captures(case, fault),
+        changes: vec![],
+    };
+    match fault {
+        Fault::Reading(k) => {
+            let robot = &case.robot[*k];
+            let changes = robot.changes.iter().map(|(key, value)| change("robot", key, value));
+            let own = Explanation { changes: changes.collect(), ..own };
+            let turned = own.changes.iter().any(|c| c.key == "direction");
+            if turned { directions(case, own, *k) } else { vec![own] }
+        }
+        Fault::Scale(s) => {
+            let target = Explanation {
+                p_value: Some(s.p_value),
+                changes: amend::resized(&case.text, s.value),
+                ..own
+            };
+            if (s.value - 1.0).abs() > MOST_ROBOT_SCALE {
+                return vec![target];
+            }
+            let robot = Explanation {
+                code: "robot-scale",
+                message: words::robot_scale(s),
+                changes: vec![],
+                ..target.clone()
+            };
+            vec![target, robot]
+        }
+        _ => vec![own],
+    }
+}
+
+fn change(table: &'static str, key: &str, value: &str) -> Change {
+    Change { table, key: key.into(), value: format!("\"{value}\"") }
+}
+
+/// A part that rides on a flange sits nearer than this, m; the longest booms reach half as far.
+const MOST_AT_FLANGE: f64 = 1.0;
+
+/// Robot poses inverted, the camera on the other body, the board's poses inverted: with any one of
+/// them the same equation holds. Only a part that would ride too far from the flange decides.
+fn directions(case: &Case, robot: Explanation, k: usize) -> Vec<Explanation> {
+    let (own, other) = match case.setup {
+        Setup::EyeInHand => (Setup::EyeInHand, Setup::EyeToHand),
+        Setup::EyeToHand => (Setup::EyeToHand, Setup::EyeInHand),
+    };
+    let Some((_, found)) = explain::scored(&case.readings[k]) else { return vec![robot] };
+    let camera = found.hand_eye.mount_from_camera.translation().norm();
+    let target = found.hand_eye.anchor_from_target.translation().norm();
+    // what rides on the flange if the setup is as declared, and if it is the other one
+    let (as_declared, turned) =
+        if own == Setup::EyeInHand { (camera, target) } else { (target, camera) };
+    let others: Vec<Change> =
+        robot.changes.iter().filter(|c| c.key != "direction").cloned().collect();
+    let and = words::besides(&case.robot[k]);
+    let with = |code, message: String, c: Change| Explanation {
+        code,
+        message: message + &and,
+        changes: others.iter().cloned().chain([c]).collect(),
+        ..robot.clone()
+    };
+    let (name, other_name) = (words::setup(own), words::setup(other));
+    let first = format!("{} {}", robot.message, words::on_flange(own, as_declared));
+    let mut all = vec![
+        (as_declared, Explanation { message: first, ..robot.clone() }),
+        (
+            turned,
+            with(
+                "setup",
+                format!(
+                    "the setup is {other_name}, not {name}, and the robot poses are as declared {}",
+                    words::on_flange(other, turned)
+                ),
+                change("", "setup", other_name),
+            ),
+        ),
+    ];
+    if case.bare {
+        let value = match amend::value(&case.text, "board_poses", "direction").as_deref() {
+            Some("\"target_from_camera\"") => "camera_from_target",
+            _ => "target_from_camera",
+        };
+        let message = format!(
+            "the board poses are {value}, and the robot poses as declared {}",
+            words::on_flange(own, turned)
+        );
+        let board = with("board-inverted", message, change("board_poses", "direction", value));
+        all.push((turned, board));
+    }
+    let near = |distance: f64| distance < 0.5 * MOST_AT_FLANGE;
+    let possible =
+        |distance: f64| distance < MOST_AT_FLANGE || !(near(as_declared) || near(turned));
+    all.into_iter().filter(|(distance, _)| possible(*distance)).map(|(_, e)| e).collect()
+}

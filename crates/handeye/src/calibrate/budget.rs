@@ -1,0 +1,118 @@
+//! Where the predicted error comes from, and what would make it smaller.
+//!
+//! The answer is a sum over all measurements, so its covariance is a sum over the sources of their
+//! noise: `C = Σ_k C M_k C` with `M_k = Σ Jᵀ V⁻¹ (θ_k G_k) V⁻¹ J`. What a change would do follows
+//! from the information as it were then.
+
+use nalgebra::{DMatrix, Matrix3};
+
+use crate::{
+    calibration::{Advice, BudgetEntry},
+    refine::{JointFit, NoiseModel, Problem, Sigma, noise::Source},
+};
+
+/// Root mean square over the volume (mm) of an error with this covariance of all unknowns.
+type RmsMm<'a> = dyn Fn(&DMatrix<f64>) -> Option<f64> + 'a;
+
+/// RMS of points with these covariances (m²), mm.
+pub(super) fn rms_mm(spread: &[Matrix3<f64>]) -> f64 {
+    let sum: f64 = spread.iter().map(|s| s.trace()).sum();
+    (sum / spread.len().max(1) as f64).max(0.0).sqrt() * 1e3
+}
+
+/// Every source of error with its size and its part in the error at the workpiece.
+pub(super) fn budget(problem: &Problem, fit: &JointFit, rms: &RmsMm) -> Vec<BudgetEntry> {
+    let shares = fit.covariance_shares(problem);
+    let at_workpiece = |source: Option<Source>| {
+        let (_, covariance) = shares.iter().find(|(s, _)| *s == source)?;
+        rms(covariance)
+    };
+    let entry = |s: &Sigma| BudgetEntry {
+        source: s.source.name().into(),
+        sigma: text(s),
+        sigma_mm: (!s.source.is_rotation() && s.source != Source::Picture).then_some(s.sigma * 1e3),
+        sigma_deg: s.source.is_rotation().then_some(s.sigma.to_degrees()),
+        sigma_uncertainty: s.uncertainty,
+        at_workpiece_mm: at_workpiece(Some(s.source)),
+    };
+    let mut all: Vec<BudgetEntry> = fit.noise.sigmas.iter().map(entry).collect();
+    if !problem.extras.is_empty() {
+        all.push(BudgetEntry {
+            source: "beliefs".into(),
+            sigma: "tool tip, lens, depth and systematic differences, as believed beforehand"
+                .into(),
+            sigma_mm: None,
+            sigma_deg: None,
+            sigma_uncertainty: None,
+            at_workpiece_mm: at_workpiece(None),
+        });
+    }
+    all
+}
+
+fn text(s: &Sigma) -> String {
+    let size = match s.source {
+        Source::Picture => format!("{:.2} times what the corners' scatter says", s.sigma),
+        x if x.is_rotation() => format!("{:.4} deg per axis", s.sigma.to_degrees()),
+        _ => format!("{:.3} mm per axis", s.sigma * 1e3),
+    };
+    match s.uncertainty {
+        Some(u) => format!("{size} (+- {:.0} %)", u * 100.0),
+        None => format!("{size} (given)"),
+    }
+}
+
+/// What halves one source of noise, in words.
+const CHANGES: [(&str, &[Source]); 3] = [
+    (
+        "a robot twice as accurate: warmed up, and calibrated itself",
+        &[Source::RobotRotation, Source::RobotPosition],
+    ),
+    (
+        "pictures twice as exact: a larger board, better light, a calibrated lens",
+        &[
+            Source::Picture,
+            Source::CameraTilt,
+            Source::CameraRoll,
+            Source::CameraLateral,
+            Source::CameraDepth,
+        ],
+    ),
+    ("touches twice as exact: a pointed tip, calibrated well", &[Source::Touch]),
+];
+
+/// What would help, the most helpful first.
+pub(super) fn advice(problem: &Problem, fit: &JointFit, rms: &RmsMm) -> Vec<Advice> {
+    let mut all = vec![];
+    let mut add = |change: &str, covariance: Option<DMatrix<f64>>| {
+        if let Some(mm) = covariance.and_then(|c| rms(&c)) {
+            all.push(Advice { change: change.into(), predicted_tre_mm: mm });
+        }
+    };
+    let twice = Problem {
+        views: [problem.views.clone(), problem.views.clone()].concat(),
+        ..problem.clone()
+    };
+    add("twice as many captures", fit.covariance_for(&twice, &fit.noise));
+    if !problem.boards.is_empty() {
+        let boards = [problem.boards.clone(), problem.boards.clone()].concat();
+        let more = Problem { boards, ..problem.clone() };
+        add(
+            "twice as many touches, half of them on boards lying elsewhere",
+            fit.covariance_for(&more, &fit.noise),
+        );
+    }
+    for (words, sources) in CHANGES {
+        if fit.noise.sigmas.iter().any(|s| sources.contains(&s.source)) {
+            add(words, fit.covariance_for(problem, &halved(&fit.noise, sources)));
+        }
+    }
+    all.sort_by(|a, b| a.predicted_tre_mm.total_cmp(&b.predicted_tre_mm));
+    all
+}
+
+fn halved(noise: &NoiseModel, sources: &[Source]) -> NoiseModel {
+    let mut noise = noise.clone();
+    noise.sigmas.iter_mut().filter(|s| sources.contains(&s.source)).for_each(|s| s.sigma *= 0.5);
+    noise
+}
