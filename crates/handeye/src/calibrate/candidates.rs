@@ -46,7 +46,7 @@ pub(super) fn estimate<'a>(
         }
     };
     captures::orient_target(&mut views, &mut fit);
-    let problem = joint::views_problem(setup, &views.views, &optics.extras);
+    let problem = joint::views_problem(setup, &views.views, &extras);
     result.undetermined = diagnose::undetermined(&fit, setup);
     optics.report(views.session, &fit, result);
     config.unknown.report(&fit, result);

@@ -263,20 +263,3 @@ fn bad_streams_are_refused_in_words() {
     same_time.robot.iter_mut().for_each(|s| s.time_s = 1.0);
     assert!(calibrate_streams(&same_time, &Config::default()).is_err());
 }
-
-#[test]
-#[ignore]
-fn timing() {
-    let scene = Scene { noise: (5e-3, 1e-3), ..Scene::new(0.3) };
-    let streams = scene.record(1);
-    let both = both(&streams).unwrap();
-    let t = std::time::Instant::now();
-    let all = starts(&both);
-    eprintln!("starts {:?} {:?}", t.elapsed(), all);
-    let t = std::time::Instant::now();
-    let (settled, chosen) = settle_streams(&both, false, &Config::default()).unwrap();
-    eprintln!("settle {:?} {}", t.elapsed(), chosen.len());
-    let t = std::time::Instant::now();
-    finish(&both, &chosen, settled.stand, false, &Config::default()).unwrap();
-    eprintln!("finish {:?}", t.elapsed());
-}
