@@ -7,7 +7,10 @@ use std::{
 
 use clap::CommandFactory;
 use clap_complete::Shell;
-use handeye::{Calibration, Verdict, Warning, calibration::Candidate, certify::Certificate};
+use handeye::{
+    Calibration, Verdict, Warning,
+    calibration::{Candidate, Certificate},
+};
 use serde::Serialize;
 
 use crate::args::{Manners, Program};

@@ -7,10 +7,9 @@ use std::{collections::BTreeSet, fs};
 use handeye::{
     Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
     calibration::{
-        Advice, Answer, BudgetEntry, CameraResult, Candidate, CaptureResult, DepthResult,
-        Diversity, Misfit, PoseCovariance, Scale, TouchResult,
+        Advice, Answer, BudgetEntry, CameraResult, Candidate, CaptureResult, Certificate,
+        DepthResult, Diversity, Misfit, PoseCovariance, Scale, TouchResult,
     },
-    certify::Certificate,
     predict::{PredictedTre, TreMap, TreSlice},
 };
 use nalgebra::Vector3;

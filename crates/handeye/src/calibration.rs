@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Anchor, Base, Camera, Flange, Intrinsics, Mount, Pose, Setup, Target, Warning,
+    Anchor, Base, Camera, Flange, HandEye, Intrinsics, Mount, Pose, Setup, Target, Warning,
     predict::PredictedTre,
 };
 
@@ -214,6 +214,24 @@ pub struct DepthResult {
     pub sigma_bias_mm: f64,
 }
 
+/// What is proven of the least-squares fit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// Whether no other pair of poses fits better.
+    pub certified: bool,
+    /// Cost minus proven lower bound, relative to the cost.
+    pub gap: f64,
+    /// Smallest eigenvalue of the dual matrix over the mean eigenvalue of the cost; not negative,
+    /// but for rounding, where the proof stands.
+    pub min_eigenvalue: f64,
+    /// The fit that this is about.
+    pub least_squares: HandEye,
+    /// Angle between its camera and the reported one's, degrees.
+    pub rotation_to_answer_deg: f64,
+    /// Distance between the two, mm.
+    pub translation_to_answer_mm: f64,
+}
+
 /// A finished calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
@@ -280,7 +298,7 @@ pub struct Calibration {
     pub depth: Option<DepthResult>,
     /// What is proven of the least-squares fit, where that was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub certificate: Option<crate::certify::Certificate>,
+    pub certificate: Option<Certificate>,
     /// What to know.
     pub warnings: Vec<Warning>,
 }

@@ -147,19 +147,20 @@ pub(crate) fn first_scale(pairs: &[PosePair]) -> Result<f64, Error> {
     }
 }
 
-/// A fixed pseudo-random choice of small sets.
+/// Small sets spread over all captures: multiples of irrational numbers, without their whole part,
+/// fill the unit interval evenly (H. Weyl, *Math. Annalen* 77, 1916).
 fn draws(n: usize) -> Vec<[usize; DRAWN]> {
     if n <= DRAWN {
         return vec![];
     }
-    let mut random = crate::simulate::Random::new(n as u64);
-    let mut draw = || {
-        let mut set: [usize; DRAWN] =
-            std::array::from_fn(|_| ((random.unit() * n as f64) as usize).min(n - 1));
+    let irrational = [2_f64.sqrt(), 3_f64.sqrt(), 5_f64.sqrt(), 7_f64.sqrt()];
+    let draw = |k: usize| {
+        let one = |x: f64| ((k as f64 * x).fract() * n as f64) as usize;
+        let mut set = irrational.map(|x| one(x).min(n - 1));
         set.sort_unstable();
         set
     };
-    let all = (0..DRAWS).map(|_| draw());
+    let all = (1..=DRAWS).map(draw);
     all.filter(|s| s.windows(2).all(|w| w[0] != w[1])).collect()
 }
 

@@ -3,7 +3,7 @@
 mod input;
 
 use handeye::{
-    Calibration, Config, Method, calibrate, calibrate_streams, calibrate_unscaled,
+    Calibration, Config, Method, Warning, calibrate, calibrate_streams, calibrate_unscaled,
     certify::certify_result,
 };
 
@@ -21,6 +21,10 @@ pub fn run(args: &SolveArgs, manners: &Manners) -> Result<u8, Failure> {
     let mut calibration = solved(&input, &config)?;
     if args.certify {
         calibration.certificate = certify_result(&calibration)?;
+        if calibration.certificate.is_none() {
+            let message = "there is no answer, so there is nothing to certify";
+            calibration.warnings.push(Warning::new("not-certified", message));
+        }
     }
     show(&calibration, manners);
     Ok(calibration.exit_code())

@@ -10,10 +10,9 @@
 mod dual;
 mod quadratic;
 
-use serde::{Deserialize, Serialize};
-
 use crate::{
     Calibration, Error, HandEye, PosePair,
+    calibration::{CaptureResult, Certificate},
     solve::{self, Method},
 };
 pub use quadratic::ARM;
@@ -24,24 +23,6 @@ const CLOSED: f64 = 1e-6;
 /// Costs below this part of the form's trace are rounding: gaps are relative to it at least. It is
 /// a misfit of about 0.1 mm.
 const LEAST_COST: f64 = 1e-8;
-
-/// What is proven of the least-squares fit.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Certificate {
-    /// Whether no other pair of poses fits better.
-    pub certified: bool,
-    /// Cost minus proven lower bound, relative to the cost.
-    pub gap: f64,
-    /// Smallest eigenvalue of the dual matrix over the mean eigenvalue of the cost; not negative,
-    /// but for rounding, where the proof stands.
-    pub min_eigenvalue: f64,
-    /// The fit that this is about.
-    pub least_squares: HandEye,
-    /// Angle between its camera and the reported one's, degrees.
-    pub rotation_to_answer_deg: f64,
-    /// Distance between the two, mm.
-    pub translation_to_answer_mm: f64,
-}
 
 /// Tries to prove that the least-squares minimum next to `answer` is the global one.
 ///
@@ -78,7 +59,7 @@ pub fn certify_result(result: &Calibration) -> Result<Option<Certificate>, Error
     let both = result.hand_eye.mount_from_camera.zip(result.hand_eye.anchor_from_target);
     let Some((mount_from_camera, anchor_from_target)) = both else { return Ok(None) };
     let answer = HandEye { mount_from_camera, anchor_from_target };
-    let pair = |c: &crate::calibration::CaptureResult| {
+    let pair = |c: &CaptureResult| {
         Some(PosePair {
             anchor_from_mount: result.setup.anchor_from_mount(c.base_from_flange),
             camera_from_target: c.camera_from_target?,

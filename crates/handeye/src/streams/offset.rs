@@ -27,6 +27,8 @@ const LONG: f64 = 4.0;
 const LONGEST_WINDOW: f64 = 0.2;
 /// Most steps of the grid per stream; the cost grows with the square.
 const MOST_STEPS: f64 = 6000.0;
+/// A short window spans twice as many steps of the grid at least: a valley of the score is as wide.
+const LEAST_STEPS: f64 = 2.0;
 /// Steps of the grid per interval between samples.
 const STEPS_PER_INTERVAL: f64 = 2.0;
 /// Part of the shorter stream that must be common.
@@ -119,7 +121,7 @@ pub(super) fn candidates(robot: &Stream, camera: &Stream) -> Vec<f64> {
     }
     let longer = robot.duration().max(camera.duration());
     let step = (slower / STEPS_PER_INTERVAL).max(longer / MOST_STEPS);
-    let windows = windows(robot, shorter, slower);
+    let windows = windows(robot, shorter, slower.max(LEAST_STEPS * step));
     let (r, c) = (Angles::of(robot, windows, step), Angles::of(camera, windows, step));
     let valid = |a: &Angles| a.by_window[0].iter().filter(|x| x.is_finite()).count();
     let fewest = (LEAST_COMMON * valid(&r).min(valid(&c)) as f64).max(FEWEST_COMMON as f64);

@@ -249,6 +249,14 @@ fn offset_and_scale_are_found_together() {
 }
 
 #[test]
+fn a_recording_of_half_an_hour_is_no_burden() {
+    let scene = Scene { seconds: 1800.0, robot_hz: 50.0, camera_hz: 5.0, ..Scene::new(-40.2) };
+    let found = solved(&Scene { noise: (2e-3, 5e-4), ..scene }.record(6));
+    let (time, sigma) = (found.time_offset_s.unwrap(), found.time_offset_sigma_s.unwrap());
+    assert!((time + 40.2).abs() < 4.0 * sigma && sigma < 5e-3, "{time} {sigma}");
+}
+
+#[test]
 fn bad_streams_are_refused_in_words() {
     let good = Scene::new(0.0).record(1);
     let mut short = good.clone();
