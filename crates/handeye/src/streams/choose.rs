@@ -51,6 +51,16 @@ impl Both {
         2.0 * self.camera.interval >= self.robot.interval
     }
 
+    /// Time of the camera's first sample minus that of the robot's, by their own clocks (s).
+    pub fn epochs(&self) -> f64 {
+        self.camera.epoch - self.robot.epoch
+    }
+
+    /// Offsets nearer than this (s) are one and the same, on the way to the best.
+    pub fn apart(&self) -> f64 {
+        5.0 * self.robot.interval.max(self.camera.interval)
+    }
+
     /// Number of samples of the stream that gives the moments.
     pub fn samples(&self) -> usize {
         if self.at_camera() { self.camera.times.len() } else { self.robot.times.len() }

@@ -56,10 +56,11 @@ pub fn calibrate_streams(streams: &Streams, config: &Config) -> Result<Calibrati
     let mut warnings = cleaning(&both.robot, "robot");
     warnings.extend(cleaning(&both.camera, "camera"));
     let mut result = match settle_streams(&both, streams.unknown_scale, config) {
-        Ok((settled, chosen)) => {
+        Ok((settled, chosen, rivals)) => {
             let likeness = choose::likeness(&settled, both.setup);
             let mut result = finish(&both, &chosen, settled.stand, streams.unknown_scale, config)?;
             warnings.extend(told(&result, chosen.len(), both.samples(), likeness));
+            warnings.extend(ambiguous(&rivals));
             if result.time_offset_s.is_none() {
                 unscaled::name(&mut result.undetermined, OFFSET);
             }
@@ -147,12 +148,18 @@ fn starts(both: &Both) -> Vec<f64> {
 /// Views that tell good starts from bad ones.
 const FEW_VIEWS: usize = 40;
 
-/// Offset and scale settled from the best start, with the samples that are its views.
+/// Starts whose misfit is within this factor, and this much, of the least fit alike: a motion that
+/// repeats. The second is a misfit of 0.3 mm.
+const ALIKE: f64 = 1.5;
+const ALIKE_ANYWAY: f64 = 0.02;
+
+/// Offset and scale settled from the best start, with the samples that are its views, and other
+/// offsets (s) that fit alike.
 fn settle_streams(
     both: &Both,
     unknown_scale: bool,
     config: &Config,
-) -> Result<(Settled, Vec<usize>), Error> {
+) -> Result<(Settled, Vec<usize>, Vec<f64>), Error> {
     let mut first_error = None;
     let mut ranked: Vec<(f64, f64)> = vec![];
     for start in starts(both) {
@@ -161,10 +168,18 @@ fn settle_streams(
             Err(error) => first_error = first_error.or(Some(error)),
         }
     }
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (_, start) in ranked {
+    let least = ranked.iter().map(|r| r.0).fold(f64::INFINITY, f64::min);
+    // those that fit alike stay in their order: the first has most in common
+    let (alike, mut others): (Vec<_>, Vec<_>) =
+        ranked.into_iter().partition(|r| r.0 <= ALIKE * least + ALIKE_ANYWAY);
+    others.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let rivals = |chosen: f64| {
+        let other = alike.iter().map(|r| r.1).filter(|o| (o - chosen).abs() > both.apart());
+        other.map(|o| o + both.epochs()).collect::<Vec<f64>>()
+    };
+    for &(_, start) in alike.iter().chain(&others) {
         match settle_from(both, start, unknown_scale, config) {
-            Ok(found) => return Ok(found),
+            Ok((settled, chosen)) => return Ok((settled, chosen, rivals(start))),
             Err(error) => first_error = first_error.or(Some(error)),
         }
     }
@@ -226,9 +241,8 @@ fn finish(
     } else {
         calibrate::calibrate(&session, &config)?
     };
-    let epochs = both.camera.epoch - both.robot.epoch;
     result.time_offset_s = match result.time_offset_sigma_s {
-        Some(_) => result.time_offset_s.map(|later| stand.offset + later + epochs),
+        Some(_) => result.time_offset_s.map(|later| stand.offset + later + both.epochs()),
         None => None,
     };
     Ok(result)
@@ -296,6 +310,21 @@ fn without_offset(
     result.time_offset_s = None;
     unscaled::name(&mut result.undetermined, OFFSET);
     Ok(result)
+}
+
+/// A warning where the motion repeats.
+fn ambiguous(rivals: &[f64]) -> Option<Warning> {
+    let all: Vec<String> = rivals.iter().map(|o| format!("{o:.3}")).collect();
+    (!all.is_empty()).then(|| {
+        Warning::new(
+            "time-offset-ambiguous",
+            format!(
+                "the motion repeats, so that time offsets of {} s fit as well; of them all, the one \
+                 with the longest time in common is taken. The camera's place does not depend on it",
+                all.join(", ")
+            ),
+        )
+    })
 }
 
 /// What to know about the offset and the views.

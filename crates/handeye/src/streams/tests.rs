@@ -15,7 +15,7 @@ fn truth() -> HandEye {
     }
 }
 
-/// A wandering flange that turns by half a rad about all axes and never repeats itself.
+/// A wandering flange that turns by half a rad about all axes and repeats itself every 628 s.
 fn wander(t: f64) -> Pose<Base, Flange> {
     let turn = Vector3::new(
         0.5 * (0.9 * t).sin() + 0.1 * (2.3 * t).sin(),
@@ -254,6 +254,9 @@ fn a_recording_of_half_an_hour_is_no_burden() {
     let found = solved(&Scene { noise: (2e-3, 5e-4), ..scene }.record(6));
     let (time, sigma) = (found.time_offset_s.unwrap(), found.time_offset_sigma_s.unwrap());
     assert!((time + 40.2).abs() < 4.0 * sigma && sigma < 5e-3, "{time} {sigma}");
+    // every angular frequency of the motion is a multiple of 0.01 rad/s
+    let other = found.warnings.iter().find(|w| w.code == "time-offset-ambiguous").unwrap();
+    assert!(other.message.contains("588.1"), "{}", other.message);
 }
 
 #[test]
