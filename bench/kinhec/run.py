@@ -185,7 +185,7 @@ def extras(rows):
     return lines
 
 
-def section(rows, root):
+def section(rows, root, limit):
     info = json.loads((root / "generation_info.json").read_text())
     tier = info.get("tier", root.name)
     setting = (
@@ -195,7 +195,9 @@ def section(rows, root):
         "distances are scaled, handeye is told that the scale is unknown; of the others only andreff_scale "
         "finds it."
     )
-    return [BEGIN, "## KinHEC", "", setting, "", *table(rows), "", *extras(rows), END]
+    if limit:
+        setting += f" The first {limit} sequences of each track."
+    return [setting, "", *table(rows), "", *extras(rows), ""]
 
 
 def write(lines):
@@ -211,16 +213,19 @@ def write(lines):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("data", type=pathlib.Path)
+    parser.add_argument("data", type=pathlib.Path, nargs="+")
     parser.add_argument("--program", default=str(ROOT / "target/release/handeye"))
     parser.add_argument("--limit", type=int, help="sequences per track")
     parser.add_argument("--rows", type=pathlib.Path, help="write every single result as CSV")
     parser.add_argument("--dry", action="store_true")
     arguments = parser.parse_args()
-    rows = evaluated(arguments.data, arguments.program, arguments.limit)
+    lines, every = [BEGIN, "## KinHEC", ""], []
+    for root in arguments.data:
+        every.append(evaluated(root, arguments.program, arguments.limit))
+        lines += section(every[-1], root, arguments.limit)
+    lines.append(END)
     if arguments.rows:
-        rows.to_csv(arguments.rows, index=False)
-    lines = section(rows, arguments.data)
+        pandas.concat(every).to_csv(arguments.rows, index=False)
     print("\n".join(lines))
     if not arguments.dry:
         write(lines)
