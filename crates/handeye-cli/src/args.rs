@@ -73,10 +73,13 @@ pub enum Command {
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  handeye solve pairs.json\n  handeye solve pairs.json --method park-martin --json\n\n\
-pairs.json:\n  {\"setup\": \"eye-in-hand\",\n   \"pairs\": [{\"id\": \"01\",\n     \"base_from_flange\":   {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]},\n     \"camera_from_target\": {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}}, ...]}"
+pairs.json:\n  {\"setup\": \"eye-in-hand\",\n   \"pairs\": [{\"id\": \"01\",\n     \"base_from_flange\":   {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]},\n     \"camera_from_target\": {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}}, ...]}\n\n\
+or, instead of `pairs`, two streams by two clocks (camera time = robot time + time_offset_s):\n   \"robot\":  [{\"time_s\": 0.00, \"base_from_flange\": {...}}, ...],\n   \"camera\": [{\"time_s\": 0.01, \"camera_from_target\": {...}}, ...]\n\n\
+`\"unknown_scale\": true` for target distances that are known up to one factor (measured = scale * metric);\n\
+`\"noise\": {\"robot_rotation_deg\": ..., \"robot_position_mm\": ...}` where they are known, per axis."
 )]
 pub struct SolveArgs {
-    /// JSON file with `setup` and `pairs`.
+    /// JSON file with `setup` and `pairs`, or `robot` and `camera`.
     pub pairs: PathBuf,
     /// Run one published method as published; A X = Y B: shah, zhuang, dornaika-horaud, li,
     /// tabb-ahmad-yousef-c1, tabb-ahmad-yousef-c2; A X = X B: park-martin, daniilidis, tsai-lenz,
@@ -84,6 +87,9 @@ pub struct SolveArgs {
     /// andreff-scaled, lu-chou, wu.
     #[arg(long)]
     pub method: Option<String>,
+    /// Try to prove that no other pair of poses fits better in the sense of least squares.
+    #[arg(long)]
+    pub certify: bool,
 }
 
 /// Arguments of `calibrate`.

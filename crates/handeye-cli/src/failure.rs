@@ -104,6 +104,14 @@ impl Failure {
         self
     }
 
+    /// The same, with what to do about it.
+    pub fn advised(mut self, advice: &str) -> Self {
+        if let Failure::Input(problem) = &mut self {
+            problem.message += &format!(": {advice}");
+        }
+        self
+    }
+
     /// For programs: `{"code": ..., "message": ...}` with the place.
     pub fn json(&self) -> serde_json::Value {
         match self {

@@ -7,7 +7,10 @@ use std::{
 
 use clap::CommandFactory;
 use clap_complete::Shell;
-use handeye::{Calibration, Verdict, Warning, calibration::Candidate};
+use handeye::{
+    Calibration, Verdict, Warning,
+    calibration::{Candidate, Certificate},
+};
 use serde::Serialize;
 
 use crate::args::{Manners, Program};
@@ -117,6 +120,7 @@ pub fn summary(c: &Calibration) {
     text += &c.reasons.iter().map(|reason| wrapped("  ", reason)).collect::<String>();
     text += &transform(c);
     text += &candidates(c);
+    text += &c.certificate.as_ref().map_or(String::new(), certificate);
     let used = c.captures.iter().filter(|k| k.used).count();
     if !c.captures.is_empty() {
         text += &format!("\n{used} of {} captures used", c.captures.len());
@@ -155,6 +159,35 @@ fn transform(c: &Calibration) -> String {
             s(1).to_degrees(),
             s(2).to_degrees()
         );
+    }
+    text + &unknowns(c)
+}
+
+/// What is proven of the least-squares fit.
+fn certificate(c: &Certificate) -> String {
+    let said = if c.certified {
+        format!("no other pair of poses fits better by least squares (relative gap {:.0e})", c.gap)
+    } else {
+        format!(
+            "not proven: another pair of poses may fit better by least squares (relative gap {:.0e})",
+            c.gap
+        )
+    };
+    let apart = format!(
+        "; that fit is {:.3} mm and {:.4} degrees from the answer",
+        c.translation_to_answer_mm, c.rotation_to_answer_deg
+    );
+    "\n".to_owned() + &wrapped("certificate: ", &(said + &apart))
+}
+
+/// Time offset and scale, where they were estimated.
+fn unknowns(c: &Calibration) -> String {
+    let mut text = String::new();
+    if let (Some(offset), Some(sigma)) = (c.time_offset_s, c.time_offset_sigma_s) {
+        text += &format!("  time offset  {offset:11.6} +- {sigma:.6} s, camera minus robot\n");
+    }
+    if let (Some(scale), Some(sigma)) = (c.scale, c.scale_sigma) {
+        text += &format!("  scale        {scale:11.6} +- {sigma:.6}, measured over metric\n");
     }
     text
 }

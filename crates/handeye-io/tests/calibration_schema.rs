@@ -5,10 +5,10 @@
 use std::{collections::BTreeSet, fs};
 
 use handeye::{
-    Calibration, Distortion, Intrinsics, Pose, Setup, Verdict, Warning,
+    Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
     calibration::{
-        Advice, Answer, BudgetEntry, CameraResult, Candidate, CaptureResult, DepthResult,
-        Determined, Diversity, Misfit, PoseCovariance, Scale, TouchResult,
+        Advice, Answer, BudgetEntry, CameraResult, Candidate, CaptureResult, Certificate,
+        DepthResult, Determined, Diversity, Misfit, PoseCovariance, Scale, TouchResult,
     },
     predict::{PredictedTre, TreMap, TreSlice},
 };
@@ -106,8 +106,10 @@ fn full() -> Calibration {
             at_workpiece_mm: Some(0.0),
         }],
         advice: vec![Advice { change: "c".into(), predicted_tre_mm: 0.0 }],
-        time_offset_s: 0.0,
-        scale: 1.0,
+        time_offset_s: Some(0.0),
+        time_offset_sigma_s: Some(0.0),
+        scale: Some(1.0),
+        scale_sigma: Some(0.0),
         target_scale: Some(Scale { value: 1.0, sigma: 0.0 }),
         camera: Some(CameraResult {
             intrinsics: Intrinsics {
@@ -120,6 +122,17 @@ fn full() -> Calibration {
             sigma_cy: 0.0,
         }),
         depth: Some(DepthResult { scale: 1.0, sigma_scale: 0.0, bias_mm: 0.0, sigma_bias_mm: 0.0 }),
+        certificate: Some(Certificate {
+            certified: true,
+            gap: 0.0,
+            min_eigenvalue: 0.0,
+            least_squares: HandEye {
+                mount_from_camera: Pose::identity(),
+                anchor_from_target: Pose::identity(),
+            },
+            rotation_to_answer_deg: 0.0,
+            translation_to_answer_mm: 0.0,
+        }),
         warnings: vec![Warning::new("code", "message")],
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Anchor, Base, Camera, Flange, Intrinsics, Mount, Pose, Setup, Target, Warning,
+    Anchor, Base, Camera, Flange, HandEye, Intrinsics, Mount, Pose, Setup, Target, Warning,
     predict::PredictedTre,
 };
 
@@ -249,6 +249,24 @@ pub struct DepthResult {
     pub sigma_bias_mm: f64,
 }
 
+/// What is proven of the least-squares fit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// Whether no other pair of poses fits better.
+    pub certified: bool,
+    /// Cost minus proven lower bound, relative to the cost.
+    pub gap: f64,
+    /// Smallest eigenvalue of the dual matrix over the mean eigenvalue of the cost; not negative,
+    /// but for rounding, where the proof stands.
+    pub min_eigenvalue: f64,
+    /// The fit that this is about.
+    pub least_squares: HandEye,
+    /// Angle between its camera and the reported one's, degrees.
+    pub rotation_to_answer_deg: f64,
+    /// Distance between the two, mm.
+    pub translation_to_answer_mm: f64,
+}
+
 /// A finished calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
@@ -296,10 +314,18 @@ pub struct Calibration {
     /// What would make the predicted error smaller, the most helpful first.
     #[serde(default)]
     pub advice: Vec<Advice>,
-    /// Camera time minus robot time; pairs are taken at the same moment.
-    pub time_offset_s: f64,
-    /// Factor that was taken out of the measured distances: one, the target's size is trusted.
-    pub scale: f64,
+    /// Camera time minus robot time; zero for pairs, which are taken at the same moment, null where
+    /// streams do not tell it.
+    pub time_offset_s: Option<f64>,
+    /// Its standard deviation, where it was estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_offset_sigma_s: Option<f64>,
+    /// Factor that was taken out of the measured distances, `measured = scale * metric`: one where
+    /// the target's size is trusted, null where the factor is free and the motions do not tell it.
+    pub scale: Option<f64>,
+    /// Its standard deviation, where it was estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale_sigma: Option<f64>,
     /// Size of the target as the robot sees it, for comparison.
     pub target_scale: Option<Scale>,
     /// The camera, where its parameters were part of the fit.
@@ -308,6 +334,9 @@ pub struct Calibration {
     /// The depth of scans, where it was part of the fit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth: Option<DepthResult>,
+    /// What is proven of the least-squares fit, where that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<Certificate>,
     /// What to know.
     pub warnings: Vec<Warning>,
 }

@@ -3,6 +3,7 @@
 pub mod calibrate;
 pub mod calibration;
 pub mod camera;
+pub mod certify;
 pub mod detect;
 pub mod diagnose;
 pub mod error;
@@ -22,12 +23,14 @@ pub mod repeat;
 pub mod scan;
 pub mod simulate;
 pub mod solve;
+pub mod streams;
 pub mod target;
 pub mod target_art;
 pub mod touches;
+pub mod unscaled;
 pub mod verify;
 
-pub use calibrate::{Config, Session, calibrate};
+pub use calibrate::{Config, Session, Unknown, calibrate};
 pub use calibration::{Calibration, Verdict};
 pub use camera::{Distortion, Intrinsics};
 pub use error::{Error, Warning};
@@ -39,4 +42,6 @@ pub use observation::{
 };
 pub use scan::Scan;
 pub use solve::Method;
+pub use streams::{Stamped, Streams, calibrate_streams};
 pub use target::TargetModel;
+pub use unscaled::calibrate_unscaled;

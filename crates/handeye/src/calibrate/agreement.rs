@@ -79,7 +79,7 @@ fn surprise_limit(degrees_of_freedom: f64) -> f64 {
     FisherSnedecor::new(6.0, dof).map_or(f64::INFINITY, |f| 6.0 * f.inverse_cdf(1.0 - IMPROBABLE))
 }
 
-fn first_report(o: &Observation) -> CaptureResult {
+pub(super) fn first_report(o: &Observation) -> CaptureResult {
     let reason = o.candidates.is_empty().then(|| "the target was not found in it".to_owned());
     CaptureResult {
         id: o.capture.clone(),

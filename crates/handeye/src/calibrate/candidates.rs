@@ -34,7 +34,9 @@ pub(super) fn estimate<'a>(
     if !optics.extras.is_empty() {
         views.views = optics::with_sights(&views);
     }
-    let problem = joint::views_problem(views.session, &views.views, &optics.extras);
+    config.unknown.set_free(&mut views, &found.hand_eye);
+    let extras = [optics.extras.as_slice(), &config.unknown.extras()].concat();
+    let problem = joint::views_problem(views.session, &views.views, &extras);
     let mut fit = match refine::fit_joint(&problem, &found.hand_eye, &config.known) {
         Ok(fit) => fit,
         Err(error) => {
@@ -44,18 +46,14 @@ pub(super) fn estimate<'a>(
         }
     };
     captures::orient_target(&mut views, &mut fit);
-    let problem = joint::views_problem(views.session, &views.views, &optics.extras);
+    let problem = joint::views_problem(views.session, &views.views, &extras);
     optics.report(views.session, &fit, result);
+    config.unknown.report(&fit, result);
     verdict::judge_scale(&views, &fit, config, result);
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
-    let joint = joint::fit(
-        &views,
-        &boards::boards(&views, &fit, optics),
-        &optics.extras,
-        &fit,
-        &config.known,
-    );
+    let joint =
+        joint::fit(&views, &boards::boards(&views, &fit, optics), &extras, &fit, &config.known);
     if let Some(joint) = &joint {
         joint.warn(&views, result);
     }
@@ -104,7 +102,7 @@ pub(super) fn estimate<'a>(
 fn name_free(views: &Views, fit: &JointFit, best: &JointFit, result: &mut Calibration) {
     let (setup, pairs) = (views.session.setup, pairs_of(views));
     let free = diagnose::free_directions(best);
-    result.undetermined = diagnose::in_words(&free, &pairs, setup);
+    result.undetermined.extend(diagnose::in_words(&free, &pairs, setup));
     if !free.is_empty() {
         result.determined = Some(verdict::determined(&best.hand_eye.mount_from_camera, &free));
         return;

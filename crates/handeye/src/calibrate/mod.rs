@@ -13,7 +13,9 @@ mod captures;
 mod joint;
 mod optics;
 mod points;
+pub(crate) mod settle;
 mod sources;
+mod unknown;
 mod verdict;
 
 use crate::{
@@ -27,6 +29,7 @@ use crate::{
 
 pub use captures::relabelling;
 use optics::Optics;
+pub use unknown::Unknown;
 
 /// Everything that was measured in one cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,6 +67,8 @@ pub struct Config {
     pub known: KnownNoise,
     /// Error (95 %, predicted) that the job tolerates, mm.
     pub max_error_mm: Option<f64>,
+    /// What is free beside both poses.
+    pub unknown: Unknown,
 }
 
 /// Version of the result's format.
@@ -122,7 +127,7 @@ fn from_views(
 }
 
 /// Captures and touches in the order of their names, whatever order they came in.
-fn in_order(session: &Session) -> Session {
+pub(crate) fn in_order(session: &Session) -> Session {
     let mut session = session.clone();
     session.observations.sort_by(|a, b| natural(&a.capture, &b.capture));
     session.placements.sort_by(|a, b| natural(&a.id, &b.id));
@@ -166,6 +171,17 @@ pub fn natural(a: &str, b: &str) -> std::cmp::Ordering {
     }
 }
 
+/// The result of a session that has no answer.
+pub(crate) fn without_answer(session: &Session) -> Result<Calibration, Error> {
+    if session.observations.is_empty() {
+        return Err(Error::Invalid("nothing to calibrate from: no captures".into()));
+    }
+    let mut result = empty(session);
+    result.captures = session.observations.iter().map(agreement::first_report).collect();
+    result.captures.iter_mut().for_each(|c| c.used = false);
+    Ok(result)
+}
+
 fn empty(session: &Session) -> Calibration {
     Calibration {
         format: FORMAT.into(),
@@ -189,11 +205,14 @@ fn empty(session: &Session) -> Calibration {
         diversity: None,
         error_budget: vec![],
         advice: vec![],
-        time_offset_s: 0.0,
-        scale: 1.0,
+        time_offset_s: Some(0.0),
+        time_offset_sigma_s: None,
+        scale: Some(1.0),
+        scale_sigma: None,
         target_scale: None,
         camera: None,
         depth: None,
+        certificate: None,
         warnings: vec![],
     }
 }

@@ -19,7 +19,7 @@ use crate::{
     camera::PARAMETERS,
     detect::{
         self,
-        sight::{DEPTH_BIAS, DEPTH_SCALE, LENS, Sight, corrected},
+        sight::{DEPTH_BIAS, DEPTH_SCALE, LENS, Sight, TARGET_SCALE, corrected},
     },
     evaluate,
     refine::{self, Extra, ExtraKind, JointFit, View},
@@ -341,8 +341,8 @@ const DERIVATIVE_STEP: f64 = 1e-2;
 
 /// Covariance (m²), in camera axes, of where a point of the camera lands, for a covariance of `X`,
 /// `Y` and the extras. What pictures locate moves with the lens: a point keeps its pixel, and its
-/// distance follows its size in the picture. What scans locate moves with their depth. Both errors
-/// go along with that of `X`.
+/// distance follows its size in the picture. What scans locate moves with their depth, and all with
+/// the unit of distances where that is unknown. These errors go along with that of `X`.
 pub(super) fn spread(
     views: &Views,
     extras: &[Extra],
@@ -351,7 +351,7 @@ pub(super) fn spread(
 ) -> Option<Matrix3<f64>> {
     let scanned = views.session.observations.iter().any(|o| !o.surface.is_empty());
     let camera = views.session.camera.as_ref();
-    let moves = |which: usize| scanned == (which < LENS);
+    let moves = |which: usize| which == TARGET_SCALE || scanned == (which < LENS);
     let mut free = vec![];
     for (k, extra) in extras.iter().enumerate() {
         let ExtraKind::Camera(which) = extra.kind else { continue };
@@ -360,6 +360,7 @@ pub(super) fn spread(
         }
         let sigma = covariance[(12 + k, 12 + k)].sqrt();
         let column = match which {
+            TARGET_SCALE => *p,
             DEPTH_SCALE => -p,
             DEPTH_BIAS => -p / p.z,
             lens => camera.and_then(|c| by_lens(c, p, lens - LENS, sigma)).unwrap_or_default(),

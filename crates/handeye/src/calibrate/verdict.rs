@@ -138,7 +138,7 @@ pub(super) fn judge_scale(
     config: &Config,
     result: &mut Calibration,
 ) {
-    if views.views.len() < 5 || result.verdict == Verdict::Rejected {
+    if config.unknown.scale || views.views.len() < 5 || result.verdict == Verdict::Rejected {
         return;
     }
     let found = diagnose::target_scale(&views.views, fit, &config.known, views.session.setup);

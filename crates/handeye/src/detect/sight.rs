@@ -17,7 +17,7 @@ use super::planar_pose::{Fit, PosedTarget, moved};
 use crate::{Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel};
 
 /// Number of parameters of camera and target that a target pose may depend on.
-pub const CAMERA: usize = 12;
+pub const CAMERA: usize = 13;
 /// The target is larger by this share.
 pub const TARGET_SCALE: usize = 0;
 /// Depths in scans are too large by this share.
@@ -26,6 +26,8 @@ pub const DEPTH_SCALE: usize = 1;
 pub const DEPTH_BIAS: usize = 2;
 /// The first of the lens' parameters, [`Intrinsics::by_parameters`].
 pub const LENS: usize = 3;
+/// The camera's clock is farther ahead of the robot's by this (s).
+pub const CLOCK: usize = 12;
 
 /// What one view knows beyond its best pose.
 #[derive(Debug, Clone, PartialEq)]

@@ -187,7 +187,7 @@ pub(crate) fn too_few(found: usize) -> Error {
     }
 }
 
-fn check(pairs: &[PosePair]) -> Result<(), Error> {
+pub(crate) fn check(pairs: &[PosePair]) -> Result<(), Error> {
     if pairs.len() < FEWEST_POSES {
         return Err(too_few(pairs.len()));
     }

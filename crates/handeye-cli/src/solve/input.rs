@@ -1,0 +1,221 @@
+//! The file that `handeye solve` reads: pairs, or two streams.
+
+use std::{collections::HashSet, fs, path::Path};
+
+use handeye::{
+    Base, Camera, Flange, Observation, Pose, Session, Setup, Stamped, Streams, Target, TargetPose,
+    refine::KnownNoise,
+};
+use serde::{Deserialize, de::DeserializeOwned};
+use serde_json::Value;
+
+use crate::failure::Failure;
+
+/// What was measured.
+pub enum Measured {
+    /// Both at the same moments.
+    Pairs(Box<Session>),
+    /// Each by its own clock.
+    Streams(Streams),
+}
+
+/// The whole file.
+pub struct Input {
+    pub measured: Measured,
+    /// Target distances are known up to one factor.
+    pub unknown_scale: bool,
+    pub noise: KnownNoise,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    setup: Setup,
+    pairs: Option<Vec<Pair>>,
+    robot: Option<Vec<RobotSample>>,
+    camera: Option<Vec<CameraSample>>,
+    #[serde(default)]
+    unknown_scale: bool,
+    #[serde(default)]
+    noise: Noise,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Pair {
+    #[serde(default)]
+    id: Option<String>,
+    base_from_flange: Pose<Base, Flange>,
+    camera_from_target: Pose<Camera, Target>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RobotSample {
+    time_s: f64,
+    base_from_flange: Pose<Base, Flange>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraSample {
+    time_s: f64,
+    camera_from_target: Pose<Camera, Target>,
+}
+
+#[derive(Deserialize, Default, Clone, Copy)]
+#[serde(deny_unknown_fields)]
+struct Noise {
+    robot_rotation_deg: Option<f64>,
+    robot_position_mm: Option<f64>,
+}
+
+/// Reads the file.
+///
+/// # Errors
+/// Files that cannot be read or used, with the line and the pair or sample.
+pub fn read(path: &Path) -> Result<Input, Failure> {
+    let text = fs::read_to_string(path).map_err(|e| Failure::unreadable(path, &e))?;
+    let document: Document = serde_json::from_str(&text).map_err(|e| broken(path, &text, &e))?;
+    let noise = noise(document.noise, path)?;
+    let (unknown_scale, setup) = (document.unknown_scale, document.setup);
+    let measured = match (document.pairs, document.robot, document.camera) {
+        (Some(pairs), None, None) => Measured::Pairs(Box::new(session(setup, pairs, path)?)),
+        (None, Some(robot), Some(camera)) => {
+            Measured::Streams(streams(setup, robot, camera, unknown_scale))
+        }
+        (None, None, None) => {
+            let what = "neither `pairs` nor the streams `robot` and `camera`: give one or the other; \
+                        `handeye solve --help` shows both";
+            return Err(Failure::input(path, what));
+        }
+        (Some(_), ..) => {
+            let what = "`pairs` and streams: give `pairs` for poses of the same moments, or `robot` \
+                        and `camera` for poses by two clocks, not both";
+            return Err(Failure::input(path, what));
+        }
+        (None, robot, _) => {
+            let missing = if robot.is_some() { "camera" } else { "robot" };
+            return Err(Failure::input(
+                path,
+                format!("the stream `{missing}` is missing beside the other"),
+            ));
+        }
+    };
+    Ok(Input { measured, unknown_scale, noise })
+}
+
+fn noise(noise: Noise, path: &Path) -> Result<KnownNoise, Failure> {
+    for (key, value) in [
+        ("robot_rotation_deg", noise.robot_rotation_deg),
+        ("robot_position_mm", noise.robot_position_mm),
+    ] {
+        if value.is_some_and(|v| !(v > 0.0)) {
+            let what = format!("noise.{key} must be positive; leave it out where it is not known");
+            return Err(Failure::input(path, what));
+        }
+    }
+    Ok(KnownNoise {
+        robot_rotation_rad: noise.robot_rotation_deg.map(f64::to_radians),
+        robot_position_m: noise.robot_position_mm.map(|mm| mm * 1e-3),
+        touch_m: None,
+    })
+}
+
+/// The failure of a file, with the pair or sample that it comes from.
+fn broken(path: &Path, text: &str, error: &serde_json::Error) -> Failure {
+    let Ok(whole) = serde_json::from_str::<Value>(text) else {
+        return Failure::in_json(path, error, "").advised(advice(error));
+    };
+    let Some(element) = broken_element(&whole, error) else {
+        return Failure::in_json(path, error, "");
+    };
+    let named = element.id.as_ref().map_or(String::new(), |id| format!(" ({id})"));
+    let called = format!("{} {}", element.kind, element.number);
+    let capture = element.id.map_or(element.number.to_string(), |id| id.replace('"', ""));
+    Failure::in_json(path, error, &format!("{called}{named}: ")).with_capture(&capture)
+}
+
+/// What to do about text that is no JSON.
+fn advice(error: &serde_json::Error) -> &'static str {
+    if error.is_eof() {
+        "the file ends too early: was it written to the end?"
+    } else {
+        "JSON knows no NaN, no comments and no comma before a closing bracket"
+    }
+}
+
+/// A pair or sample that is not what it should be.
+struct Element {
+    kind: &'static str,
+    number: usize,
+    id: Option<String>,
+}
+
+/// The pair or sample that an error of the whole file comes from.
+fn broken_element(whole: &Value, error: &serde_json::Error) -> Option<Element> {
+    fn of<T: DeserializeOwned>(value: &Value) -> Option<String> {
+        T::deserialize(value).err().map(|e| e.to_string())
+    }
+    type Own = fn(&Value) -> Option<String>;
+    let lists: [(&str, &'static str, Own); 3] = [
+        ("pairs", "pair", of::<Pair>),
+        ("robot", "robot sample", of::<RobotSample>),
+        ("camera", "camera sample", of::<CameraSample>),
+    ];
+    lists.into_iter().find_map(|(key, kind, own)| {
+        let list = whole.get(key)?.as_array()?;
+        let (k, message) = list.iter().enumerate().find_map(|(k, v)| Some((k, own(v)?)))?;
+        let id = match list[k].get("id").and_then(Value::as_str) {
+            Some(id) => Some(format!("{id:?}")),
+            None => list[k].get("time_s").map(|t| format!("time_s {t}")),
+        };
+        error.to_string().starts_with(&message).then_some(Element { kind, number: k + 1, id })
+    })
+}
+
+fn session(setup: Setup, pairs: Vec<Pair>, path: &Path) -> Result<Session, Failure> {
+    let mut seen = HashSet::new();
+    let mut observations = Vec::new();
+    for (k, pair) in pairs.into_iter().enumerate() {
+        let capture = pair.id.unwrap_or_else(|| (k + 1).to_string());
+        if !seen.insert(capture.clone()) {
+            let what = format!("pair {}: the id {capture:?} is there twice", k + 1);
+            return Err(Failure::input(path, what).with_capture(&capture));
+        }
+        observations.push(Observation {
+            capture,
+            base_from_flange: pair.base_from_flange,
+            corners: vec![],
+            surface: vec![],
+            candidates: vec![TargetPose {
+                camera_from_target: pair.camera_from_target,
+                covariance: None,
+            }],
+        });
+    }
+    Ok(Session {
+        camera_from_views: false,
+        known_position: None,
+        setup,
+        target: None,
+        camera: None,
+        observations,
+        placements: vec![],
+        touches: vec![],
+        correspondences: vec![],
+        workspace: None,
+    })
+}
+
+fn streams(
+    setup: Setup,
+    robot: Vec<RobotSample>,
+    camera: Vec<CameraSample>,
+    unknown_scale: bool,
+) -> Streams {
+    let robot = robot.into_iter().map(|s| Stamped { time_s: s.time_s, pose: s.base_from_flange });
+    let camera =
+        camera.into_iter().map(|s| Stamped { time_s: s.time_s, pose: s.camera_from_target });
+    Streams { setup, robot: robot.collect(), camera: camera.collect(), unknown_scale }
+}

@@ -1,0 +1,56 @@
+//! `handeye solve`: poses in, answer out.
+
+mod input;
+
+use handeye::{
+    Calibration, Config, Method, Warning, calibrate, calibrate_streams, calibrate_unscaled,
+    certify::certify_result,
+};
+
+use crate::{
+    args::{Manners, SolveArgs},
+    failure::Failure,
+    output,
+};
+use input::{Input, Measured};
+
+pub fn run(args: &SolveArgs, manners: &Manners) -> Result<u8, Failure> {
+    let method = args.method.as_deref().map(method).transpose()?;
+    let input = input::read(&args.pairs)?;
+    let config = Config { method, known: input.noise, ..Config::default() };
+    let mut calibration = solved(&input, &config)?;
+    if args.certify {
+        calibration.certificate = certify_result(&calibration)?;
+        if calibration.certificate.is_none() {
+            let message = "there is no answer, so there is nothing to certify";
+            calibration.warnings.push(Warning::new("not-certified", message));
+        }
+    }
+    show(&calibration, manners);
+    Ok(calibration.exit_code())
+}
+
+fn solved(input: &Input, config: &Config) -> Result<Calibration, Failure> {
+    Ok(match &input.measured {
+        Measured::Streams(streams) => calibrate_streams(streams, config)?,
+        Measured::Pairs(session) if input.unknown_scale => calibrate_unscaled(session, config)?,
+        Measured::Pairs(session) => calibrate(session, config)?,
+    })
+}
+
+fn show(calibration: &Calibration, manners: &Manners) {
+    if manners.json {
+        output::json(calibration);
+    } else {
+        output::warnings(calibration, manners);
+        output::summary(calibration);
+    }
+}
+
+/// The published method of that name.
+pub fn method(name: &str) -> Result<Method, Failure> {
+    Method::from_name(name).ok_or_else(|| {
+        let known: Vec<&str> = Method::ALL.iter().map(|m| m.name()).collect();
+        Failure::Usage(format!("no method {name:?}; there are {}", known.join(", ")))
+    })
+}

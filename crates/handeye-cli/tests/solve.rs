@@ -1,0 +1,185 @@
+//! `handeye solve`: streams by two clocks, unknown scale, certificate, and what it says of bad files.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
+
+mod folder;
+
+use folder::{Folder, handeye};
+use nalgebra::{Isometry3, Vector3};
+use serde_json::{Value, json};
+
+fn pose(rotation: [f64; 3], translation: [f64; 3]) -> Isometry3<f64> {
+    Isometry3::new(Vector3::from(translation), Vector3::from(rotation))
+}
+
+fn stored(pose: &Isometry3<f64>, scale: f64) -> Value {
+    let (t, q) = (pose.translation.vector * scale, pose.rotation.coords);
+    json!({ "translation_m": [t.x, t.y, t.z], "rotation_xyzw": [q.x, q.y, q.z, q.w] })
+}
+
+const CAMERA: [f64; 3] = [0.03, -0.06, 0.09];
+
+fn robot(t: f64) -> Isometry3<f64> {
+    pose(
+        [0.2 + 0.5 * (0.9 * t).sin(), 2.9 + 0.4 * (0.63 * t).cos(), 0.6 * (0.41 * t).sin()],
+        [0.5 + 0.15 * (0.77 * t).sin(), 0.2 * (0.53 * t).cos(), 0.6 + 0.1 * (1.1 * t).sin()],
+    )
+}
+
+fn seen(t: f64, scale: f64) -> Value {
+    let noise = |n: f64| 1e-4 * (t * 1e3 * n + n).sin();
+    let error = pose([noise(1.1), noise(2.3), noise(3.7)], [noise(4.1), noise(5.3), noise(6.7)]);
+    let camera = robot(t) * pose([0.1, -0.2, 1.5], CAMERA);
+    stored(&(camera.inverse() * pose([0.1, 3.0, 0.1], [0.6, 0.1, 0.02]) * error), scale)
+}
+
+fn streams(offset: f64) -> Value {
+    let at_robot = |k: u32| f64::from(k) * 0.01;
+    let at_camera = |k: u32| 0.004 + f64::from(k) * 0.05;
+    json!({
+        "setup": "eye-in-hand",
+        "robot": (0..1000).map(at_robot).map(|t| {
+            json!({ "time_s": t, "base_from_flange": stored(&robot(t), 1.0) })
+        }).collect::<Vec<_>>(),
+        "camera": (0..200).map(at_camera).map(|t| {
+            json!({ "time_s": t + offset, "camera_from_target": seen(t, 1.0) })
+        }).collect::<Vec<_>>(),
+    })
+}
+
+fn pairs(scale: f64) -> Value {
+    let pairs: Vec<Value> = (0..15)
+        .map(|k| f64::from(k) * 0.7)
+        .map(|t| {
+            json!({ "base_from_flange": stored(&robot(t), 1.0), "camera_from_target": seen(t, scale) })
+        })
+        .collect();
+    json!({ "setup": "eye-in-hand", "pairs": pairs })
+}
+
+fn position(answer: &Value) -> Vector3<f64> {
+    let t = answer["hand_eye"]["mount_from_camera"]["translation_m"].as_array().unwrap();
+    Vector3::from_fn(|k, _| t[k].as_f64().unwrap())
+}
+
+#[test]
+fn streams_are_solved_with_their_offset() {
+    let folder = Folder::new();
+    folder.put("streams.json", &streams(0.137).to_string());
+    let run = handeye(&folder, &["solve", "streams.json", "--json"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let answer = run.json();
+    let (offset, sigma) = (
+        answer["time_offset_s"].as_f64().unwrap(),
+        answer["time_offset_sigma_s"].as_f64().unwrap(),
+    );
+    assert!((offset - 0.137).abs() < 5.0 * sigma && sigma < 1e-3, "{offset} {sigma}");
+    assert!((position(&answer) - Vector3::from(CAMERA)).norm() < 1e-3);
+    assert_eq!(answer["warnings"][0]["code"], "time-offset");
+    let text = handeye(&folder, &["solve", "streams.json"]);
+    assert!(text.stdout.contains("time offset     0.137"), "{}", text.stdout);
+    assert!(text.stderr.contains("camera time = robot time + offset"), "{}", text.stderr);
+}
+
+#[test]
+fn an_unknown_scale_is_found_and_the_answer_is_metric() {
+    let folder = Folder::new();
+    let mut file = pairs(0.25);
+    file["unknown_scale"] = true.into();
+    file["noise"] = json!({ "robot_position_mm": 0.1, "robot_rotation_deg": 0.01 });
+    folder.put("pairs.json", &file.to_string());
+    let run = handeye(&folder, &["solve", "pairs.json", "--json"]);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    let answer = run.json();
+    let (scale, sigma) =
+        (answer["scale"].as_f64().unwrap(), answer["scale_sigma"].as_f64().unwrap());
+    assert!((scale - 0.25).abs() < 5.0 * sigma && sigma < 1e-3, "{scale} {sigma}");
+    assert!((position(&answer) - Vector3::from(CAMERA)).norm() < 1e-3);
+    let text = handeye(&folder, &["solve", "pairs.json"]).stdout;
+    assert!(text.contains("measured over metric"), "{text}");
+}
+
+#[test]
+fn the_least_squares_fit_is_certified() {
+    let folder = Folder::new();
+    folder.put("pairs.json", &pairs(1.0).to_string());
+    let answer = handeye(&folder, &["solve", "pairs.json", "--certify", "--json"]).json();
+    let certificate = &answer["certificate"];
+    assert_eq!(certificate["certified"], true, "{certificate}");
+    assert!(certificate["gap"].as_f64().unwrap() < 1e-6);
+    assert!(certificate["min_eigenvalue"].as_f64().unwrap() > -1e-9);
+    assert!(certificate["translation_to_answer_mm"].as_f64().unwrap() < 1.0);
+    let text = handeye(&folder, &["solve", "pairs.json", "--certify"]).stdout;
+    assert!(text.contains("certificate: no other pair of poses fits better"), "{text}");
+    let plain = handeye(&folder, &["solve", "pairs.json", "--json"]).json();
+    assert!(plain.get("certificate").is_none() && plain.get("scale_sigma").is_none());
+    assert_eq!((&plain["scale"], &plain["time_offset_s"]), (&1.0.into(), &0.0.into()));
+}
+
+#[test]
+fn bad_files_are_refused_with_the_place_and_what_to_do() {
+    let folder = Folder::new();
+    let text = |value: Value| serde_json::to_string_pretty(&value).unwrap();
+    let mut short = streams(0.0);
+    short["camera"].as_array_mut().unwrap().truncate(2);
+    let mut half = streams(0.0);
+    half.as_object_mut().unwrap().remove("robot");
+    let mut both = streams(0.0);
+    both["pairs"] = pairs(1.0)["pairs"].clone();
+    let mut turned = streams(0.0);
+    turned["robot"][2]["base_from_flange"]["rotation_xyzw"] = json!([0, 0, 0, 2]);
+    let mut no_time = streams(0.0);
+    no_time["camera"][1].as_object_mut().unwrap().remove("time_s");
+    let mut noise = pairs(1.0);
+    noise["noise"] = json!({ "robot_position_mm": -1.0 });
+    let comma = "{\"setup\": \"eye-in-hand\",\n \"pairs\": [\n ],\n}".to_owned();
+    for (content, said) in [
+        (comma, "p.json:4: trailing comma (column 1): JSON knows no NaN, no comments and no comma"),
+        (
+            "{\"setup\": ".into(),
+            "p.json:1: EOF while parsing a value (column 10): the file ends too early",
+        ),
+        (text(short), "2 usable captures, at least 3 are needed: of the camera"),
+        (text(half), "p.json: the stream `robot` is missing beside the other"),
+        (text(both), "p.json: `pairs` and streams: give `pairs`"),
+        (text(json!({ "setup": "eye-in-hand" })), "p.json: neither `pairs` nor the streams"),
+        (text(turned), ": robot sample 3 (time_s 0.02): rotation_xyzw has length 2, not 1"),
+        (text(no_time), ": camera sample 2: missing field `time_s` (column "),
+        (text(noise), "p.json: noise.robot_position_mm must be positive"),
+    ] {
+        folder.put("p.json", &content);
+        let run = handeye(&folder, &["solve", "p.json", "--json"]);
+        assert_eq!(run.code, 1, "{said}: {}", run.stderr);
+        assert!(run.error().contains(said), "{said}: {}", run.stderr);
+        assert!(
+            run.error().starts_with("p.json:") || said.starts_with("2 usable"),
+            "{}",
+            run.stderr
+        );
+    }
+    let broken = "{\"setup\": \"eye-in-hand\",\n \"robot\": [],\n \"camera\": [\n  {\"camera_from_target\": {}}]}";
+    folder.put("p.json", broken);
+    let run = handeye(&folder, &["solve", "p.json", "--json"]);
+    assert_eq!(run.error(), "p.json:4: camera sample 1: missing field `translation_m` (column 27)");
+    assert_eq!(run.json()["error"]["line"], 4);
+}
+
+#[test]
+fn streams_that_do_not_move_end_with_a_verdict() {
+    let folder = Folder::new();
+    let mut still = streams(0.0);
+    for sample in still["robot"].as_array_mut().unwrap() {
+        sample["base_from_flange"] = stored(&robot(1.0), 1.0);
+    }
+    for sample in still["camera"].as_array_mut().unwrap() {
+        sample["camera_from_target"] = seen(1.0, 1.0);
+    }
+    folder.put("still.json", &still.to_string());
+    let run = handeye(&folder, &["solve", "still.json", "--json"]);
+    assert_eq!(run.code, 3, "{}", run.stderr);
+    let answer = run.json();
+    assert_eq!(answer["verdict"], "undetermined");
+    assert!(answer["time_offset_s"].is_null());
+    let named = answer["undetermined"].as_array().unwrap();
+    assert!(named.contains(&"time offset between camera and robot".into()), "{named:?}");
+}
