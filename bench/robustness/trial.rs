@@ -4,11 +4,13 @@
 use handeye::{
     Calibration, Camera, Config, Mount, Pose, Session, Setup, Verdict, calibrate,
     predict::{Volume, difference},
-    simulate::{Cell, Mistake, Random, Truth, spoil},
+    simulate::{Cell, CellNoise, DepthSensor, Mistake, Random, Truth, spoil},
 };
 
 /// Captures of a session, fewest and most.
 const CAPTURES: (u64, u64) = (8, 20);
+/// How many times worse than usual (0.5 mm, 0.03 degrees) robots are: precise, usual, a cobot.
+const ROBOTS: [f64; 3] = [0.2, 1.0, 3.0];
 /// Largest share of spoilt captures.
 const MOST_SPOILT: f64 = 0.4;
 /// An accepted answer is silently wrong beyond so many times its stated error (95 %), and this, mm.
@@ -18,7 +20,6 @@ pub const AS_GOOD: f64 = 1.2;
 
 /// What came of one session.
 pub struct Outcome {
-    pub seed: u64,
     pub captures: usize,
     pub spoilt: Vec<(usize, Mistake)>,
     pub result: Calibration,
@@ -63,9 +64,9 @@ impl Outcome {
         let words: &[&str] = match kind {
             Mistake::Turned => &["turned"],
             Mistake::Exchanged => &["exchanged"],
-            Mistake::Stale => &["robot pose of capture", "the same robot pose"],
+            Mistake::Stale => &["robot pose is that of", "robot pose of the"],
             Mistake::Shifted => {
-                &["robot pose of the next", "robot pose of the previous", "the same robot pose"]
+                &["robot pose of the", "robot pose belongs", "robot pose is that of"]
             }
             Mistake::WrongDetection | Mistake::Mirrored => &["disagrees"],
         };
@@ -97,7 +98,6 @@ pub fn trial(seed: u64) -> Option<Outcome> {
     let stated = result.predicted_tre_mm.as_ref().map_or(0.0, |t| t.p95);
     let silent = error.is_some_and(|(_, p95)| p95 > SILENT.0 * stated && p95 > SILENT.1);
     Some(Outcome {
-        seed,
         captures: cell.captures,
         spoilt,
         error: error.map(|e| e.0),
@@ -127,7 +127,14 @@ fn cell(seed: u64, random: &mut Random) -> Cell {
     let usual = Cell::new(setup, seed);
     let touched = !random.bits().is_multiple_of(2);
     let (placements, touches) = if touched { (usual.placements, usual.touches) } else { (0, 0) };
-    Cell { captures, placements, touches, ..usual }
+    let worse = ROBOTS[(random.bits() % ROBOTS.len() as u64) as usize];
+    let noise = CellNoise {
+        robot_absolute_m: worse * usual.noise.robot_absolute_m,
+        robot_absolute_rad: worse * usual.noise.robot_absolute_rad,
+        ..usual.noise
+    };
+    let depth = random.bits().is_multiple_of(4).then(DepthSensor::default);
+    Cell { captures, placements, touches, noise, depth, ..usual }
 }
 
 /// One kind of mistake, or all of them mixed.

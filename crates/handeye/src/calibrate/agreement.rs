@@ -200,8 +200,9 @@ pub(super) fn agree<'a>(
     let captures = Captures { session, readings: &readings, target_from_corner };
     let (found, fit) = gate::gate(&captures, found, config);
     rejected::name(&captures, &found, fit.as_ref(), result);
-    suspect_conventions(&readings, bare(session), Some(&found), result);
-    rejected::suspect_order(&readings, Some(&found), result);
+    if !rejected::suspect_order(&readings, Some(&found), result) {
+        suspect_conventions(&readings, bare(session), Some(&found), result);
+    }
     let indices: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();
     let of = |&i: &usize| captures.view(i, found.reading[i]);
     warn_few(indices.len(), result);

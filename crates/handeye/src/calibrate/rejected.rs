@@ -6,7 +6,7 @@
 
 use super::agreement::Captures;
 use crate::{
-    HandEye, Pose, Target, TargetModel, Warning,
+    HandEye, Pose, PosePair, Target, TargetModel, Warning,
     calibration::{Calibration, Verdict},
     diagnose::explain::{self, Fault, Order},
     evaluate, lie,
@@ -284,35 +284,57 @@ fn same_answer(a: &HandEye, b: &HandEye) -> bool {
     a.angle_to(b) < SAME_ANSWER.0 && a.distance_to(b) < SAME_ANSWER.1
 }
 
-/// Looks for one order of all robot poses in which most captures agree, where as declared no clear
-/// majority does.
+/// Captures that agree within this are taken to be in order. mm and degrees.
+const IN_ORDER: (f64, f64) = (15.0, 2.5);
+
+/// Looks for one order of all robot poses in which most captures agree, where as declared they do
+/// not; whether there is one.
 pub(super) fn suspect_order(
     readings: &[Readings],
     found: Option<&Consensus>,
     result: &mut Calibration,
-) {
+) -> bool {
     let n = readings.len();
-    let agree = found.map_or(0, |f| f.agrees.iter().filter(|a| **a).count());
-    if 2 * agree > n {
-        return;
+    if found.is_some_and(|f| agrees_well(readings, f)) {
+        return false;
     }
+    let in_order = |s: &explain::Score| {
+        2 * s.agree > n && s.translation_mm < IN_ORDER.0 && s.rotation_deg < IN_ORDER.1
+    };
     let diagnosis = explain::explain(readings, &[]);
     let order = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
-        (Fault::Order(order), Some(after)) if 2 * after.agree > n => Some((*order, after)),
+        (Fault::Order(order), Some(after)) if in_order(&after) => Some((*order, after)),
         _ => None,
     });
-    let Some((order, after)) = order else { return };
+    let Some((order, after)) = order else { return false };
     let how = match order {
-        Order::Reversed => "in the opposite order".to_owned(),
-        Order::Shifted(k) if 2 * k > n => format!("{} later in the order", n - k),
-        Order::Shifted(k) => format!("{k} earlier in the order"),
+        Order::Reversed => "in the opposite order of".to_owned(),
+        Order::Shifted(k) if 2 * k > n => format!("{} places before", n - k),
+        Order::Shifted(k) => format!("{k} places after"),
     };
     let message = format!(
-        "the robot poses look {how} than their pictures: paired so, {} of {n} captures agree within \
-         {:.1} mm; check how pictures and poses were paired",
+        "the robot poses look listed {how} their pictures: paired so, {} of {n} captures agree, \
+         within {:.1} mm; check how pictures and poses are paired",
         after.agree, after.translation_mm
     );
     result.reasons.insert(0, message.clone());
     result.warnings.insert(0, Warning::new("order-shifted", message));
     result.verdict = Verdict::Rejected;
+    true
+}
+
+/// Whether most captures agree, within what robots and cameras in order do.
+fn agrees_well(readings: &[Readings], found: &Consensus) -> bool {
+    let used = (0..readings.len()).filter(|&i| found.agrees[i]);
+    let (angles, distances): (Vec<f64>, Vec<f64>) = used
+        .map(|i| {
+            let anchor_from_mount = readings[i].anchor_from_mount;
+            let camera_from_target = readings[i].camera_from_target[found.reading[i]];
+            let pair = PosePair { anchor_from_mount, camera_from_target };
+            evaluate::loop_misfit(&found.hand_eye, &pair)
+        })
+        .unzip();
+    2 * angles.len() > readings.len()
+        && consensus::median(distances) * 1e3 < IN_ORDER.0
+        && consensus::median(angles).to_degrees() < IN_ORDER.1
 }
