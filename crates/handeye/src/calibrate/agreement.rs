@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Config, Session, gate, rejected};
+use super::{Config, Session, doubt, gate, rejected};
 use crate::{
     Error, Observation, Pose, PosePair, Target, Warning,
     calibration::{Calibration, CaptureResult, Verdict},
@@ -193,14 +193,14 @@ pub(super) fn agree<'a>(
         Ok(found) => found,
         Err(error) => {
             no_consensus(session, &readings, &error, result);
-            rejected::suspect_order(&readings, None, result);
+            doubt::suspect_order(&readings, None, result);
             return None;
         }
     };
     let captures = Captures { session, readings: &readings, target_from_corner };
     let (found, fit) = gate::gate(&captures, found, config);
     rejected::name(&captures, &found, fit.as_ref(), result);
-    if !rejected::suspect_order(&readings, Some(&found), result) {
+    if !doubt::suspect_order(&readings, Some(&found), result) {
         suspect_conventions(&readings, bare(session), Some(&found), result);
     }
     let indices: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();

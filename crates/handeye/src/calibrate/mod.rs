@@ -1,7 +1,7 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
 //! `agreement` (which captures agree, and on which reading: `gate`; why the others do not:
-//! `rejected`) → `candidates` (closed forms, least
+//! `rejected`; whether that is a clear majority: `doubt`) → `candidates` (closed forms, least
 //! squares, maximum likelihood, registration of touches, each judged on what it has not seen; the
 //! choice by predicted error) → `captures` (misfit of every capture and touch) → `verdict`.
 //! Point pairs alone take the short way through `points`.
@@ -11,6 +11,7 @@ mod boards;
 mod budget;
 mod candidates;
 mod captures;
+mod doubt;
 mod gate;
 mod joint;
 mod optics;

@@ -10,6 +10,7 @@ mod chou_kamel;
 pub mod consensus;
 mod daniilidis;
 mod dornaika_horaud;
+mod graduated;
 mod horaud_dornaika;
 mod jacobi;
 mod kronecker;
