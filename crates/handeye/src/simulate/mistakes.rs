@@ -124,7 +124,7 @@ fn commit(
                 let shift = random.normal3() * GARBAGE.1;
                 move_target(session, i, |_| Isometry3::new(shift, turn));
             }
-            Mistake::Mirrored => move_target(session, i, |pose| mirrored(pose)),
+            Mistake::Mirrored => move_target(session, i, mirrored),
         }
     }
 }
