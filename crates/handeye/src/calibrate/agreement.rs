@@ -2,13 +2,13 @@
 
 use nalgebra::Vector3;
 
-use super::{Config, Session};
+use super::{Config, Session, doubt, gate, rejected};
 use crate::{
     Error, Observation, Pose, PosePair, Target, Warning,
     calibration::{Calibration, CaptureResult, Verdict},
     diagnose::{self, Convention},
     evaluate,
-    refine::{self, View},
+    refine::View,
     solve::{
         consensus::{self, Consensus, Readings},
         motions,
@@ -26,57 +26,6 @@ pub(super) struct Views<'a> {
     pub target_from_corner: Pose<Target, Target>,
     /// Which observations of the session they are.
     pub indices: Vec<usize>,
-}
-/// Chance of a capture as far off as it is below which it stays out.
-const IMPROBABLE: f64 = 1e-5;
-
-/// Rounds of letting captures back in.
-const READMISSIONS: usize = 5;
-
-/// Lets captures back in that the gate was too strict for: those that are no surprise to a fit
-/// that has not seen them.
-fn readmit(
-    session: &Session,
-    readings: &[Readings],
-    mut found: Consensus,
-    config: &Config,
-    target_from_corner: &Pose<Target, Target>,
-) -> Consensus {
-    let setup = session.setup;
-    let view =
-        |i: usize, k: usize| view(&session.observations[i], &readings[i], k, target_from_corner);
-    for _ in 0..READMISSIONS {
-        let used: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();
-        let views: Vec<View> = used.iter().map(|&i| view(i, found.reading[i])).collect();
-        let Ok(fit) = refine::fit_views(&views, &found.hand_eye, &config.known, setup) else {
-            break;
-        };
-        let limit = surprise_limit(fit.degrees_of_freedom);
-        let mut changed = false;
-        for i in (0..readings.len()).filter(|i| !used.contains(i)) {
-            let best = (0..readings[i].camera_from_target.len())
-                .filter_map(|k| Some((k, fit.surprise(&view(i, k), setup)?)))
-                .min_by(|a, b| a.1.total_cmp(&b.1));
-            if let Some((k, d2)) = best
-                && d2 < limit
-            {
-                (found.reading[i], found.agrees[i], changed) = (k, true, true);
-            }
-        }
-        found.hand_eye = fit.hand_eye;
-        if !changed {
-            break;
-        }
-    }
-    found
-}
-
-/// Squared distance, in units of six axes, that noise estimated from so few equations reaches with
-/// probability [`IMPROBABLE`].
-fn surprise_limit(degrees_of_freedom: f64) -> f64 {
-    use statrs::distribution::{ContinuousCDF, FisherSnedecor};
-    let dof = degrees_of_freedom.max(1.0);
-    FisherSnedecor::new(6.0, dof).map_or(f64::INFINITY, |f| 6.0 * f.inverse_cdf(1.0 - IMPROBABLE))
 }
 
 pub(super) fn first_report(o: &Observation) -> CaptureResult {
@@ -98,21 +47,32 @@ pub(super) fn first_report(o: &Observation) -> CaptureResult {
     }
 }
 
-/// One capture as the fits see it: pose and covariance moved to the target's first corner.
-fn view(
-    o: &Observation,
-    readings: &Readings,
-    k: usize,
-    target_from_corner: &Pose<Target, Target>,
-) -> View {
-    let carry = crate::lie::adjoint(target_from_corner.inverse().iso());
-    View {
-        pair: PosePair {
-            anchor_from_mount: readings.anchor_from_mount,
-            camera_from_target: readings.camera_from_target[k],
-        },
-        covariance: o.candidates[k].covariance.map(|c| carry * c * carry.transpose()),
-        sight: None,
+/// All captures of a session with their readings about the target's first corner.
+pub(super) struct Captures<'a> {
+    pub session: &'a Session,
+    pub readings: &'a [Readings],
+    /// The target frame about its first corner, seen from the target's own.
+    pub target_from_corner: Pose<Target, Target>,
+}
+
+impl Captures<'_> {
+    /// One capture as the fits see it: pose and covariance moved to the target's first corner.
+    pub fn view(&self, i: usize, reading: usize) -> View {
+        let carry = crate::lie::adjoint(self.target_from_corner.inverse().iso());
+        let covariance = self.session.observations[i].candidates[reading].covariance;
+        View {
+            pair: self.pair(i, reading),
+            covariance: covariance.map(|c| carry * c * carry.transpose()),
+            sight: None,
+        }
+    }
+
+    /// Robot pose and target pose of one capture.
+    pub fn pair(&self, i: usize, reading: usize) -> PosePair {
+        PosePair {
+            anchor_from_mount: self.readings[i].anchor_from_mount,
+            camera_from_target: self.readings[i].camera_from_target[reading],
+        }
     }
 }
 
@@ -142,92 +102,6 @@ fn no_consensus(session: &Session, readings: &[Readings], error: &Error, result:
     }
     result.verdict = Verdict::Rejected;
     suspect_conventions(readings, bare(session), None, result);
-}
-
-/// Names every capture that does not agree, with the likeliest reason.
-fn name_rejected(
-    session: &Session,
-    readings: &[Readings],
-    found: &Consensus,
-    result: &mut Calibration,
-) {
-    let wrong: Vec<usize> = (0..readings.len())
-        .filter(|&i| !found.agrees[i] && !readings[i].camera_from_target.is_empty())
-        .collect();
-    // where most disagree, a chance fit to another capture explains nothing
-    let few = (wrong.len() as f64) < MOST_EXPLAINED * readings.len() as f64;
-    let limit = typical(readings, found);
-    let exchanged = if few { diagnose::exchanged(readings, found, limit) } else { vec![] };
-    for &i in &wrong {
-        let (code, reason) = match explained(session, &exchanged, i) {
-            Some(reason) => ("captures-exchanged", reason),
-            None => ("capture-rejected", disagreement(readings, found, i)),
-        };
-        result.captures[i].used = false;
-        result.captures[i].reason = Some(reason.clone());
-        let id = &session.observations[i].capture;
-        result.rejected.push(id.clone());
-        if wrong.len() <= MOST_WARNINGS {
-            let message = format!("capture {id} left out: {reason}");
-            result.warnings.push(Warning::new(code, message));
-        }
-    }
-    if wrong.len() > MOST_WARNINGS {
-        let message = format!(
-            "{} of {} captures disagree with the others and are left out: {}",
-            wrong.len(),
-            readings.len(),
-            result.rejected.join(", ")
-        );
-        result.warnings.push(Warning::new("captures-rejected", message));
-    }
-}
-
-/// Share of wrong captures up to which each is explained.
-const MOST_EXPLAINED: f64 = 0.4;
-/// More wrong captures than this are named in one sentence.
-const MOST_WARNINGS: usize = 8;
-
-/// The other capture whose robot pose a picture fits, in words.
-fn explained(session: &Session, exchanged: &[(usize, usize)], i: usize) -> Option<String> {
-    let (_, j) = *exchanged.iter().find(|(picture, _)| *picture == i)?;
-    let other = &session.observations[j].capture;
-    Some(if exchanged.contains(&(j, i)) {
-        format!("its picture and that of capture {other} look exchanged")
-    } else {
-        format!("its picture fits the robot pose of capture {other}")
-    })
-}
-
-fn disagreement(readings: &[Readings], found: &Consensus, i: usize) -> String {
-    let pair = PosePair {
-        anchor_from_mount: readings[i].anchor_from_mount,
-        camera_from_target: readings[i].camera_from_target[found.reading[i]],
-    };
-    let (angle, distance) = evaluate::loop_misfit(&found.hand_eye, &pair);
-    format!(
-        "it disagrees with the others by {:.1} mm and {:.2} degrees: a robot pose of another \
-         moment, a moved target, or a wrong detection",
-        distance * 1e3,
-        angle.to_degrees()
-    )
-}
-
-/// Misfits up to which a capture is as good as those that agree: three times their median.
-fn typical(readings: &[Readings], found: &Consensus) -> (f64, f64) {
-    let (angles, distances): (Vec<f64>, Vec<f64>) = (0..readings.len())
-        .filter(|&i| found.agrees[i])
-        .map(|i| {
-            evaluate::loop_misfit(
-                &found.hand_eye,
-                &PosePair {
-                    anchor_from_mount: readings[i].anchor_from_mount,
-                    camera_from_target: readings[i].camera_from_target[found.reading[i]],
-                },
-            )
-        })
-        .unzip();
-    (3.0 * consensus::median(angles).max(1e-3), 3.0 * consensus::median(distances).max(5e-4))
 }
 
 /// An inversion explains the data when most captures agree under it, the misfit in position falls
@@ -313,16 +187,18 @@ pub(super) fn agree<'a>(
         Ok(found) => found,
         Err(error) => {
             no_consensus(session, &readings, &error, result);
+            doubt::suspect_order(&readings, None, result);
             return None;
         }
     };
-    let found = readmit(session, &readings, found, config, &target_from_corner);
-    name_rejected(session, &readings, &found, result);
-    suspect_conventions(&readings, bare(session), Some(&found), result);
+    let captures = Captures { session, readings: &readings, target_from_corner };
+    let (found, fit) = gate::gate(&captures, found, config);
+    rejected::name(&captures, &found, fit.as_ref(), result);
+    if !doubt::suspect_order(&readings, Some(&found), result) {
+        suspect_conventions(&readings, bare(session), Some(&found), result);
+    }
     let indices: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();
-    let of = |&i: &usize| {
-        view(&session.observations[i], &readings[i], found.reading[i], &target_from_corner)
-    };
+    let of = |&i: &usize| captures.view(i, found.reading[i]);
     warn_few(indices.len(), result);
     let views = Views {
         session,

@@ -1,6 +1,7 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
-//! `agreement` (which captures agree, and on which reading) → `candidates` (closed forms, least
+//! `agreement` (which captures agree, and on which reading: `gate`; why the others do not:
+//! `rejected`; whether that is a clear majority: `doubt`) → `candidates` (closed forms, least
 //! squares, maximum likelihood, registration of touches, each judged on what it has not seen; the
 //! choice by predicted error) → `captures` (misfit of every capture and touch) → `verdict`.
 //! Point pairs alone take the short way through `points`.
@@ -10,9 +11,12 @@ mod boards;
 mod budget;
 mod candidates;
 mod captures;
+mod doubt;
+mod gate;
 mod joint;
 mod optics;
 mod points;
+mod rejected;
 pub(crate) mod settle;
 mod sources;
 mod unknown;

@@ -14,5 +14,6 @@ pub mod touched;
 pub use extra::{Extra, ExtraKind};
 pub use joint::{JointFit, KnownPosition, Problem, fit_joint, fit_views};
 pub use noise::{KnownNoise, NoiseModel, Sigma, Source};
+pub(crate) use pose_fit::fit_weighted;
 pub use pose_fit::{View, fit_fixed_weights};
 pub use touched::{TouchedBoard, TouchedCorner};

@@ -159,6 +159,11 @@ pub fn fit_fixed_weights(views: &[View], start: &HandEye, metres_per_rad: f64) -
     minimise(views, &vec![weight; views.len()], start).0
 }
 
+/// Fits both unknowns with a weight for each view, 6 x 6 on its misfit (rotation first).
+pub(crate) fn fit_weighted(views: &[View], weights: &[Matrix6<f64>], start: &HandEye) -> HandEye {
+    minimise(views, weights, start).0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

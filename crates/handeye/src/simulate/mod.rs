@@ -1,6 +1,7 @@
 //! Measurements with known truth: for tests, benchmarks and the demo.
 
 pub mod cell;
+mod mistakes;
 pub mod random;
 pub mod recording;
 pub mod render;
@@ -8,6 +9,7 @@ mod robot_error;
 mod texture;
 
 pub use cell::{Cell, CellNoise, Viewing};
+pub use mistakes::{Mistake, spoil};
 pub use random::Random;
 pub use recording::{Recording, Truth};
 pub use render::{DepthSensor, Optics, Scene};

@@ -11,14 +11,15 @@
 //!
 //! of the loop `Y⁻¹ A X C`. The logarithm makes wrong captures cheap and needs no noise level.
 //! A motion's rotation angle is the same for robot and camera (`A X = X B`): a combination whose
-//! angles differ is not worth solving.
+//! angles differ is not worth solving. The best answer is polished on the captures that agree, and
+//! hardened by `graduated`.
 //!
 //! M. Fischler and R. Bolles, *Random sample consensus*, CACM 24(6), 1981.
 
 use crate::{
     Anchor, Camera, Error, HandEye, Mount, Pose, PosePair, Target,
     refine::{View, fit_fixed_weights},
-    solve::{self, FEWEST_POSES, Method, few_axes, motions},
+    solve::{self, FEWEST_POSES, Method, few_axes, graduated::graduated, motions},
 };
 
 /// One capture with every reading of its picture.
@@ -79,8 +80,24 @@ pub fn consensus(captures: &[Readings]) -> Result<Consensus, Error> {
         }
     }
     let (_, start) = best.ok_or_else(|| axes.err().unwrap_or_else(no_agreement))?;
-    let hand_eye = polish(captures, start);
-    Ok(settle(captures, hand_eye))
+    let polished = settle(captures, polish(captures, start)).0;
+    let hardened = harden(captures, &polished.hand_eye);
+    // on equal terms the first one stands
+    let better = score(captures, &hardened) < SURELY_LESS * score(captures, &polished.hand_eye);
+    Ok(if better { settle(captures, hardened).0 } else { polished })
+}
+
+/// Part of a score below which another one is less for more reasons than rounding.
+const SURELY_LESS: f64 = 1.0 - 1e-6;
+
+/// The answer of truncated least squares near one that is polished, at the noise that its median
+/// misfit tells.
+fn harden(captures: &[Readings], hand_eye: &HandEye) -> HandEye {
+    let (found, sigma) = settle(captures, *hand_eye);
+    let readable = (0..captures.len()).filter(|&i| !captures[i].camera_from_target.is_empty());
+    let views: Vec<View> =
+        readable.map(|i| View::bare(pair(&captures[i], found.reading[i]))).collect();
+    graduated(&views, hand_eye, sigma, GATE)
 }
 
 fn no_agreement() -> Error {
@@ -212,7 +229,7 @@ fn better_half(captures: &[Readings], hand_eye: &HandEye) -> Vec<(usize, usize)>
 }
 
 fn agreeing(captures: &[Readings], hand_eye: &HandEye) -> Vec<(usize, usize)> {
-    let found = settle(captures, *hand_eye);
+    let (found, _) = settle(captures, *hand_eye);
     (0..captures.len()).filter(|&i| found.agrees[i]).map(|i| (i, found.reading[i])).collect()
 }
 
@@ -223,8 +240,9 @@ const GATE: f64 = 7.0;
 /// Least standard deviations that the gate assumes: rounding in stored poses. rad and m per axis.
 const LEAST: (f64, f64) = (2e-4, 1e-4);
 
-/// Chooses readings for a given answer and gates captures by the median misfit.
-fn settle(captures: &[Readings], hand_eye: HandEye) -> Consensus {
+/// Chooses readings for a given answer and gates captures by the median misfit; also the standard
+/// deviations (rad, m per axis) that this tells.
+fn settle(captures: &[Readings], hand_eye: HandEye) -> (Consensus, (f64, f64)) {
     let best: Vec<Option<(usize, f64)>> =
         captures.iter().map(|c| best_reading(c, &hand_eye)).collect();
     let parts: Vec<Option<(f64, f64)>> = captures
@@ -247,11 +265,12 @@ fn settle(captures: &[Readings], hand_eye: HandEye) -> Consensus {
     let (sigma_r, sigma_t) = (sigma(|p| p.0, LEAST.0), sigma(|p| p.1, LEAST.1));
     let agrees =
         |p: &Option<(f64, f64)>| p.is_some_and(|(r, t)| (r / sigma_r).hypot(t / sigma_t) < GATE);
-    Consensus {
+    let found = Consensus {
         hand_eye,
         reading: best.iter().map(|b| b.map_or(0, |(k, _)| k)).collect(),
         agrees: parts.iter().map(agrees).collect(),
-    }
+    };
+    (found, (sigma_r, sigma_t))
 }
 
 /// The middle value; 0 of none.

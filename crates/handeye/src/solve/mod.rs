@@ -11,6 +11,7 @@ pub mod consensus;
 mod daniilidis;
 mod dornaika_horaud;
 pub mod few_axes;
+mod graduated;
 mod horaud_dornaika;
 mod jacobi;
 mod kronecker;

@@ -1,0 +1,122 @@
+//! Whether the captures that agree are the right ones: no clear majority is no answer.
+
+use super::agreement::Captures;
+use crate::{
+    HandEye, PosePair, Warning,
+    calibration::{Calibration, Verdict},
+    diagnose::explain::{self, Fault, Order},
+    evaluate,
+    solve::consensus::{self, Consensus, Readings},
+};
+
+/// Fewest captures of which a part may be left out: three determine an answer and confirm nothing.
+const FEWEST_CONFIRMED: usize = 4;
+/// A second agreement with this share of the captures of the first leaves the question open.
+const NEARLY_AS_MANY: f64 = 0.75;
+/// Answers this close are the same: rad and m. A second group in which only the target lay
+/// elsewhere, or was read turned, says the same of the camera.
+const SAME_ANSWER: (f64, f64) = (0.035, 0.02);
+
+/// Rejects an answer that too few captures confirm, or against which nearly as many stand.
+pub(super) fn doubt(
+    captures: &Captures,
+    found: &Consensus,
+    wrong: &[usize],
+    result: &mut Calibration,
+) {
+    let used = found.agrees.iter().filter(|a| **a).count();
+    let (seen, out) = (used + wrong.len(), wrong.len());
+    let message = if out > 0 && (used < FEWEST_CONFIRMED || 2 * used == seen) {
+        format!(
+            "only {used} of {seen} captures agree: too few to outvote the others; take more \
+             captures, or find out what was wrong with these"
+        )
+    } else if let Some(others) = second_agreement(captures, found, wrong, used) {
+        format!(
+            "{used} captures agree on one answer and {others} of the other {out} on another one: \
+             the data cannot tell which is right; check what changed between them"
+        )
+    } else {
+        return;
+    };
+    result.reasons.push(message.clone());
+    result.warnings.push(Warning::new("no-clear-majority", message));
+    result.verdict = Verdict::Rejected;
+}
+
+/// How many of the captures left out agree on another place of the camera, if nearly as many.
+fn second_agreement(
+    captures: &Captures,
+    found: &Consensus,
+    wrong: &[usize],
+    used: usize,
+) -> Option<usize> {
+    let enough = (NEARLY_AS_MANY * used as f64).max(FEWEST_CONFIRMED as f64);
+    if (wrong.len() as f64) < enough {
+        return None;
+    }
+    let rest: Vec<Readings> = wrong.iter().map(|&i| captures.readings[i].clone()).collect();
+    let second = consensus::consensus(&rest).ok()?;
+    let count = second.agrees.iter().filter(|a| **a).count();
+    (count as f64 >= enough && !same_answer(&found.hand_eye, &second.hand_eye)).then_some(count)
+}
+
+fn same_answer(a: &HandEye, b: &HandEye) -> bool {
+    let (a, b) = (&a.mount_from_camera, &b.mount_from_camera);
+    a.angle_to(b) < SAME_ANSWER.0 && a.distance_to(b) < SAME_ANSWER.1
+}
+
+/// Captures that agree within this are taken to be in order. mm and degrees.
+const IN_ORDER: (f64, f64) = (15.0, 2.5);
+
+/// Looks for one order of all robot poses in which most captures agree, where as declared they do
+/// not; whether there is one.
+pub(super) fn suspect_order(
+    readings: &[Readings],
+    found: Option<&Consensus>,
+    result: &mut Calibration,
+) -> bool {
+    let n = readings.len();
+    if found.is_some_and(|f| agrees_well(readings, f)) {
+        return false;
+    }
+    let in_order = |s: &explain::Score| {
+        2 * s.agree > n && s.translation_mm < IN_ORDER.0 && s.rotation_deg < IN_ORDER.1
+    };
+    let diagnosis = explain::explain(readings, &[]);
+    let order = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
+        (Fault::Order(order), Some(after)) if in_order(&after) => Some((*order, after)),
+        _ => None,
+    });
+    let Some((order, after)) = order else { return false };
+    let how = match order {
+        Order::Reversed => "in the opposite order of".to_owned(),
+        Order::Shifted(k) if 2 * k > n => format!("{} places before", n - k),
+        Order::Shifted(k) => format!("{k} places after"),
+    };
+    let message = format!(
+        "the robot poses look listed {how} their pictures: paired so, {} of {n} captures agree, \
+         within {:.1} mm; check how pictures and poses are paired",
+        after.agree, after.translation_mm
+    );
+    result.reasons.insert(0, message.clone());
+    result.warnings.insert(0, Warning::new("order-shifted", message));
+    result.verdict = Verdict::Rejected;
+    true
+}
+
+/// Whether most captures agree, within what robots and cameras in order do.
+fn agrees_well(readings: &[Readings], found: &Consensus) -> bool {
+    let used = (0..readings.len()).filter(|&i| found.agrees[i]);
+    let (angles, distances): (Vec<f64>, Vec<f64>) = used
+        .map(|i| {
+            let anchor_from_mount = readings[i].anchor_from_mount;
+            let camera_from_target = readings[i].camera_from_target[found.reading[i]];
+            let pair = PosePair { anchor_from_mount, camera_from_target };
+            evaluate::loop_misfit(&found.hand_eye, &pair)
+        })
+        .unzip();
+    2 * angles.len() > readings.len()
+        && consensus::median(distances) * 1e3 < IN_ORDER.0
+        && consensus::median(angles).to_degrees() < IN_ORDER.1
+}

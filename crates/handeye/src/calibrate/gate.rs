@@ -1,0 +1,107 @@
+//! Which captures belong, judged by the noise that they show themselves.
+//!
+//! The consensus gates by the median misfit, which is rough. Here every capture is judged by a fit
+//! that has not seen it: its squared Mahalanobis distance, against noise estimated by restricted
+//! likelihood from those that agree. Captures that are no surprise come back in; then the worst of
+//! those inside goes out if it is one.
+
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+
+use super::{Config, agreement::Captures};
+use crate::{
+    refine::{self, JointFit, View},
+    solve::{FEWEST_POSES, consensus::Consensus},
+};
+
+/// Chance of a capture as far off as it is below which it stays out.
+const IMPROBABLE: f64 = 1e-5;
+
+/// Rounds of letting captures in and putting the worst out. Each round that puts one out may hold
+/// another that was hidden behind it.
+const ROUNDS: usize = 12;
+
+/// Captures inside whose fit without them is tried in each round, the worst first.
+const SUSPECTS: usize = 3;
+
+/// The captures that belong, and the fit of them; `None` where they determine no answer.
+pub(super) fn gate(
+    captures: &Captures,
+    mut found: Consensus,
+    config: &Config,
+) -> (Consensus, Option<JointFit>) {
+    let mut last = None;
+    for _ in 0..ROUNDS {
+        let Some(fit) = fit_of(captures, &found, &agreeing(&found), config) else { break };
+        found.hand_eye = fit.hand_eye;
+        let changed =
+            readmit(captures, &mut found, &fit) || put_out(captures, &mut found, &fit, config);
+        last = Some(fit);
+        if !changed {
+            break;
+        }
+    }
+    (found, last)
+}
+
+fn agreeing(found: &Consensus) -> Vec<usize> {
+    (0..found.agrees.len()).filter(|&i| found.agrees[i]).collect()
+}
+
+fn fit_of(
+    captures: &Captures,
+    found: &Consensus,
+    used: &[usize],
+    config: &Config,
+) -> Option<JointFit> {
+    let views: Vec<View> = used.iter().map(|&i| captures.view(i, found.reading[i])).collect();
+    refine::fit_views(&views, &found.hand_eye, &config.known, captures.session.setup).ok()
+}
+
+/// Lets captures in, in their best reading, that are no surprise.
+fn readmit(captures: &Captures, found: &mut Consensus, fit: &JointFit) -> bool {
+    let limit = surprise_limit(fit.degrees_of_freedom);
+    let mut changed = false;
+    for i in (0..found.agrees.len()).filter(|&i| !found.agrees[i]).collect::<Vec<_>>() {
+        let best = (0..captures.readings[i].camera_from_target.len())
+            .filter_map(|k| Some((k, fit.surprise(&captures.view(i, k), captures.session.setup)?)))
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((k, d2)) = best
+            && d2 < limit
+        {
+            (found.reading[i], found.agrees[i], changed) = (k, true, true);
+        }
+    }
+    changed
+}
+
+/// Puts the worst capture out if it surprises a fit of the others.
+fn put_out(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &Config) -> bool {
+    let setup = captures.session.setup;
+    let used = agreeing(found);
+    if used.len() <= FEWEST_POSES + 1 {
+        return false; // the rest would not tell its noise
+    }
+    let inside = |&i: &usize| Some((fit.surprise(&captures.view(i, found.reading[i]), setup)?, i));
+    let mut suspects: Vec<(f64, usize)> = used.iter().filter_map(inside).collect();
+    suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let surprising = |&(_, i): &(f64, usize)| {
+        let rest: Vec<usize> = used.iter().copied().filter(|&k| k != i).collect();
+        let without = fit_of(captures, found, &rest, config)?;
+        let d2 = without.surprise(&captures.view(i, found.reading[i]), setup)?;
+        let excess = d2 / surprise_limit(without.degrees_of_freedom);
+        (excess > 1.0).then_some((excess, i))
+    };
+    let worst =
+        suspects.iter().take(SUSPECTS).filter_map(surprising).max_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((_, i)) = worst {
+        found.agrees[i] = false;
+    }
+    worst.is_some()
+}
+
+/// Squared distance, in units of six axes, that noise estimated from so few equations reaches with
+/// probability [`IMPROBABLE`].
+fn surprise_limit(degrees_of_freedom: f64) -> f64 {
+    let dof = degrees_of_freedom.max(1.0);
+    FisherSnedecor::new(6.0, dof).map_or(f64::INFINITY, |f| 6.0 * f.inverse_cdf(1.0 - IMPROBABLE))
+}

@@ -1,0 +1,232 @@
+//! Why captures do not belong, in words, and what would make them: offered, never done.
+//!
+//! An explanation restores a capture when its squared Mahalanobis distance under it, against a fit
+//! that was made without the capture, is one that noise reaches: `d² < 16.8`. It is named only
+//! where no other one does.
+
+use super::{agreement::Captures, doubt};
+use crate::{
+    Pose, Target, TargetModel, Warning,
+    calibration::Calibration,
+    evaluate, lie,
+    refine::{JointFit, View},
+    solve::consensus::Consensus,
+};
+
+/// Squared distance that six axes of noise reach once in a hundred times.
+const RESTORED: f64 = 16.8;
+/// Loops more open than this are not restored, whatever the noise: rad and m. Spares the test.
+const BELIEVABLE: (f64, f64) = (0.2, 0.1);
+/// Up to this share of captures that disagree, each is explained; beyond it, a chance fit to
+/// another capture explains nothing.
+const MOST_EXPLAINED: f64 = 0.5;
+/// More captures than this are named in one sentence.
+const MOST_WARNINGS: usize = 8;
+
+/// What happened to a capture.
+enum Reason {
+    /// The board was read turned by so many degrees.
+    Turned(u32),
+    /// Its picture and that of the other one were exchanged.
+    Exchanged(usize),
+    /// Its picture fits the robot pose of the other one.
+    Elsewhere(usize),
+    /// It has the robot pose at which the other picture was taken.
+    Stale(usize),
+    /// Nothing known restores it.
+    Unknown,
+}
+
+/// Names every capture that does not agree, with the likeliest reason.
+pub(super) fn name(
+    captures: &Captures,
+    found: &Consensus,
+    fit: Option<&JointFit>,
+    result: &mut Calibration,
+) {
+    let n = captures.readings.len();
+    let wrong: Vec<usize> = (0..n)
+        .filter(|&i| !found.agrees[i] && !captures.readings[i].camera_from_target.is_empty())
+        .collect();
+    let few = wrong.len() as f64 <= MOST_EXPLAINED * n as f64;
+    let test = fit.filter(|_| few).map(|fit| Test { captures, found, fit });
+    for &i in &wrong {
+        let (code, reason) = match test.as_ref().map_or(Reason::Unknown, |t| t.reason(i)) {
+            Reason::Unknown => ("capture-rejected", disagreement(captures, found, i)),
+            known => in_words(captures, i, &known),
+        };
+        result.captures[i].used = false;
+        result.captures[i].reason = Some(reason.clone());
+        let id = &captures.session.observations[i].capture;
+        result.rejected.push(id.clone());
+        if wrong.len() <= MOST_WARNINGS || code != "capture-rejected" {
+            let message = format!("capture {id} left out: {reason}");
+            result.warnings.push(Warning::new(code, message));
+        }
+    }
+    if wrong.len() > MOST_WARNINGS {
+        let message = format!(
+            "{} of {n} captures disagree with the others and are left out: {}",
+            wrong.len(),
+            result.rejected.join(", ")
+        );
+        result.warnings.push(Warning::new("captures-rejected", message));
+    }
+    doubt::doubt(captures, found, &wrong, result);
+}
+
+/// A code and words for what happened, and what to do about it.
+fn in_words(captures: &Captures, i: usize, reason: &Reason) -> (&'static str, String) {
+    let id = |j: usize| &captures.session.observations[j].capture;
+    let which = |j: usize| match () {
+        () if j == i + 1 => format!("the next capture, {}", id(j)),
+        () if j + 1 == i => format!("the previous capture, {}", id(j)),
+        () => format!("capture {}", id(j)),
+    };
+    let neighbour = |j: usize| j.abs_diff(i) == 1;
+    match *reason {
+        Reason::Turned(degrees) => (
+            "target-turned",
+            format!(
+                "it fits with the board turned by {degrees} degrees: its corners are numbered from \
+                 another end than in the other pictures; detect it again, or number them anew"
+            ),
+        ),
+        Reason::Exchanged(j) => (
+            "captures-exchanged",
+            format!(
+                "its picture and that of capture {} look exchanged; if they are, exchange them in \
+                 the data",
+                id(j)
+            ),
+        ),
+        Reason::Elsewhere(j) if neighbour(j) => (
+            "order-shifted",
+            format!(
+                "its picture fits the robot pose of {}: the order looks off by one from here on; \
+                 if so, pair them so in the data",
+                which(j)
+            ),
+        ),
+        Reason::Elsewhere(j) => {
+            ("captures-exchanged", format!("its picture fits the robot pose of {}", which(j)))
+        }
+        Reason::Stale(j) if j == i + 1 => (
+            "order-shifted",
+            format!("its robot pose belongs to the picture of {}; its own is missing", which(j)),
+        ),
+        Reason::Stale(j) => (
+            "stale-robot-pose",
+            format!(
+                "its robot pose is that of {}, at which another picture was taken: read before the \
+                 robot had moved, so its own is missing",
+                which(j)
+            ),
+        ),
+        Reason::Unknown => ("capture-rejected", String::new()),
+    }
+}
+
+fn disagreement(captures: &Captures, found: &Consensus, i: usize) -> String {
+    let (angle, distance) =
+        evaluate::loop_misfit(&found.hand_eye, &captures.pair(i, found.reading[i]));
+    format!(
+        "it disagrees with the others by {:.1} mm and {:.2} degrees: a robot pose of another \
+         moment, a moved target, or a wrong detection",
+        distance * 1e3,
+        angle.to_degrees()
+    )
+}
+
+/// Explanations are tested against the fit of the captures that agree.
+struct Test<'a> {
+    captures: &'a Captures<'a>,
+    found: &'a Consensus,
+    fit: &'a JointFit,
+}
+
+impl Test<'_> {
+    fn reason(&self, i: usize) -> Reason {
+        let turned = self.turned(i);
+        let mut elsewhere: Vec<usize> = self.others(i).filter(|&j| self.fits(i, j)).collect();
+        // the robot pose of two captures is one explanation; neighbours are likelier
+        elsewhere.sort_by_key(|&j| (!self.fits(j, i), j.abs_diff(i) != 1, j));
+        if let Some(&first) = elsewhere.first() {
+            elsewhere.retain(|&j| j == first || !self.same_robot(j, first));
+        }
+        match (turned, elsewhere.as_slice()) {
+            (Some(degrees), []) => Reason::Turned(degrees),
+            (None, &[j]) if !self.found.agrees[j] && self.fits(j, i) => Reason::Exchanged(j),
+            (None, &[j]) => Reason::Elsewhere(j),
+            (None, []) => self.whose_robot_pose(i).map_or(Reason::Unknown, Reason::Stale),
+            _ => Reason::Unknown,
+        }
+    }
+
+    fn others(&self, i: usize) -> impl Iterator<Item = usize> + use<> {
+        (0..self.captures.readings.len()).filter(move |&j| j != i)
+    }
+
+    /// Whether picture `i` fits the robot pose of capture `j`.
+    fn fits(&self, i: usize, j: usize) -> bool {
+        let readings = self.captures.readings;
+        (0..readings[i].camera_from_target.len()).any(|k| {
+            let mut view = self.captures.view(i, k);
+            view.pair.anchor_from_mount = readings[j].anchor_from_mount;
+            self.restored(&view)
+        })
+    }
+
+    fn restored(&self, view: &View) -> bool {
+        let (angle, distance) = evaluate::loop_misfit(&self.fit.hand_eye, &view.pair);
+        angle < BELIEVABLE.0
+            && distance < BELIEVABLE.1
+            && self.fit.surprise(view, self.captures.session.setup).is_some_and(|d2| d2 < RESTORED)
+    }
+
+    /// By how many degrees the board must be turned, if one turn restores the capture.
+    fn turned(&self, i: usize) -> Option<u32> {
+        let target = self.captures.session.target.as_ref()?;
+        let corner = self.captures.target_from_corner;
+        let fits = |degrees: &u32| {
+            let turn = corner.inverse() * turn_about_centre(target, *degrees) * corner;
+            let carry = lie::adjoint(turn.inverse().iso());
+            (0..self.captures.readings[i].camera_from_target.len()).any(|k| {
+                let mut view = self.captures.view(i, k);
+                view.pair.camera_from_target = view.pair.camera_from_target * turn;
+                view.covariance = view.covariance.map(|c| carry * c * carry.transpose());
+                self.restored(&view)
+            })
+        };
+        let (columns, rows) = target.grid();
+        let turns: &[u32] = if columns == rows { &[180, 90, 270] } else { &[180] };
+        turns.iter().copied().find(fits)
+    }
+
+    /// The capture whose picture fits the robot pose of `i`: the one before rather than another.
+    fn whose_robot_pose(&self, i: usize) -> Option<usize> {
+        let taken = |&j: &usize| self.fits(j, i);
+        self.others(i).filter(taken).min_by_key(|&j| (j + 1 != i, j.abs_diff(i), j))
+    }
+
+    fn same_robot(&self, i: usize, j: usize) -> bool {
+        let readings = self.captures.readings;
+        let (a, b) = (&readings[i].anchor_from_mount, &readings[j].anchor_from_mount);
+        a.angle_to(b) < SAME_ROBOT.0 && a.distance_to(b) < SAME_ROBOT.1
+    }
+}
+
+/// Robot poses this close are one place: a robot that holds still reports it so. rad and m.
+const SAME_ROBOT: (f64, f64) = (1e-4, 1e-4);
+
+/// The target turned in its plane about the middle of its corners: `target_from_turned`.
+fn turn_about_centre(target: &TargetModel, degrees: u32) -> Pose<Target, Target> {
+    let corners = target.corners();
+    let centre = corners.iter().map(crate::Point::vector).sum::<nalgebra::Vector3<f64>>()
+        / corners.len().max(1) as f64;
+    let turn = nalgebra::Rotation3::from_axis_angle(
+        &nalgebra::Vector3::z_axis(),
+        f64::from(degrees).to_radians(),
+    );
+    Pose::from_parts(turn.matrix(), centre - turn * centre)
+}
