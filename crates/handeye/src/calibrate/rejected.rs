@@ -1,7 +1,8 @@
 //! Why captures do not belong, in words, and what would make them: offered, never done.
 //!
 //! An explanation restores a capture when its squared Mahalanobis distance under it, against a fit
-//! that was made without the capture, is one that noise reaches: `d² < 16.8`. It is named only
+//! that was made without the capture, is one that noise reaches, `d² < 16.8`, or
+//! its misfit is as small as that of the captures that agree. It is named only
 //! where no other one does.
 
 use super::{agreement::Captures, doubt};
@@ -10,7 +11,7 @@ use crate::{
     calibration::Calibration,
     evaluate, lie,
     refine::{JointFit, View},
-    solve::consensus::Consensus,
+    solve::consensus::{Consensus, median},
 };
 
 /// Squared distance that six axes of noise reach once in a hundred times.
@@ -49,7 +50,10 @@ pub(super) fn name(
         .filter(|&i| !found.agrees[i] && !captures.readings[i].camera_from_target.is_empty())
         .collect();
     let few = wrong.len() as f64 <= MOST_EXPLAINED * n as f64;
-    let test = fit.filter(|_| few).map(|fit| Test { captures, found, fit });
+    let test = fit.filter(|_| few).map(|fit| {
+        let typical = typical(captures, found);
+        Test { captures, found, fit, typical }
+    });
     for &i in &wrong {
         let (code, reason) = match test.as_ref().map_or(Reason::Unknown, |t| t.reason(i)) {
             Reason::Unknown => ("capture-rejected", disagreement(captures, found, i)),
@@ -143,6 +147,17 @@ struct Test<'a> {
     captures: &'a Captures<'a>,
     found: &'a Consensus,
     fit: &'a JointFit,
+    /// Misfit of a capture that is as good as those that agree, rad and m.
+    typical: (f64, f64),
+}
+
+/// Three times the median misfit of those that agree: real noise has heavier tails than the
+/// Gaussian that `d²` is made for.
+fn typical(captures: &Captures, found: &Consensus) -> (f64, f64) {
+    let used = (0..found.agrees.len()).filter(|&i| found.agrees[i]);
+    let misfit = |i| evaluate::loop_misfit(&found.hand_eye, &captures.pair(i, found.reading[i]));
+    let (angles, distances): (Vec<f64>, Vec<f64>) = used.map(misfit).unzip();
+    (3.0 * median(angles).max(1e-3), 3.0 * median(distances).max(5e-4))
 }
 
 impl Test<'_> {
@@ -156,7 +171,7 @@ impl Test<'_> {
         }
         match (turned, elsewhere.as_slice()) {
             (Some(degrees), []) => Reason::Turned(degrees),
-            (None, &[j]) if !self.found.agrees[j] && self.fits(j, i) => Reason::Exchanged(j),
+            (None, &[j, ..]) if !self.found.agrees[j] && self.fits(j, i) => Reason::Exchanged(j),
             (None, &[j]) => Reason::Elsewhere(j),
             (None, []) => self.whose_robot_pose(i).map_or(Reason::Unknown, Reason::Stale),
             _ => Reason::Unknown,
@@ -181,7 +196,11 @@ impl Test<'_> {
         let (angle, distance) = evaluate::loop_misfit(&self.fit.hand_eye, &view.pair);
         angle < BELIEVABLE.0
             && distance < BELIEVABLE.1
-            && self.fit.surprise(view, self.captures.session.setup).is_some_and(|d2| d2 < RESTORED)
+            && (angle < self.typical.0 && distance < self.typical.1
+                || self
+                    .fit
+                    .surprise(view, self.captures.session.setup)
+                    .is_some_and(|d2| d2 < RESTORED))
     }
 
     /// By how many degrees the board must be turned, if one turn restores the capture.
