@@ -16,6 +16,8 @@ use crate::{
 
 /// Squared distance that six axes of noise reach once in a hundred times.
 const RESTORED: f64 = 16.8;
+/// Times the typical misfit that still is a sign of an exchange, where the other half of it fits.
+const NEARLY: f64 = 3.0;
 /// Loops more open than this are not restored, whatever the noise: rad and m. Spares the test.
 const BELIEVABLE: (f64, f64) = (0.2, 0.1);
 /// Up to this share of captures that disagree, each is explained; beyond it, a chance fit to
@@ -169,9 +171,13 @@ impl Test<'_> {
         if let Some(&first) = elsewhere.first() {
             elsewhere.retain(|&j| j == first || !self.same_robot(j, first));
         }
+        if turned.is_none()
+            && let Some(j) = self.partner(i)
+        {
+            return Reason::Exchanged(j);
+        }
         match (turned, elsewhere.as_slice()) {
             (Some(degrees), []) => Reason::Turned(degrees),
-            (None, &[j, ..]) if !self.found.agrees[j] && self.fits(j, i) => Reason::Exchanged(j),
             (None, &[j]) => Reason::Elsewhere(j),
             (None, []) => self.whose_robot_pose(i).map_or(Reason::Unknown, Reason::Stale),
             _ => Reason::Unknown,
@@ -189,6 +195,29 @@ impl Test<'_> {
             let mut view = self.captures.view(i, k);
             view.pair.anchor_from_mount = readings[j].anchor_from_mount;
             self.restored(&view)
+        })
+    }
+
+    /// The capture outside with which `i` looks exchanged: one picture fits the other's robot pose,
+    /// and the other one nearly.
+    fn partner(&self, i: usize) -> Option<usize> {
+        let outside = self.others(i).filter(|&j| !self.found.agrees[j]);
+        let exchanged = |&j: &usize| {
+            self.fits(i, j) && self.nearly_fits(j, i) || self.nearly_fits(i, j) && self.fits(j, i)
+        };
+        outside.filter(exchanged).min_by_key(|&j| (j.abs_diff(i), j))
+    }
+
+    /// Whether picture `i` is at the robot pose of capture `j` but for a misfit that a worse one of
+    /// those that agree might have.
+    fn nearly_fits(&self, i: usize, j: usize) -> bool {
+        let readings = self.captures.readings;
+        (0..readings[i].camera_from_target.len()).any(|k| {
+            let mut pair = self.captures.view(i, k).pair;
+            pair.anchor_from_mount = readings[j].anchor_from_mount;
+            let (angle, distance) = evaluate::loop_misfit(&self.fit.hand_eye, &pair);
+            angle < BELIEVABLE.0.min(NEARLY * self.typical.0)
+                && distance < BELIEVABLE.1.min(NEARLY * self.typical.1)
         })
     }
 
