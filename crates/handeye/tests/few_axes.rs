@@ -82,6 +82,9 @@ fn one_axis_leaves_the_position_along_it() {
     assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
     assert_eq!(found.undetermined, ["translation along the rotation axis z of flange"]);
     assert!(found.hand_eye.mount_from_camera.is_none() && found.predicted_tre_mm.is_none());
+    assert!(
+        found.candidates.iter().all(|k| k.predicted_tre_mm.is_none()) && found.advice.is_empty()
+    );
     let known = found.determined.unwrap();
     assert!(Vector3::from(known.free_translations[0]).z > 0.9999);
     let truth = flange_from_camera();

@@ -72,8 +72,13 @@ fn hide_undetermined(result: &mut Calibration) {
         ));
     }
     result.hand_eye = Answer::default();
-    result.candidates.iter_mut().for_each(|k| k.hand_eye = Answer::default());
+    for candidate in &mut result.candidates {
+        (candidate.hand_eye, candidate.predicted_tre_mm) = (Answer::default(), None);
+    }
     result.predicted_tre_mm = None;
+    result.why = String::from("no candidate can make up for what is not determined");
+    result.error_budget.iter_mut().for_each(|b| b.at_workpiece_mm = None);
+    result.advice.clear();
 }
 
 /// What is known of a pose of which something is free.
