@@ -1,5 +1,8 @@
 //! Simulated datasets with one mistake each, as files, and whether `check` names the mistake.
 
+#[path = "plant.rs"]
+mod plant;
+
 use std::{
     f64::consts::PI,
     fmt::Write as _,
@@ -252,152 +255,64 @@ fn planted(mistake: Mistake, seed: u64, n: usize) -> Case {
         stored_inverted: any(&mut random, 4) == 0,
         declared: Declared::default(),
     };
-    plant(mistake, &mut case, &mut random);
+    plant::plant(mistake, &mut case, &mut random);
     case
 }
 
-/// Where a run of captures begins, of which most are before it: at least two belong to it.
-fn late(random: &mut Random, n: usize) -> usize {
-    let longest = (n.saturating_sub(4)).min((n - 1) / 2).max(2);
-    n - 2 - random.bits() as usize % (longest - 1)
-}
-
-/// A place that nobody takes for noise: 30 mm and 5 degrees away.
-fn elsewhere() -> Iso {
-    Iso::new(Vector3::new(0.025, -0.015, 0.005), Vector3::new(0.02, 0.01, 0.09))
-}
-
-fn plant(mistake: Mistake, case: &mut Case, random: &mut Random) {
-    let n = case.robot.len();
-    let i = random.bits() as usize % n;
-    let j = (i + 1 + random.bits() as usize % (n - 1)) % n;
-    let signed = |random: &mut Random, low: f64, high: f64| {
-        let size = random.between(low, high);
-        if random.bits().is_multiple_of(2) { 1.0 + size } else { 1.0 / (1.0 + size) }
-    };
-    let d = &mut case.declared;
-    match mistake {
-        M::None => {}
-        M::RobotInverted => d.robot_direction = true,
-        M::BoardInverted => d.board_direction = true,
-        M::BothInverted => (d.robot_direction, d.board_direction) = (true, true),
-        M::SetupExchanged => {
-            d.setup = Some(match case.setup {
-                Setup::EyeInHand => Setup::EyeToHand,
-                Setup::EyeToHand => Setup::EyeInHand,
-            });
-        }
-        M::EulerOrder | M::VectorAsEuler => {
-            let mut other = euler(random);
-            while other.rotation == case.notation.rotation {
-                other = euler(random);
-            }
-            d.notation = Some(other);
-        }
-        M::EulerAsVector => d.notation = Some(named("rotation-vector")),
-        M::QuaternionOrder => {
-            let is_xyzw = case.notation.name == "quaternion-xyzw";
-            d.notation = Some(named(if is_xyzw { "quaternion-wxyz" } else { "quaternion-xyzw" }));
-        }
-        M::DegreesRadians => {
-            let angle = match case.units.angle {
-                AngleUnit::Radian => AngleUnit::Degree,
-                AngleUnit::Degree => AngleUnit::Radian,
-            };
-            d.units = Some(Units { angle, ..case.units });
-        }
-        M::MillimetresMetres => {
-            let length = match case.units.length {
-                LengthUnit::Metre => LengthUnit::Millimetre,
-                _ => LengthUnit::Metre,
-            };
-            d.units = Some(Units { length, ..case.units });
-        }
-        M::RotationsTransposed => {
-            case.robot.iter_mut().for_each(|p| p.rotation = p.rotation.inverse());
-            case.stored_inverted = false;
-        }
-        M::AxisMirrored => {
-            let axis = random.bits() as usize % 3;
-            case.robot.iter_mut().for_each(|p| p.translation.vector[axis] *= -1.0);
-            case.stored_inverted = false;
-        }
-        M::BaseLeftHanded => {
-            case.robot.iter_mut().for_each(|p| *p = mirrored(p));
-            case.stored_inverted = false;
-        }
-        M::SquareSizeFar => d.square_mm = Some(case.square_mm * signed(random, 0.06, 0.15)),
-        M::SquareSizeNear => d.square_mm = Some(case.square_mm * signed(random, 0.02, 0.04)),
-        M::OrderShifted => case.rotate_pictures(1 + i % (n - 1)),
-        M::OrderReversed => {
-            case.session.observations.reverse();
-            case.board.iter_mut().for_each(|b| b.reverse());
-        }
-        M::PicturesExchanged => {
-            case.session.observations.swap(i, j);
-            case.board.iter_mut().for_each(|b| b.swap(i, j));
-        }
-        M::RobotPoseFrozen => case.robot[j] = case.robot[i],
-        M::CameraStill => case.show_again(i, j),
-        M::CaptureRepeated => {
-            case.robot[j] = case.robot[i];
-            case.show_again(i, j);
-        }
-        M::TargetMoved | M::CameraMoved => {
-            let from = late(random, n);
-            case.move_from(from, mistake == M::CameraMoved);
-        }
-        M::HalfPixel => d.pixel_origin_corner = true,
+/// A CSV of numbers, a pose a line.
+fn lines(notation: &Notation, units: Units, inverted: bool, poses: &[Iso]) -> String {
+    let mut text = String::new();
+    for pose in poses {
+        let pose = if inverted { pose.inverse() } else { *pose };
+        let numbers: Vec<String> =
+            notation.values(&pose, units).iter().map(|x| format!("{x:.9}")).collect();
+        text += &(numbers.join(",") + "\n");
     }
+    text
 }
 
-/// The same pose with the x axis of its base turned round.
-fn mirrored(p: &Iso) -> Iso {
-    let half_turn = UnitQuaternion::from_scaled_axis(Vector3::x() * PI);
-    let t = p.translation.vector;
-    Iso::from_parts(Vector3::new(-t.x, t.y, t.z).into(), half_turn * p.rotation * half_turn)
+/// Answers to one mistake.
+#[derive(Debug, Default, Clone)]
+pub struct Row {
+    /// Cases that can be told alone or among others, and those answered so.
+    pub tellable: (usize, usize),
+    /// Cases that cannot be told, and those in which nothing wrong was claimed.
+    pub untellable: (usize, usize),
+    /// Seeds and captures of the other cases, and what was answered.
+    pub missed: Vec<(u64, usize, Outcome)>,
+}
+
+/// Fewest and most captures.
+pub const CAPTURES: (usize, usize) = (4, 15);
+
+/// Asks for a mistake in so many cells, of 4 to 15 captures.
+pub fn row(mistake: Mistake, cases: u64, folder: &Path) -> Row {
+    let mut row = Row::default();
+    for seed in 0..cases {
+        // five and twelve have no common factor: every number of captures comes
+        let n = CAPTURES.0 + (seed as usize * 5) % (CAPTURES.1 - CAPTURES.0 + 1);
+        let outcome = ask(mistake, seed, n, folder);
+        let tellable = mistake.tellable(n);
+        let good = match tellable {
+            Tellable::Alone => outcome == Outcome::Named,
+            Tellable::AmongOthers => matches!(outcome, Outcome::Named | Outcome::AmongOthers),
+            Tellable::Nothing if mistake == M::None => outcome == Outcome::Unnoticed,
+            Tellable::Nothing => !matches!(outcome, Outcome::Wrong(_)),
+        };
+        let count = match tellable {
+            Tellable::Nothing => &mut row.untellable,
+            _ => &mut row.tellable,
+        };
+        count.0 += 1;
+        count.1 += usize::from(good);
+        if !good {
+            row.missed.push((seed, n, outcome));
+        }
+    }
+    row
 }
 
 impl Case {
-    fn rotate_pictures(&mut self, k: usize) {
-        self.session.observations.rotate_left(k);
-        self.board.iter_mut().for_each(|b| b.rotate_left(k));
-    }
-
-    /// Capture `j` has the picture of capture `i`.
-    fn show_again(&mut self, i: usize, j: usize) {
-        self.session.observations[j] = self.session.observations[i].clone();
-        if let Some(board) = &mut self.board {
-            board[j] = board[i];
-        }
-    }
-
-    /// From this capture on, target or camera is elsewhere.
-    fn move_from(&mut self, from: usize, camera: bool) {
-        let by = elsewhere();
-        let moved = |p: &Iso| if camera { by * p } else { p * by };
-        let intrinsics = self.session.camera.expect("simulated");
-        let target = self.session.target.clone().expect("simulated");
-        for k in from..self.robot.len() {
-            let observation = &mut self.session.observations[k];
-            let seen = *observation.candidates[0].camera_from_target.iso();
-            let shift = |corner: &mut handeye::ImageCorner| {
-                let Some(at) = target.corner(corner.id) else { return };
-                let place = |p: &Iso| {
-                    let pose: Pose<Camera, Target> = Pose::claim(*p);
-                    intrinsics.project(&(pose * at).vector())
-                };
-                if let (Some(old), Some(new)) = (place(&seen), place(&moved(&seen))) {
-                    corner.pixel += new - old;
-                }
-            };
-            observation.corners.iter_mut().for_each(shift);
-            if let Some(board) = &mut self.board {
-                board[k] = moved(&board[k]);
-            }
-        }
-    }
-
     /// Writes the dataset; returns its manifest.
     fn write(&self, folder: &Path) -> PathBuf {
         fs::remove_dir_all(folder).ok();
@@ -510,57 +425,4 @@ impl Case {
             .all(|(p, c)| c.camera_from_target.is_some_and(|read| near(read.iso(), p)));
         read.setup == self.setup && robot && board
     }
-}
-
-/// A CSV of numbers, a pose a line.
-fn lines(notation: &Notation, units: Units, inverted: bool, poses: &[Iso]) -> String {
-    let mut text = String::new();
-    for pose in poses {
-        let pose = if inverted { pose.inverse() } else { *pose };
-        let numbers: Vec<String> =
-            notation.values(&pose, units).iter().map(|x| format!("{x:.9}")).collect();
-        text += &(numbers.join(",") + "\n");
-    }
-    text
-}
-
-/// Answers to one mistake.
-#[derive(Debug, Default, Clone)]
-pub struct Row {
-    /// Cases that can be told alone or among others, and those answered so.
-    pub tellable: (usize, usize),
-    /// Cases that cannot be told, and those in which nothing wrong was claimed.
-    pub untellable: (usize, usize),
-    /// Seeds and captures of the other cases, and what was answered.
-    pub missed: Vec<(u64, usize, Outcome)>,
-}
-
-/// Fewest and most captures.
-pub const CAPTURES: (usize, usize) = (4, 15);
-
-/// Asks for a mistake in so many cells, of 4 to 15 captures.
-pub fn row(mistake: Mistake, cases: u64, folder: &Path) -> Row {
-    let mut row = Row::default();
-    for seed in 0..cases {
-        // five and twelve have no common factor: every number of captures comes
-        let n = CAPTURES.0 + (seed as usize * 5) % (CAPTURES.1 - CAPTURES.0 + 1);
-        let outcome = ask(mistake, seed, n, folder);
-        let tellable = mistake.tellable(n);
-        let good = match tellable {
-            Tellable::Alone => outcome == Outcome::Named,
-            Tellable::AmongOthers => matches!(outcome, Outcome::Named | Outcome::AmongOthers),
-            Tellable::Nothing if mistake == M::None => outcome == Outcome::Unnoticed,
-            Tellable::Nothing => !matches!(outcome, Outcome::Wrong(_)),
-        };
-        let count = match tellable {
-            Tellable::Nothing => &mut row.untellable,
-            _ => &mut row.tellable,
-        };
-        count.0 += 1;
-        count.1 += usize::from(good);
-        if !good {
-            row.missed.push((seed, n, outcome));
-        }
-    }
-    row
 }

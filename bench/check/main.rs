@@ -5,6 +5,8 @@
 //! ```
 
 mod cases;
+#[path = "../section.rs"]
+mod section;
 
 use std::{env, fmt::Write as _, fs, path::Path, thread};
 
@@ -12,8 +14,13 @@ use cases::{MISTAKES, Mistake, Row, Tellable, row};
 
 /// Cases over all mistakes, and cases with none.
 const USUAL: (u64, u64) = (2000, 1000);
-const BEGIN: &str = "<!-- check:begin -->";
-const END: &str = "<!-- check:end -->";
+const HEAD: &str = "## `handeye check`
+
+Simulated cells with one mistake each, 4 to 15 captures, both setups, corners or board poses, robot
+0.5 mm and 0.03 degrees, corners 0.1 px; written as files, read and checked as a user's.
+`cargo run --release -p handeye-io --example check_benchmark` makes this table.
+
+";
 
 fn main() {
     let number = |k: usize| env::args().nth(k).and_then(|a| a.parse().ok());
@@ -44,7 +51,8 @@ fn main() {
     fs::remove_dir_all(&root).ok();
     let text = table(&rows);
     print!("{text}");
-    write(&text);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../BENCHMARK.md");
+    section::write(path, "check", &format!("{HEAD}{text}"));
 }
 
 fn table(rows: &[(Mistake, Row)]) -> String {
@@ -75,22 +83,4 @@ fn table(rows: &[(Mistake, Row)]) -> String {
         let _ = writeln!(text, "False alarms: {} in {clean} clean datasets.", clean - quiet);
     }
     text
-}
-
-/// Puts the table between its marks, which are added at the end where they are missing.
-fn write(table: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../BENCHMARK.md");
-    let mut text = fs::read_to_string(&path).unwrap_or_default();
-    if !(text.contains(BEGIN) && text.contains(END)) {
-        text += &format!(
-            "\n## `handeye check`\n\nSimulated cells with one mistake each, 4 to 15 captures, both setups, corners or board poses,\n\
-             robot 0.5 mm and 0.03 degrees, corners 0.1 px; written as files, read and checked as a\n\
-             user's. `cargo run --release -p handeye-io --example check_benchmark` makes this table.\n\n\
-             {BEGIN}\n{END}\n"
-        );
-    }
-    let (before, rest) = text.split_once(BEGIN).expect("the mark was added");
-    let (_, after) = rest.split_once(END).expect("the mark was added");
-    let text = format!("{before}{BEGIN}\n{table}{END}{after}");
-    fs::write(&path, text.trim_start_matches('\n')).expect("BENCHMARK.md can be written");
 }

@@ -5,7 +5,10 @@
 //! Prints a table; with a FILE, writes it between the markers `monte_carlo` there. PART keeps the
 //! rows whose names contain it.
 
-use std::{collections::BTreeMap, env, fs};
+#[path = "../../../bench/section.rs"]
+mod section;
+
+use std::{collections::BTreeMap, env};
 
 use handeye::{
     Calibration, Config, Mount, Point, Pose, Session, Setup, SurfaceCorner, calibrate,
@@ -348,19 +351,7 @@ fn main() {
     }
     table += &format!("\n{first} trials of the first row, {trials} of every other.\n");
     match args.get(2) {
-        Some(file) => write(file, &table),
+        Some(file) => section::write(file, "monte_carlo", &table),
         None => print!("{table}"),
     }
-}
-
-/// Replaces the section of the file.
-fn write(file: &str, table: &str) {
-    let (begin, end) = ("<!-- monte_carlo:begin -->", "<!-- monte_carlo:end -->");
-    let text = fs::read_to_string(file).unwrap_or_default();
-    let section = format!("{begin}\n{table}{end}");
-    let text = match (text.find(begin), text.find(end)) {
-        (Some(b), Some(e)) => format!("{}{section}{}", &text[..b], &text[e + end.len()..]),
-        _ => format!("{}\n\n{section}\n", text.trim_end()),
-    };
-    fs::write(file, text).expect("a file that can be written");
 }

@@ -6,7 +6,10 @@
 //! Prints a table; with a FILE, writes it between the markers `robustness` there. Seeds of failures
 //! go to the standard error output.
 
-use std::{env, fs};
+#[path = "../../../bench/section.rs"]
+mod section;
+
+use std::env;
 
 use handeye::{Verdict, simulate::Mistake};
 
@@ -39,7 +42,7 @@ fn main() {
     let table = [HEAD.into(), sessions(&outcomes), captures(&outcomes), whole(count / WHOLE_FILES)];
     let text = table.join("\n");
     match args.get(1).filter(|a| !a.is_empty()) {
-        Some(file) => write(file, &text),
+        Some(file) => section::write(file, "robustness", &text),
         None => print!("{text}"),
     }
 }
@@ -148,16 +151,4 @@ fn whole(count: u64) -> String {
         all.iter().filter(|(_, r)| r.verdict == Verdict::Accepted).count(),
         all.iter().filter(|(_, r)| named(r)).count()
     )
-}
-
-/// Replaces the section of the file.
-fn write(file: &str, table: &str) {
-    let (begin, end) = ("<!-- robustness:begin -->", "<!-- robustness:end -->");
-    let text = fs::read_to_string(file).unwrap_or_default();
-    let section = format!("{begin}\n{table}{end}");
-    let text = match (text.find(begin), text.find(end)) {
-        (Some(b), Some(e)) => format!("{}{section}{}", &text[..b], &text[e + end.len()..]),
-        _ => format!("{}\n\n{section}\n", text.trim_end()),
-    };
-    fs::write(file, text).expect("a file that can be written");
 }
