@@ -165,20 +165,6 @@ pub fn refit(problem: &Problem, near: &JointFit, known: &KnownNoise) -> JointFit
     climb(problem, state, &prior, known)
 }
 
-/// Fits the unknowns for noise that is known.
-pub fn fit_with_noise(problem: &Problem, near: &JointFit) -> JointFit {
-    let mut state = near.state(problem, &near.noise);
-    let mut system = System::at(problem, &state);
-    for _ in 0..MOST_ROUNDS {
-        let moved = system.advance(problem, &mut state);
-        system = System::at(problem, &state);
-        if moved < STEP {
-            break;
-        }
-    }
-    system.finish(problem, state)
-}
-
 /// Information and gradient at an answer, for a problem that may have more unknowns.
 pub(crate) fn normal_equations(problem: &Problem, at: &JointFit) -> (DMatrix<f64>, DVector<f64>) {
     let system = System::at(problem, &at.state(problem, &at.noise));
