@@ -88,6 +88,12 @@ impl<A, B> Pose<A, B> {
     pub fn inverse(self) -> Pose<B, A> {
         Pose::claim(self.iso.inverse())
     }
+    /// The same rotation, the translation times `factor`: the pose in another unit of length.
+    pub fn farther(&self, factor: f64) -> Self {
+        let mut iso = self.iso;
+        iso.translation.vector *= factor;
+        Self::claim(iso)
+    }
     /// The untyped transform.
     pub fn iso(&self) -> &Isometry3<f64> {
         &self.iso

@@ -136,6 +136,13 @@ pub struct PosePair {
     pub camera_from_target: Pose<Camera, Target>,
 }
 
+impl PosePair {
+    /// The pair with the camera's distances times `factor`.
+    pub fn farther(&self, factor: f64) -> Self {
+        Self { camera_from_target: self.camera_from_target.farther(factor), ..*self }
+    }
+}
+
 /// What a hand-eye calibration finds: the X and Y of `A X = Y B`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HandEye {

@@ -296,18 +296,6 @@ fn leave_out(
     Some((sum / touches.len() as f64).sqrt())
 }
 
-/// Squared Mahalanobis distance between two independent answers, and the chance of one as large.
-pub fn consistency(
-    views: (&Pose<Mount, Camera>, &Matrix6<f64>),
-    touches: (&Pose<Mount, Camera>, &Matrix6<f64>),
-) -> Option<(f64, f64)> {
-    use statrs::distribution::{ChiSquared, ContinuousCDF};
-    let xi = views.0.local(touches.0);
-    let d2 = xi.dot(&(linalg::invert_spd(&(views.1 + touches.1))? * xi));
-    let p = ChiSquared::new(6.0).ok()?.sf(d2);
-    Some((d2, p))
-}
-
 /// The volume around the touched corners, in the camera frame.
 pub fn touched_volume(touches: &[TouchPairs]) -> Option<predict::Volume> {
     let points = touches.iter().flat_map(|t| &t.pairs).map(|p| p.in_camera.vector());

@@ -11,7 +11,7 @@
 //! IJRR 20(3), 2001.
 
 use crate::{
-    Calibration, Config, Error, Pose, PosePair, Session,
+    Calibration, Config, Error, PosePair, Session,
     calibrate::{
         self,
         settle::{self, Captures, Stand},
@@ -39,7 +39,7 @@ pub fn calibrate_unscaled(session: &Session, config: &Config) -> Result<Calibrat
     let session = calibrate::in_order(session);
     let pairs = pairs(&session);
     let at = |stand: Stand| Captures {
-        pairs: pairs.iter().map(|p| metric(p, stand.scale)).collect(),
+        pairs: pairs.iter().map(|p| p.farther(1.0 / stand.scale)).collect(),
         velocities: None,
     };
     let settled = first_scale(&pairs).and_then(|scale| {
@@ -70,7 +70,7 @@ pub(crate) fn calibrate_at(
 ) -> Result<Calibration, Error> {
     let mut session = session.clone();
     for pose in session.observations.iter_mut().flat_map(|o| &mut o.candidates) {
-        pose.camera_from_target = shrunk(&pose.camera_from_target, scale);
+        pose.camera_from_target = pose.camera_from_target.farther(1.0 / scale);
     }
     let mut config = config.clone();
     config.unknown.scale = true;
@@ -108,17 +108,6 @@ pub(crate) fn undetermined(session: &Session, error: &Error) -> Result<Calibrati
     Ok(result)
 }
 
-/// The pair in metres.
-pub(crate) fn metric(pair: &PosePair, scale: f64) -> PosePair {
-    PosePair { camera_from_target: shrunk(&pair.camera_from_target, scale), ..*pair }
-}
-
-fn shrunk<A, B>(pose: &Pose<A, B>, scale: f64) -> Pose<A, B> {
-    let mut iso = *pose.iso();
-    iso.translation.vector /= scale;
-    Pose::claim(iso)
-}
-
 /// Small sets that are drawn; with 40 % wrong captures one in eight sets of four is clean.
 const DRAWS: usize = 60;
 /// Captures in a small set: one more than needed.
@@ -136,7 +125,7 @@ pub(crate) fn first_scale(pairs: &[PosePair]) -> Result<f64, Error> {
         andreff::solve_with_scale(&some).ok()
     });
     let score = |s: &andreff::Scaled| {
-        let metric: Vec<PosePair> = pairs.iter().map(|p| self::metric(p, 1.0 / s.scale)).collect();
+        let metric: Vec<PosePair> = pairs.iter().map(|p| p.farther(s.scale)).collect();
         settle::misfit(&s.hand_eye, &metric)
     };
     let all = whole.clone().ok().into_iter().chain(small);
@@ -168,7 +157,7 @@ fn draws(n: usize) -> Vec<[usize; DRAWN]> {
 mod tests {
     use super::*;
     use crate::{
-        HandEye, Observation, Setup, TargetPose, Verdict, lie,
+        HandEye, Observation, Pose, Setup, TargetPose, Verdict, lie,
         simulate::Random,
         solve::tests::{exact_pairs, noisy_pairs, pose, truths},
     };
@@ -183,7 +172,7 @@ mod tests {
             corners: vec![],
             surface: vec![],
             candidates: vec![TargetPose {
-                camera_from_target: shrunk(&p.camera_from_target, 1.0 / scale),
+                camera_from_target: p.camera_from_target.farther(scale),
                 covariance: None,
             }],
         };

@@ -67,8 +67,7 @@ impl Unknown {
         let c = &view.pair.camera_from_target;
         let mut by = SMatrix::<f64, 6, CAMERA>::zeros();
         if self.scale {
-            let outward = c.rotation().transpose() * c.translation();
-            by.fixed_view_mut::<3, 1>(3, TARGET_SCALE).copy_from(&outward);
+            by.set_column(TARGET_SCALE, &Sight::by_size(c));
         }
         if let Some(velocity) = velocity {
             let target_from_mount = (at.mount_from_camera * *c).inverse();

@@ -11,7 +11,7 @@
 //! So a fit over many views keeps one pose a view, and yet knows all corners. The model of a scan:
 //! it reads `z' = (1 + scale) z + bias` along the ray.
 
-use nalgebra::{Isometry3, Matrix6, SMatrix, SVector, Vector3};
+use nalgebra::{Isometry3, Matrix6, SMatrix, SVector, Vector3, Vector6};
 
 use super::planar_pose::{Fit, PosedTarget, moved};
 use crate::{Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel};
@@ -44,6 +44,13 @@ impl Sight {
     /// A view of which only this is known: how its pose moves.
     pub fn moving(by_camera: SMatrix<f64, 6, CAMERA>) -> Self {
         Self { by_camera, information: SMatrix::zeros(), gradient: SVector::zeros() }
+    }
+
+    /// How a pose of unknown corners moves with the size of the target: the larger, the farther
+    /// away, `t (1 + s) = t + R (Rᵀ t) s`.
+    pub fn by_size(camera_from_target: &Pose<Camera, Target>) -> Vector6<f64> {
+        let outward = camera_from_target.rotation().transpose() * camera_from_target.translation();
+        Vector6::new(0.0, 0.0, 0.0, outward.x, outward.y, outward.z)
     }
 
     /// The same for a pose in another frame of the target: `carry = Ad(new_from_old)`.

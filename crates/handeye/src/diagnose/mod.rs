@@ -113,8 +113,7 @@ pub fn target_scale(
     use statrs::distribution::{ContinuousCDF, FisherSnedecor};
     let size = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), 1.0);
     let fit_scale = |views: &[View], start: &HandEye| {
-        let scaling = |v: &View| View { sight: Some(by_scale(v).into()), ..v.clone() };
-        let views = views.iter().map(scaling).collect();
+        let views = views.iter().map(of_any_size).collect();
         let problem =
             Problem { setup, views, boards: vec![], extras: vec![size], known_position: None };
         let fit = refine::fit_joint(&problem, start, known).ok()?;
@@ -138,20 +137,16 @@ const SCALES: (f64, f64) = (0.2, 5.0);
 pub fn rescaled(views: &[View], s: f64) -> Vec<View> {
     let mut all = views.to_vec();
     for view in &mut all {
-        let mut iso = *view.pair.camera_from_target.iso();
-        iso.translation.vector *= s;
-        view.pair.camera_from_target = Pose::claim(iso);
+        view.pair.camera_from_target = view.pair.camera_from_target.farther(s);
     }
     all
 }
 
-/// A larger target is farther away: `t (1 + s) = t + R (Rᵀ t) s`.
-fn by_scale(view: &View) -> Sight {
-    let c = &view.pair.camera_from_target;
+/// A view of which the size of its target is open.
+fn of_any_size(view: &View) -> View {
     let mut by = nalgebra::SMatrix::<f64, 6, CAMERA>::zeros();
-    let outward = c.rotation().transpose() * c.translation();
-    by.fixed_view_mut::<3, 1>(3, TARGET_SCALE).copy_from(&outward);
-    Sight::moving(by)
+    by.set_column(TARGET_SCALE, &Sight::by_size(&view.pair.camera_from_target));
+    View { sight: Some(Sight::moving(by).into()), ..view.clone() }
 }
 
 /// A capture whose picture fits another capture's robot pose: `(picture, robot pose)`.

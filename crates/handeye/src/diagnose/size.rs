@@ -9,7 +9,7 @@ use super::{
     strays::same_robot,
 };
 use crate::{
-    HandEye, Pose, PosePair, linalg,
+    HandEye, PosePair, linalg,
     solve::{
         self, Method,
         consensus::{self, Consensus, Readings},
@@ -58,14 +58,9 @@ fn distinct(captures: &[Readings]) -> Vec<Readings> {
 
 /// Captures as they would be with a target `s` times as large.
 pub fn rescaled(captures: &[Readings], s: f64) -> Vec<Readings> {
-    let larger = |pose: &Pose<crate::Camera, crate::Target>| {
-        let mut iso = *pose.iso();
-        iso.translation.vector *= s;
-        Pose::claim(iso)
-    };
     let one = |c: &Readings| Readings {
         anchor_from_mount: c.anchor_from_mount,
-        camera_from_target: c.camera_from_target.iter().map(larger).collect(),
+        camera_from_target: c.camera_from_target.iter().map(|p| p.farther(s)).collect(),
     };
     captures.iter().map(one).collect()
 }

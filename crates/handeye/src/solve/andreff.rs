@@ -22,7 +22,7 @@
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, Vector4};
 
 use super::{check, jacobi, kronecker, moments, moments::Translations, open, place};
-use crate::{Error, HandEye, Pose, PosePair};
+use crate::{Error, HandEye, PosePair};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let all = moments::seen(pairs)?;
@@ -84,7 +84,7 @@ pub(super) fn scaled(pairs: &[PosePair]) -> Result<Scaled, Error> {
         jacobi::nearest_rotation(&(null * null.determinant().signum())).ok_or_else(free)?;
     let r_x = rotation.to_rotation_matrix().into_inner();
     let (t, scale) = position_and_scale(&Translations::of_all(&all), &r_x)?;
-    let metric: Vec<PosePair> = pairs.iter().map(|p| in_unit(p, scale)).collect();
+    let metric: Vec<PosePair> = pairs.iter().map(|p| p.farther(scale)).collect();
     Ok(Scaled { hand_eye: place(&metric, Isometry3::from_parts(t.into(), rotation)), scale })
 }
 
@@ -107,13 +107,6 @@ fn position_and_scale(
     }
 }
 
-/// The pair with the camera's positions times `scale`.
-fn in_unit(pair: &PosePair, scale: f64) -> PosePair {
-    let mut iso = *pair.camera_from_target.iso();
-    iso.translation.vector *= scale;
-    PosePair { camera_from_target: Pose::claim(iso), ..*pair }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,7 +117,7 @@ mod tests {
         for truth in truths() {
             for scale in [0.001, 0.4, 25.4] {
                 let pairs: Vec<PosePair> =
-                    exact_pairs(&truth, 6).iter().map(|p| in_unit(p, 1.0 / scale)).collect();
+                    exact_pairs(&truth, 6).iter().map(|p| p.farther(1.0 / scale)).collect();
                 let found = solve_with_scale(&pairs).unwrap();
                 assert!((found.scale / scale - 1.0).abs() < 1e-9);
                 let (x, y) = (found.hand_eye.mount_from_camera, found.hand_eye.anchor_from_target);

@@ -14,7 +14,6 @@ use crate::{
     calibrate::settle::{Captures, Settled},
     lie,
     refine::pose_fit,
-    unscaled,
 };
 
 /// Most views; more would take long and hardly tell more.
@@ -104,9 +103,8 @@ impl Both {
     /// out.
     pub fn captures(&self, chosen: &[usize], offset: f64, scale: f64) -> Captures {
         let moments = chosen.iter().filter_map(|&k| self.moment(k, offset));
-        let (pairs, velocities) = moments
-            .map(|m| (unscaled::metric(&self.pair(&m), scale), self.mount_velocity(&m)))
-            .unzip();
+        let (pairs, velocities) =
+            moments.map(|m| (self.pair(&m).farther(1.0 / scale), self.mount_velocity(&m))).unzip();
         Captures { pairs, velocities: Some(velocities) }
     }
 }
