@@ -45,6 +45,10 @@ const SETTLED: f64 = 0.1;
 /// Fewest views that say anything about a lens beside the poses.
 const FEWEST_VIEWS: usize = 6;
 
+/// How many of the lens' unknowns are focal lengths, and how many the principal point.
+const FOCAL_LENGTHS: usize = 2;
+const CENTRE: usize = 2;
+
 /// Beliefs about a camera that was given: focal length (share), principal point (share of the
 /// width), and the distortion terms.
 const GIVEN_FOCAL: f64 = 0.01;
@@ -139,7 +143,10 @@ fn what_to_free(
     let always = if own { lens(camera, true) } else { vec![] };
     let mut sets = vec![always.clone()];
     if !own {
-        sets.push(lens(camera, false));
+        // every unknown has its price: a wrong focal length alone must not pay for all of the lens
+        let all = lens(camera, false);
+        let first = [FOCAL_LENGTHS, FOCAL_LENGTHS + CENTRE, all.len()];
+        sets.extend(first.map(|n| all[..n].to_vec()));
     }
     if given.observations.iter().any(|o| !o.surface.is_empty()) {
         let with_depth = |set: &Vec<Extra>| [set.clone(), depth()].concat();
