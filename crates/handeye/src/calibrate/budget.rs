@@ -4,28 +4,20 @@
 //! noise: `C = Σ_k C M_k C` with `M_k = Σ Jᵀ V⁻¹ (θ_k G_k) V⁻¹ J`. What a change would do follows
 //! from the information as it were then.
 
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::DMatrix;
 
+use super::workpiece::Workpiece;
 use crate::{
     calibration::{Advice, BudgetEntry},
     refine::{JointFit, NoiseModel, Problem, Sigma, noise::Source},
 };
 
-/// Root mean square over the volume (mm) of an error with this covariance of all unknowns.
-type RmsMm<'a> = dyn Fn(&DMatrix<f64>) -> Option<f64> + 'a;
-
-/// RMS of points with these covariances (m²), mm.
-pub(super) fn rms_mm(spread: &[Matrix3<f64>]) -> f64 {
-    let sum: f64 = spread.iter().map(|s| s.trace()).sum();
-    (sum / spread.len().max(1) as f64).max(0.0).sqrt() * 1e3
-}
-
 /// Every source of error with its size and its part in the error at the workpiece.
-pub(super) fn budget(problem: &Problem, fit: &JointFit, rms: &RmsMm) -> Vec<BudgetEntry> {
+pub(super) fn budget(problem: &Problem, fit: &JointFit, at: &Workpiece) -> Vec<BudgetEntry> {
     let shares = fit.covariance_shares(problem);
     let at_workpiece = |source: Option<Source>| {
         let (_, covariance) = shares.iter().find(|(s, _)| *s == source)?;
-        rms(covariance)
+        at.rms_mm(covariance)
     };
     let entry = |s: &Sigma| BudgetEntry {
         source: s.source.name().into(),
@@ -82,10 +74,10 @@ const CHANGES: [(&str, &[Source]); 3] = [
 ];
 
 /// What would help, the most helpful first.
-pub(super) fn advice(problem: &Problem, fit: &JointFit, rms: &RmsMm) -> Vec<Advice> {
+pub(super) fn advice(problem: &Problem, fit: &JointFit, at: &Workpiece) -> Vec<Advice> {
     let mut all = vec![];
     let mut add = |change: &str, covariance: Option<DMatrix<f64>>| {
-        if let Some(mm) = covariance.and_then(|c| rms(&c)) {
+        if let Some(mm) = covariance.and_then(|c| at.rms_mm(&c)) {
             all.push(Advice { change: change.into(), predicted_tre_mm: mm });
         }
     };

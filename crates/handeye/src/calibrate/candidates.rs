@@ -1,6 +1,6 @@
 //! Every way to the answer, side by side, and the choice between them.
 
-use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
+use nalgebra::Matrix6;
 
 use super::{
     Config,
@@ -9,6 +9,7 @@ use super::{
     joint::{self, Joint, held_out_views},
     optics::{self, Optics},
     verdict,
+    workpiece::{Workpiece, inflation},
 };
 use crate::{
     Camera, Error, HandEye, Mount, Pose, PosePair, Setup, Target, Warning, Workspace,
@@ -16,7 +17,7 @@ use crate::{
     diagnose,
     evaluate::{self, Estimator},
     predict::{self, Volume},
-    refine::{self, JointFit},
+    refine::{self, JointFit, Problem},
     solve::{self, Method, consensus::Consensus},
     touches::{self, Registration, TouchPairs},
 };
@@ -29,12 +30,49 @@ pub(super) fn estimate<'a>(
     config: &Config,
     result: &mut Calibration,
 ) -> Option<Views<'a>> {
-    let setup = views.session.setup;
-    result.diversity = Some(evaluate::diversity(&pairs_of(&views)));
-    if !optics.extras.is_empty() {
-        views.views = optics::with_sights(&views);
+    let (problem, fit) = fit_views(&mut views, found, optics, config, result)?;
+    let volume = volume(&views, &fit)?;
+    let paired = captures::pair_touches(&views, &fit, result);
+    let boards = boards::boards(&views, &fit, optics);
+    let joint = joint::fit(&views, &boards, &problem.extras, &fit, &config.known);
+    if let Some(joint) = &joint {
+        joint.warn(&views, result);
     }
-    config.unknown.set_free(&mut views, &found.hand_eye);
+    let (best, whole) = joint.as_ref().map_or((&fit, &problem), |j| (&j.fit, &j.problem));
+    name_free(&views, &fit, best, result);
+    let workpiece = Workpiece::new(&views, &volume, best);
+    result.error_budget = budget::budget(whole, best, &workpiece);
+    result.advice = budget::advice(whole, best, &workpiece);
+    let judge =
+        Judge { views: &views, paired: &paired, known: config.known, workpiece: &workpiece };
+    let mut candidates = judge.view_candidates(&fit, joint.is_some(), config);
+    candidates.extend(judge.touch_candidates(&fit, config, result));
+    if config.method.is_none() {
+        candidates.extend(joint.as_ref().and_then(|j| judge.joint_candidate(j)));
+    }
+    choose(candidates, &views, &volume, config, result);
+    if let (Some(tre), Some(x)) = (&mut result.predicted_tre_mm, &result.hand_eye.mount_from_camera)
+    {
+        tre.map = workpiece.map(x);
+    }
+    captures::report_touches(&views, &paired, joint.as_ref(), result);
+    Some(views)
+}
+
+/// The likeliest answer of views alone, and what it says beside both poses.
+fn fit_views(
+    views: &mut Views,
+    found: &Consensus,
+    optics: &Optics,
+    config: &Config,
+    result: &mut Calibration,
+) -> Option<(Problem, JointFit)> {
+    let setup = views.session.setup;
+    result.diversity = Some(evaluate::diversity(&pairs_of(views)));
+    if !optics.extras.is_empty() {
+        views.views = optics::with_sights(views);
+    }
+    config.unknown.set_free(views, &found.hand_eye);
     let extras = [optics.extras.as_slice(), &config.unknown.extras()].concat();
     let problem = joint::views_problem(views.session, &views.views, &extras);
     let mut fit = match refine::fit_joint(&problem, &found.hand_eye, &config.known) {
@@ -45,57 +83,11 @@ pub(super) fn estimate<'a>(
             return None;
         }
     };
-    captures::orient_target(&mut views, &mut fit);
-    let problem = joint::views_problem(views.session, &views.views, &extras);
+    captures::orient_target(views, &mut fit);
     optics.report(views.session, &fit, result);
     config.unknown.report(&fit, result);
-    verdict::judge_scale(&views, &fit, config, result);
-    let volume = volume(&views, &fit)?;
-    let paired = captures::pair_touches(&views, &fit, result);
-    let joint =
-        joint::fit(&views, &boards::boards(&views, &fit, optics), &extras, &fit, &config.known);
-    if let Some(joint) = &joint {
-        joint.warn(&views, result);
-    }
-    let (best, whole) = joint.as_ref().map_or((&fit, &problem), |j| (&j.fit, &j.problem));
-    name_free(&views, &fit, best, result);
-    let spread_of = |covariance: &DMatrix<f64>, p: &Vector3<f64>| {
-        optics::spread(&views, &best.extras, &(covariance * inflation(best)?), p)
-    };
-    let all_spread = |covariance: &DMatrix<f64>| -> Option<Vec<Matrix3<f64>>> {
-        volume.points.iter().map(|p| spread_of(covariance, p)).collect()
-    };
-    let spread = best.covariance.as_ref().and_then(all_spread);
-    let rms = |covariance: &DMatrix<f64>| Some(budget::rms_mm(&all_spread(covariance)?));
-    result.error_budget = budget::budget(whole, best, &rms);
-    result.advice = budget::advice(whole, best, &rms);
-    let judge = Judge {
-        views: &views,
-        volume: &volume,
-        paired: &paired,
-        known: config.known,
-        best,
-        spread,
-    };
-    let mut candidates = judge.view_candidates(&fit, joint.is_some(), config);
-    candidates.extend(judge.touch_candidates(&fit, config, result));
-    if config.method.is_none() {
-        candidates.extend(joint.as_ref().and_then(|j| judge.joint_candidate(j)));
-    }
-    choose(candidates, &views, &volume, config, result);
-    if let (Some(tre), Some(covariance)) = (&mut result.predicted_tre_mm, &best.covariance)
-        && let Some(x) = &result.hand_eye.mount_from_camera
-    {
-        let seen = |p: &Vector3<f64>| {
-            let camera = views.session.camera.as_ref();
-            let hidden = camera.is_some_and(|c| !optics::in_picture(c, p));
-            if hidden { None } else { spread_of(covariance, p) }
-        };
-        let offset = predict::difference(&best.hand_eye.mount_from_camera, x);
-        tre.map = Some(predict::map(&volume, seen, offset));
-    }
-    captures::report_touches(&views, &paired, joint.as_ref(), result);
-    Some(views)
+    verdict::judge_scale(views, &fit, config, result);
+    Some((joint::views_problem(views.session, &views.views, &extras), fit))
 }
 
 /// Names what the best answer leaves free, and what views alone would have.
@@ -134,14 +126,6 @@ fn stated_covariance(fit: &JointFit) -> Option<refine::pose_fit::Matrix12> {
     fit.pose_covariance().zip(inflation(fit)).map(|(c, factor)| c * factor)
 }
 
-/// Factor on covariances, for noise estimated from few captures and for misfit.
-fn inflation(fit: &JointFit) -> Option<f64> {
-    let dof = fit.degrees_of_freedom;
-    let misfit = if dof > 0.0 { (fit.chi_squared / dof).max(1.0) } else { 1.0 };
-    let factor = misfit * touches::small_sample(dof);
-    factor.is_finite().then_some(factor)
-}
-
 fn blocks(covariance: &refine::pose_fit::Matrix12) -> (Matrix6<f64>, Matrix6<f64>) {
     (
         covariance.fixed_view::<6, 6>(0, 0).into_owned(),
@@ -149,25 +133,15 @@ fn blocks(covariance: &refine::pose_fit::Matrix12) -> (Matrix6<f64>, Matrix6<f64
     )
 }
 
-/// What every candidate is judged by: the best answer and how sure it is. A candidate's predicted
-/// error is that of the best answer plus, in full, the distance of the two: given everything that
-/// was measured, that is its expected error.
+/// What every candidate is judged by.
 struct Judge<'a> {
     views: &'a Views<'a>,
-    volume: &'a Volume,
     paired: &'a [TouchPairs],
     known: refine::KnownNoise,
-    best: &'a JointFit,
-    /// Covariance of each point of the volume, m².
-    spread: Option<Vec<Matrix3<f64>>>,
+    workpiece: &'a Workpiece<'a>,
 }
 
 impl Judge<'_> {
-    fn tre(&self, x: &Pose<Mount, Camera>) -> Option<predict::PredictedTre> {
-        let offset = predict::difference(&self.best.hand_eye.mount_from_camera, x);
-        Some(predict::tre_of_points(self.volume, self.spread.as_ref()?, offset))
-    }
-
     fn view_candidates(&self, fit: &JointFit, touched: bool, config: &Config) -> Vec<Judged> {
         let likeliest = if touched { "views-only" } else { "joint" };
         let closed = |m: Method| (format!("closed-form-{}", m.name()), Estimator::ClosedForm(m));
@@ -212,7 +186,7 @@ impl Judge<'_> {
     ) -> Judged {
         let views = self.views;
         let x = answer.mount_from_camera;
-        let tre = self.tre(&x);
+        let tre = self.workpiece.tre(&x);
         let held_out = evaluate::rms(&left_out);
         let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
         let covariance = stated_covariance(fit);
@@ -233,7 +207,7 @@ impl Judge<'_> {
     fn joint_candidate(&self, joint: &Joint) -> Option<Judged> {
         let fit = &joint.fit;
         let x = fit.hand_eye.mount_from_camera;
-        let tre = self.tre(&x);
+        let tre = self.workpiece.tre(&x);
         let left_out = held_out_views(&joint.problem, fit, &self.known);
         let held_out = evaluate::rms(&left_out);
         let touch_held_out = joint.held_out_touches(&self.known).map(|m| m * 1e3);
@@ -309,7 +283,7 @@ impl Judge<'_> {
         let shared = touches::view_covariance(paired, &view_noise(views, fit));
         let covariance = found.covariance.map(|c| c + shared.unwrap_or_else(Matrix6::zeros));
         // nearest neighbours that differ from the touched corners prove the match wrong
-        let tre = self.tre(&x).filter(|_| found.wrong_matches == 0);
+        let tre = self.workpiece.tre(&x).filter(|_| found.wrong_matches == 0);
         let placed = solve::place_target(&pairs_of(views), &x);
         let held_out = evaluate::placed_without(&views.views, &x);
         let candidate = Candidate {

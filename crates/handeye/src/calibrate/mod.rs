@@ -21,6 +21,7 @@ pub(crate) mod settle;
 mod sources;
 mod unknown;
 mod verdict;
+mod workpiece;
 
 use crate::{
     Correspondence, Error, Intrinsics, Observation, Placement, Setup, TargetModel, Touch,

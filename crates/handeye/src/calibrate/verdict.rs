@@ -34,6 +34,7 @@ pub(super) fn conclude(config: &Config, result: &mut Calibration) {
     if result.verdict == Verdict::Rejected || !contradictions.is_empty() {
         // data that contradict themselves leave nothing to determine
         result.undetermined.clear();
+        result.determined = None;
         result.reasons.extend(contradictions);
         result.verdict = Verdict::Rejected;
         return;

@@ -1,0 +1,71 @@
+//! How far off points will be where the answer is used.
+
+use nalgebra::{DMatrix, Matrix3, Vector3};
+
+use super::{agreement::Views, optics};
+use crate::{
+    Camera, Mount, Pose,
+    predict::{self, PredictedTre, Volume},
+    refine::JointFit,
+    touches,
+};
+
+/// Factor on covariances, for noise estimated from few captures and for misfit.
+pub(super) fn inflation(fit: &JointFit) -> Option<f64> {
+    let dof = fit.degrees_of_freedom;
+    let misfit = if dof > 0.0 { (fit.chi_squared / dof).max(1.0) } else { 1.0 };
+    let factor = misfit * touches::small_sample(dof);
+    factor.is_finite().then_some(factor)
+}
+
+/// Where the answer is used, and the best answer there.
+pub(super) struct Workpiece<'a> {
+    views: &'a Views<'a>,
+    volume: &'a Volume,
+    best: &'a JointFit,
+    /// Covariance of each point of the volume under the best answer, m².
+    spread: Option<Vec<Matrix3<f64>>>,
+}
+
+impl<'a> Workpiece<'a> {
+    pub fn new(views: &'a Views<'a>, volume: &'a Volume, best: &'a JointFit) -> Self {
+        let mut workpiece = Self { views, volume, best, spread: None };
+        workpiece.spread = best.covariance.as_ref().and_then(|c| workpiece.spread_of(c));
+        workpiece
+    }
+
+    /// Covariance (m²) of where a point of the camera lands, for a covariance of all unknowns.
+    fn spread_at(&self, covariance: &DMatrix<f64>, p: &Vector3<f64>) -> Option<Matrix3<f64>> {
+        optics::spread(self.views, &self.best.extras, &(covariance * inflation(self.best)?), p)
+    }
+
+    fn spread_of(&self, covariance: &DMatrix<f64>) -> Option<Vec<Matrix3<f64>>> {
+        self.volume.points.iter().map(|p| self.spread_at(covariance, p)).collect()
+    }
+
+    /// Root mean square error (mm) over the volume, for a covariance of all unknowns.
+    pub fn rms_mm(&self, covariance: &DMatrix<f64>) -> Option<f64> {
+        let spread = self.spread_of(covariance)?;
+        let sum: f64 = spread.iter().map(|s| s.trace()).sum();
+        Some((sum / spread.len().max(1) as f64).max(0.0).sqrt() * 1e3)
+    }
+
+    /// Predicted error of an answer: that of the best one, and in full the distance of the two.
+    /// Given all that was measured, that is its expected error.
+    pub fn tre(&self, x: &Pose<Mount, Camera>) -> Option<PredictedTre> {
+        let offset = predict::difference(&self.best.hand_eye.mount_from_camera, x);
+        Some(predict::tre_of_points(self.volume, self.spread.as_ref()?, offset))
+    }
+
+    /// The same in slices through the volume, where the camera sees.
+    pub fn map(&self, x: &Pose<Mount, Camera>) -> Option<predict::TreMap> {
+        let covariance = self.best.covariance.as_ref()?;
+        let camera = self.views.session.camera.as_ref();
+        let seen = |p: &Vector3<f64>| {
+            let hidden = camera.is_some_and(|c| !optics::in_picture(c, p));
+            if hidden { None } else { self.spread_at(covariance, p) }
+        };
+        let offset = predict::difference(&self.best.hand_eye.mount_from_camera, x);
+        Some(predict::map(self.volume, seen, offset))
+    }
+}
