@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p handeye --example monte_carlo -- [TRIALS] [TRIALS OF THE FIRST] [FILE] [PART]`
 //!
-//! Prints a table; with a FILE, writes it between the markers `monte_carlo` there. PART keeps the
+//! Prints a table; with a FILE other than -, writes it between the markers `monte_carlo` there. PART keeps the
 //! rows whose names contain it.
 
 #[path = "../../../bench/section.rs"]
@@ -350,7 +350,7 @@ fn main() {
         table += &row;
     }
     table += &format!("\n{first} trials of the first row, {trials} of every other.\n");
-    match args.get(2) {
+    match args.get(2).filter(|file| *file != "-") {
         Some(file) => section::write(file, "monte_carlo", &table),
         None => print!("{table}"),
     }
