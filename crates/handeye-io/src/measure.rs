@@ -318,6 +318,7 @@ fn session(
         correspondences: dataset.correspondences.clone(),
         workspace: dataset.workspace.map(|w| w.corners),
         known_position: dataset.known_position,
+        arm: None,
     }
 }
 

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     Anchor, Base, Camera, Flange, HandEye, Intrinsics, Mount, Pose, Setup, Target, Warning,
+    kinematics::{Arm, Parameter},
     predict::PredictedTre,
 };
 
@@ -249,6 +250,64 @@ pub struct DepthResult {
     pub sigma_bias_mm: f64,
 }
 
+/// A tool's tip that is not where the robot believes it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TipResult {
+    /// Tip minus belief, mm.
+    pub offset_mm: [f64; 3],
+    /// Standard deviations, mm.
+    pub sigma_mm: [f64; 3],
+    /// In which frame: `flange`, or `base` where no flange pose was recorded at contact.
+    pub frame: String,
+}
+
+/// What was wrong with the arm, where joint values and its model were given and the data show it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ArmResult {
+    /// The arm as it is.
+    pub model: Arm,
+    /// What differs from the model that was given.
+    pub deviations: Vec<ArmDeviation>,
+    /// Where the camera sits, for a robot that computes with the corrected model.
+    pub mount_from_camera: Pose<Mount, Camera>,
+    /// Where the target sits, likewise.
+    pub anchor_from_target: Pose<Anchor, Target>,
+    /// The tool's tip minus what the robot believes, in the flange, mm; null without touches.
+    pub tip_offset_mm: Option<[f64; 3]>,
+    /// Misfit of captures left out.
+    pub held_out: ArmHeldOut,
+    /// Standard deviation of the robot's position with the model that was given, mm per axis.
+    pub robot_before_mm: f64,
+    /// The same with the corrected one.
+    pub robot_after_mm: f64,
+    /// Predicted error (root mean square) of a robot that computes with the corrected model.
+    pub predicted_tre_mm: Option<f64>,
+}
+
+/// One parameter of the arm that differs from its model.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ArmDeviation {
+    /// Number of the joint; the first one is 1.
+    pub joint: usize,
+    /// Which parameter.
+    pub parameter: Parameter,
+    /// Found minus given: degrees for angles, mm for lengths.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// Whether the data told it, or it is about what was believed beforehand.
+    pub observed: bool,
+}
+
+/// RMS misfit of captures left out, mm.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ArmHeldOut {
+    /// With the model that was given.
+    pub before_mm: Option<f64>,
+    /// With the corrected one.
+    pub after_mm: Option<f64>,
+}
+
 /// What is proven of the least-squares fit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
@@ -334,6 +393,12 @@ pub struct Calibration {
     /// The depth of scans, where it was part of the fit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth: Option<DepthResult>,
+    /// The tool's tip, where the data show that it is not where the robot believes it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip: Option<TipResult>,
+    /// What is wrong with the arm, where that was looked for and found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arm: Option<ArmResult>,
     /// What is proven of the least-squares fit, where that was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<Certificate>,

@@ -11,6 +11,7 @@ pub mod evaluate;
 pub mod frame;
 pub mod image;
 pub mod intrinsics;
+pub mod kinematics;
 pub mod lens;
 pub mod lie;
 pub mod linalg;

@@ -80,6 +80,8 @@ pub struct Observation {
     pub capture: String,
     /// What the robot reported.
     pub base_from_flange: Pose<Base, Flange>,
+    /// Values of its joints there (rad, m), from the base outwards; empty where none were recorded.
+    pub joints: Vec<f64>,
     /// Corners in the picture; empty when only the pose is known.
     pub corners: Vec<ImageCorner>,
     /// Corners in the scan; empty without a scan.
@@ -116,6 +118,8 @@ pub struct Touch {
     pub in_base: Point<Base>,
     /// Where the flange was, if it was recorded.
     pub base_from_flange: Option<Pose<Base, Flange>>,
+    /// Values of the joints there, as in [`Observation::joints`].
+    pub joints: Vec<f64>,
 }
 
 /// One physical point, measured by the camera and known to the robot.

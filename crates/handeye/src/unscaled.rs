@@ -169,6 +169,7 @@ mod tests {
                 Setup::EyeInHand => p.anchor_from_mount.rename(),
                 Setup::EyeToHand => p.anchor_from_mount.inverse().rename(),
             },
+            joints: vec![],
             corners: vec![],
             surface: vec![],
             candidates: vec![TargetPose {
@@ -187,6 +188,7 @@ mod tests {
             correspondences: vec![],
             workspace: None,
             known_position: None,
+            arm: None,
         }
     }
 

@@ -37,6 +37,7 @@ fn session(turn: f64) -> Session {
         Observation {
             capture: format!("{k:02}"),
             base_from_flange,
+            joints: vec![],
             corners: vec![],
             surface: vec![],
             candidates: vec![TargetPose {
@@ -56,6 +57,7 @@ fn session(turn: f64) -> Session {
         correspondences: vec![],
         workspace: None,
         known_position: None,
+        arm: None,
     }
 }
 
@@ -66,6 +68,7 @@ fn touched(corners: &[u32]) -> Vec<Touch> {
         corner,
         in_base: Point::from_vector((base_from_target() * board.corner(corner).unwrap()).vector()),
         base_from_flange: None,
+        joints: vec![],
     };
     corners.iter().map(touch).collect()
 }

@@ -186,6 +186,7 @@ fn session(setup: Setup, pairs: Vec<Pair>, path: &Path) -> Result<Session, Failu
         observations.push(Observation {
             capture,
             base_from_flange: pair.base_from_flange,
+            joints: vec![],
             corners: vec![],
             surface: vec![],
             candidates: vec![TargetPose {
@@ -197,6 +198,7 @@ fn session(setup: Setup, pairs: Vec<Pair>, path: &Path) -> Result<Session, Failu
     Ok(Session {
         camera_from_views: false,
         known_position: None,
+        arm: None,
         setup,
         target: None,
         camera: None,

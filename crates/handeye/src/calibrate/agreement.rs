@@ -64,6 +64,7 @@ impl Captures<'_> {
             pair: self.pair(i, reading),
             covariance: covariance.map(|c| carry * c * carry.transpose()),
             sight: None,
+            by_arm: None,
         }
     }
 

@@ -58,6 +58,7 @@ impl Boards {
         let corner = |&k: &usize| TouchedCorner {
             in_base: touches[k].in_base.vector(),
             base_from_flange: touches[k].base_from_flange,
+            by_arm: None,
             in_target: target
                 .corner(touches[k].corner)
                 .map_or(Vector3::zeros(), |c| c.vector() - target.reference().vector()),
@@ -92,5 +93,6 @@ fn seen(
         pair: PosePair { anchor_from_mount: unused, camera_from_target: about_corner },
         covariance: pose.covariance.map(|c| carry * c * carry.transpose()),
         sight: sight.map(|s| s.carried(&carry).into()),
+        by_arm: None,
     })
 }

@@ -5,7 +5,7 @@ use nalgebra::Matrix6;
 use super::{
     Config,
     agreement::Views,
-    boards, budget, captures,
+    arm, boards, budget, captures,
     joint::{self, Joint, held_out_views},
     optics::{self, Optics},
     verdict,
@@ -38,7 +38,20 @@ pub(super) fn estimate<'a>(
     if let Some(joint) = &joint {
         joint.warn(&views, result);
     }
+    let used = joint.as_ref().map_or(&[][..], |j| &j.used);
     let (best, whole) = joint.as_ref().map_or((&fit, &problem), |j| (&j.fit, &j.problem));
+    let arm = match arm::look(&views, whole, best, used, config) {
+        Ok(arm) => arm,
+        Err(warning) => {
+            result.warnings.push(warning);
+            None
+        }
+    };
+    if let Some(arm) = &arm {
+        let own = arm.fit.hand_eye.retarget(views.target_from_corner.inverse());
+        result.arm = Some(arm.result(&own));
+        result.warnings.push(arm.warning());
+    }
     name_free(&views, &fit, best, result);
     let workpiece = Workpiece::new(&views, &volume, best);
     result.error_budget = budget::budget(whole, best, &workpiece);

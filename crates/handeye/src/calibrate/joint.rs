@@ -7,7 +7,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 use super::{Session, agreement::Views, boards::Boards};
 use crate::{
     Warning,
-    calibration::Calibration,
+    calibration::{Calibration, TipResult},
     evaluate,
     refine::{
         self, Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, View,
@@ -306,6 +306,12 @@ impl Joint {
         if let Some(tip) = &self.wrong_tip {
             let [x, y, z] = tip.offset.map(|v| v * 1e3).into();
             let frame = if tip.in_flange { "flange" } else { "base" };
+            let sigma = |k| self.fit.extra(ExtraKind::Tip(k)).map_or(0.0, |t| t.1 * 1e3);
+            result.tip = Some(TipResult {
+                offset_mm: [x, y, z],
+                sigma_mm: std::array::from_fn(sigma),
+                frame: frame.into(),
+            });
             result.warnings.push(Warning::new(
                 "tip-off",
                 format!(

@@ -7,6 +7,7 @@
 //! Point pairs alone take the short way through `points`.
 
 mod agreement;
+mod arm;
 mod boards;
 mod budget;
 mod candidates;
@@ -27,6 +28,7 @@ use crate::{
     Correspondence, Error, Intrinsics, Observation, Placement, Setup, TargetModel, Touch,
     Workspace,
     calibration::{Answer, Calibration, Misfit, Verdict},
+    kinematics::Arm,
     refine::{KnownPosition, noise::KnownNoise},
     register::IcpConfig,
     solve::Method,
@@ -59,6 +61,8 @@ pub struct Session {
     pub workspace: Option<Workspace>,
     /// What is known of the camera's place on the mount.
     pub known_position: Option<KnownPosition>,
+    /// The arm as its maker describes it, where that is known.
+    pub arm: Option<Arm>,
 }
 
 /// What the user wants of a calibration.
@@ -217,6 +221,8 @@ fn empty(session: &Session) -> Calibration {
         target_scale: None,
         camera: None,
         depth: None,
+        tip: None,
+        arm: None,
         certificate: None,
         warnings: vec![],
     }

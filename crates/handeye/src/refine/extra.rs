@@ -10,6 +10,8 @@ pub enum ExtraKind {
     /// Where the tip is beyond where the robot believes it, axis of the flange (m); of the base
     /// where no flange pose was recorded at contact.
     Tip(usize),
+    /// A deviation of the arm from its model, by its number among those that are free (rad, m).
+    Arm(usize),
     /// Systematic difference between the views and the touched places, in units of its own size.
     Systematic(usize),
 }

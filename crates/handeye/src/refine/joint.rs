@@ -227,8 +227,8 @@ fn levelled(
     mut noise: NoiseModel,
     known: &KnownNoise,
 ) -> NoiseModel {
-    let camera = |e: &&Extra| matches!(e.kind, ExtraKind::Camera(_));
-    let extras = problem.extras.iter().filter(camera).copied().collect();
+    let of_views = |e: &&Extra| matches!(e.kind, ExtraKind::Camera(_) | ExtraKind::Arm(_));
+    let extras = problem.extras.iter().filter(of_views).copied().collect();
     let views_only = Problem { boards: vec![], extras, ..problem.clone() };
     let mut state = State::new(&views_only, *start, noise.clone());
     for _ in 0..2 {

@@ -9,7 +9,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DVector, Matrix6, SMatrix, SVector, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, SMatrix, SVector, Vector6};
 
 use super::extra::{Extra, ExtraKind};
 use crate::{HandEye, PosePair, detect::Sight, lie, linalg};
@@ -23,12 +23,15 @@ pub struct View {
     pub covariance: Option<Matrix6<f64>>,
     /// How the target pose depends on camera and target, and what the corners say about these.
     pub sight: Option<Arc<Sight>>,
+    /// How the robot pose moves with the arm's deviations: 6 rows, rotation first, for
+    /// `anchor_from_mount` perturbed on the right.
+    pub by_arm: Option<Arc<DMatrix<f64>>>,
 }
 
 impl View {
     /// A pose that came from elsewhere, of unknown covariance.
     pub fn bare(pair: PosePair) -> Self {
-        Self { pair, covariance: None, sight: None }
+        Self { pair, covariance: None, sight: None, by_arm: None }
     }
 
     /// How the target pose moves with one parameter.
@@ -36,17 +39,33 @@ impl View {
         self.sight.as_ref().map_or_else(Vector6::zeros, |s| s.by_camera.column(which).into())
     }
 
-    /// The pair at other values of the camera's parameters.
+    /// How the robot pose moves with one deviation of the arm.
+    pub(super) fn by_arm(&self, which: usize) -> Vector6<f64> {
+        self.by_arm
+            .as_ref()
+            .filter(|m| which < m.ncols())
+            .map_or_else(Vector6::zeros, |m| m.fixed_view::<6, 1>(0, which).into())
+    }
+
+    /// The pair at other values of the camera's parameters and of the arm's.
     pub(crate) fn with(&self, extras: &[Extra], values: &DVector<f64>) -> PosePair {
-        let Some(sight) = &self.sight else { return self.pair };
-        let mut step = Vector6::zeros();
+        let mut pair = self.pair;
+        if self.sight.is_none() && self.by_arm.is_none() {
+            return pair;
+        }
+        let (mut of_target, mut of_robot) = (Vector6::zeros(), Vector6::zeros());
         for (extra, value) in extras.iter().zip(values) {
-            if let ExtraKind::Camera(which) = extra.kind {
-                step += sight.by_camera.column(which) * *value;
+            match extra.kind {
+                ExtraKind::Camera(which) => of_target += self.by_camera(which) * *value,
+                ExtraKind::Arm(which) => of_robot += self.by_arm(which) * *value,
+                _ => {}
             }
         }
-        let camera_from_target = self.pair.camera_from_target.retract(&step);
-        PosePair { camera_from_target, ..self.pair }
+        pair.camera_from_target = pair.camera_from_target.retract(&of_target);
+        if self.by_arm.is_some() {
+            pair.anchor_from_mount = pair.anchor_from_mount.retract(&of_robot);
+        }
+        pair
     }
 }
 

@@ -14,7 +14,11 @@
 //!
 //! with `l_k` the lever from the flange to the tip.
 
-use nalgebra::{DMatrix, DVector, Isometry3, Matrix3, Matrix3x6, Matrix6, Vector3};
+use std::sync::Arc;
+
+use nalgebra::{
+    DMatrix, DVector, Isometry3, Matrix3, Matrix3x6, Matrix3xX, Matrix6, Vector3, Vector6,
+};
 
 use super::{
     View,
@@ -30,8 +34,39 @@ pub struct TouchedCorner {
     pub in_base: Vector3<f64>,
     /// Where the flange was, if it was recorded.
     pub base_from_flange: Option<Pose<Base, Flange>>,
+    /// How the flange moved with the arm's deviations: 6 rows, rotation first, perturbed on the
+    /// right; it carries the tip along.
+    pub by_arm: Option<Arc<DMatrix<f64>>>,
     /// The corner, about the point at which views state their misfit (m).
     pub in_target: Vector3<f64>,
+}
+
+impl TouchedCorner {
+    /// Rotation of the flange and place of the tip (in the base) where the arm deviates, and how
+    /// that place moves with each deviation.
+    fn by_arm_at(
+        &self,
+        extras: &[Extra],
+        values: &DVector<f64>,
+    ) -> (Matrix3<f64>, Vector3<f64>, Option<Matrix3xX<f64>>) {
+        let Some(flange) = self.base_from_flange else {
+            return (Matrix3::identity(), self.in_base, None);
+        };
+        let Some(by_arm) = &self.by_arm else { return (flange.rotation(), self.in_base, None) };
+        let mut step = Vector6::zeros();
+        for (extra, value) in extras.iter().zip(values) {
+            if let ExtraKind::Arm(which) = extra.kind
+                && which < by_arm.ncols()
+            {
+                step += by_arm.column(which) * *value;
+            }
+        }
+        let tip = flange.rotation().transpose() * (self.in_base - flange.translation());
+        let moved = flange.retract(&step);
+        let rotation = moved.rotation();
+        let place = rotation * tip + moved.translation();
+        (rotation, place, Some(carried(&rotation, &tip) * &**by_arm))
+    }
 }
 
 /// A board that was touched.
@@ -141,11 +176,11 @@ fn fill(
     residual: &mut DVector<f64>,
     jacobian: &mut DMatrix<f64>,
 ) {
-    let flange = corner.base_from_flange.map_or_else(Matrix3::identity, |f| f.rotation());
+    let (flange, touched, by_arm) = corner.by_arm_at(extras, values);
     let tip = Vector3::from_fn(|k, _| super::extra::value(extras, values, ExtraKind::Tip(k)));
     let r = carrier.base_from_board.rotation.to_rotation_matrix().into_inner();
     let in_base = r * corner.in_target + carrier.base_from_board.translation.vector;
-    let mut e = corner.in_base + flange * tip - in_base;
+    let mut e = touched + flange * tip - in_base;
     let by_board = carried(&r, &corner.in_target);
     let (first, by_pose, frame) = match carrier.camera_from_board {
         Some(c) => {
@@ -159,6 +194,9 @@ fn fill(
     for (k, extra) in extras.iter().enumerate() {
         let column: Vector3<f64> = match extra.kind {
             ExtraKind::Tip(axis) => flange.column(axis).into(),
+            ExtraKind::Arm(which) => {
+                by_arm.as_ref().map_or_else(Vector3::zeros, |m| m.column(which).into())
+            }
             ExtraKind::Systematic(axis) => match &frame {
                 Some(by_systematic) => {
                     e -= by_systematic.column(axis) * values[k];

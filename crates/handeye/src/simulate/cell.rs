@@ -9,8 +9,9 @@ use nalgebra::{Matrix3, Rotation3, Vector2, Vector3};
 
 use super::{
     DepthSensor, Optics, Random,
+    arm::{ArmErrors, BuiltArm, usual_arm},
     recording::{Recording, Truth, placement_name},
-    robot_error::{SystematicError, reported},
+    robot_error::{Robot, SystematicError},
 };
 use crate::{
     Anchor, Base, Camera, Error, Flange, HandEye, Intrinsics, Mount, Point, Pose, Session, Setup,
@@ -101,6 +102,8 @@ pub struct Cell {
     pub viewing: Viewing,
     /// How wrong everything is.
     pub noise: CellNoise,
+    /// How the arm was built, where the robot errs as its links make it; it adds joint values.
+    pub arm: Option<ArmErrors>,
     /// The 3D camera, where there is one.
     pub depth: Option<DepthSensor>,
     /// Pixels of a scan per pixel of a picture, along each side.
@@ -155,6 +158,7 @@ impl Cell {
             hand_eye: usual_places(setup, &centre_m, &mut random),
             viewing: usual_viewing(setup),
             noise: CellNoise::default(),
+            arm: None,
             depth: None,
             scan_scale: 1.0,
             optics: Optics::default(),
@@ -177,14 +181,15 @@ impl Cell {
         let base_from_flange: Vec<Pose<Base, Flange>> =
             camera_from_target[..self.captures].iter().map(|v| self.robot_at(v)).collect();
         let mut robot = random(seed, ROBOT, 0);
-        let arm = self.arm();
-        let reported =
-            base_from_flange.iter().map(|p| reported(p, &self.noise, &arm, &mut robot)).collect();
+        let arm = self.robot();
+        let says = |p| arm.reported(p, &self.noise, &mut robot);
+        let reported = base_from_flange.iter().map(says).collect::<Option<Vec<_>>>();
+        let (reported, joints) = reported.ok_or_else(out_of_reach)?.into_iter().unzip();
         let tip_error = direction(&mut random(self.seed, TOOL, 0)) * self.noise.tip_m;
         let hand_eye = self.hand_eye;
         let truth = Truth { hand_eye, camera_from_target, base_from_flange, tip_error };
-        let touches = self.touch_all(&truth, seed);
-        Ok(Recording { cell: self, base_from_flange: reported, touches, truth, seed })
+        let touches = self.touch_all(&truth, seed).ok_or_else(out_of_reach)?;
+        Ok(Recording { cell: self, base_from_flange: reported, joints, touches, truth, seed })
     }
 
     /// A session with corners that are projected, not detected in pictures: quick.
@@ -284,19 +289,27 @@ impl Cell {
         self.setup.anchor_from_mount(anchor_from_mount.rename()).rename()
     }
 
-    /// What is wrong with the arm.
-    fn arm(&self) -> SystematicError {
-        SystematicError::draw(&self.noise, random(self.seed, ARM, 0))
+    /// What is wrong with the robot.
+    fn robot(&self) -> Robot {
+        let systematic = SystematicError::draw(&self.noise, random(self.seed, ARM, 0));
+        Robot { systematic, arm: self.built_arm() }
+    }
+
+    /// The arm as it was built.
+    pub fn built_arm(&self) -> Option<BuiltArm> {
+        let draw = |errors| BuiltArm::draw(usual_arm(), &errors, &mut random(self.seed, ARM, 1));
+        self.arm.map(draw)
     }
 
     /// Every touch of every board: its name, where it lies, and the corner.
-    fn touch_all(&self, truth: &Truth, seed: u64) -> Vec<Touch> {
+    fn touch_all(&self, truth: &Truth, seed: u64) -> Option<Vec<Touch>> {
+        let robot = self.robot();
         let corners = spread_corners(&self.target, self.touches);
         let boards = self.touchable(truth);
         let all = boards.iter().flat_map(|b| corners.iter().map(move |&corner| (b, corner)));
         all.enumerate()
             .map(|(k, ((name, base_from_target), corner))| {
-                self.touch(name, base_from_target, corner, truth, (seed, k))
+                self.touch(&robot, (name, base_from_target, corner), truth, (seed, k))
             })
             .collect()
     }
@@ -318,12 +331,11 @@ impl Cell {
 
     fn touch(
         &self,
-        placement: &str,
-        base_from_target: &Pose<Base, Target>,
-        corner: u32,
+        robot: &Robot,
+        (placement, base_from_target, corner): (&str, &Pose<Base, Target>, u32),
         truth: &Truth,
         (seed, k): (u64, usize),
-    ) -> Touch {
+    ) -> Option<Touch> {
         let on_board = self.target.corner(corner).unwrap_or(Point::new(0.0, 0.0, 0.0));
         let mut probe = random(seed, PROBE, k);
         let missed = probe.normal3() * (self.noise.touch_m / 3f64.sqrt());
@@ -331,11 +343,12 @@ impl Cell {
         let rotation = base_from_target.rotation() * held(&mut random(self.seed, TOOL, k + 1));
         let flange = tip_in_base - rotation * self.tip_in_flange.vector();
         let there: Pose<Base, Flange> = Pose::from_parts(&rotation, flange);
-        let says = reported(&there, &self.noise, &self.arm(), &mut probe);
+        let (says, joints) = robot.reported(&there, &self.noise, &mut probe)?;
         let believed: Point<Flange> =
             Point::from_vector(self.tip_in_flange.vector() - truth.tip_error);
         let placement = placement.to_owned();
-        Touch { placement, corner, in_base: says * believed, base_from_flange: Some(says) }
+        let (in_base, base_from_flange) = (says * believed, Some(says));
+        Some(Touch { placement, corner, in_base, base_from_flange, joints })
     }
 }
 
@@ -369,6 +382,12 @@ fn usual_viewing(setup: Setup) -> Viewing {
 
 fn direction(random: &mut Random) -> Vector3<f64> {
     random.normal3().normalize()
+}
+
+fn out_of_reach() -> Error {
+    Error::Invalid(
+        "the simulated arm does not reach all views and touches: take another seed".into(),
+    )
 }
 
 /// How the tool is held over a board: its z into the board, tilted and turned.

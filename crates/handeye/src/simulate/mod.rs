@@ -1,5 +1,6 @@
 //! Measurements with known truth: for tests, benchmarks and the demo.
 
+pub mod arm;
 pub mod cell;
 mod mistakes;
 pub mod random;
@@ -8,6 +9,7 @@ pub mod render;
 mod robot_error;
 mod texture;
 
+pub use arm::{ArmErrors, BuiltArm};
 pub use cell::{Cell, CellNoise, Viewing};
 pub use mistakes::{Mistake, spoil};
 pub use random::Random;

@@ -32,6 +32,8 @@ pub struct Recording<'a> {
     pub cell: &'a Cell,
     /// Where the robot says it is, in every capture.
     pub base_from_flange: Vec<Pose<Base, Flange>>,
+    /// Its joint values there; empty where it is no arm with joints.
+    pub joints: Vec<Vec<f64>>,
     /// The touches.
     pub touches: Vec<Touch>,
     /// The truth.
@@ -116,6 +118,7 @@ impl Recording<'_> {
         Session {
             camera_from_views: false,
             known_position: None,
+            arm: cell.built_arm().map(|a| a.model),
             setup: cell.setup,
             target: Some(cell.target.clone()),
             camera: Some(cell.intrinsics),
@@ -131,9 +134,9 @@ impl Recording<'_> {
         let corners = self.corners(k);
         let surface = self.surface(k, &corners);
         let candidates = self.candidates(&corners, &surface);
-        let base_from_flange = self.base_from_flange[k];
+        let (base_from_flange, joints) = (self.base_from_flange[k], self.joints[k].clone());
         let capture = format!("{:03}", k + 1);
-        Observation { capture, base_from_flange, corners, surface, candidates }
+        Observation { capture, base_from_flange, joints, corners, surface, candidates }
     }
 
     fn placement(&self, k: usize) -> Placement {

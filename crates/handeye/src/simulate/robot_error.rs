@@ -8,7 +8,7 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::{CellNoise, Random};
+use super::{BuiltArm, CellNoise, Random};
 use crate::{Base, Flange, Pose, lie};
 
 /// Shortest and longest wave of the error over the workspace, m.
@@ -68,17 +68,29 @@ impl SystematicError {
     }
 }
 
-/// What the robot says when it is there.
-pub(super) fn reported(
-    there: &Pose<Base, Flange>,
-    noise: &CellNoise,
-    systematic: &SystematicError,
-    random: &mut Random,
-) -> Pose<Base, Flange> {
-    let rotation = noise.robot_absolute_rad.hypot(noise.robot_repeatability_rad);
-    let position = noise.robot_absolute_m.hypot(noise.robot_repeatability_m) / 3f64.sqrt();
-    let (turn, shift) = (random.normal3() * rotation, random.normal3() * position);
-    there.retract(&(lie::tangent(&turn, &shift) + systematic.at(there)))
+/// What is wrong with a robot.
+pub(super) struct Robot {
+    pub systematic: SystematicError,
+    pub arm: Option<BuiltArm>,
+}
+
+impl Robot {
+    /// What the robot says when it is there, and its joint values where it has joints; `None` where
+    /// these do not reach.
+    pub(super) fn reported(
+        &self,
+        there: &Pose<Base, Flange>,
+        noise: &CellNoise,
+        random: &mut Random,
+    ) -> Option<(Pose<Base, Flange>, Vec<f64>)> {
+        let rotation = noise.robot_absolute_rad.hypot(noise.robot_repeatability_rad);
+        let position = noise.robot_absolute_m.hypot(noise.robot_repeatability_m) / 3f64.sqrt();
+        let (turn, shift) = (random.normal3() * rotation, random.normal3() * position);
+        let believed = there.retract(&(lie::tangent(&turn, &shift) + self.systematic.at(there)));
+        let Some(arm) = &self.arm else { return Some((believed, vec![])) };
+        let joints = arm.joints_at(&believed)?;
+        Some((arm.model.base_from_flange(&joints), joints))
+    }
 }
 
 #[cfg(test)]

@@ -272,6 +272,7 @@ fn session(
         correspondences: vec![],
         workspace: None,
         known_position: None,
+        arm: None,
     };
     (session, velocities)
 }
@@ -281,6 +282,7 @@ fn observation(capture: String, robot: Isometry3<f64>, camera: Isometry3<f64>) -
     Observation {
         capture,
         base_from_flange: Pose::claim(robot),
+        joints: vec![],
         corners: vec![],
         surface: vec![],
         candidates: vec![pose],

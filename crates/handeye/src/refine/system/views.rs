@@ -43,9 +43,12 @@ impl System {
         if !problem.extras.is_empty() {
             let by_x: Matrix6<f64> = j.fixed_view::<6, 6>(0, 0).into_owned();
             let by_c = -lie::left_jacobian_inverse(&r);
+            // a step of the robot on the right of A is one of X, carried over
+            let camera_from_mount = lie::adjoint(seen.hand_eye.mount_from_camera.inverse().iso());
             for (k, extra) in problem.extras.iter().enumerate() {
                 let column = match (extra.kind, &seen.carry) {
                     (ExtraKind::Camera(which), _) => by_c * view.by_camera(which),
+                    (ExtraKind::Arm(which), _) => by_x * (camera_from_mount * view.by_arm(which)),
                     // to first order: the derivative of exp(carry δ) differs by the square of δ
                     (ExtraKind::Systematic(axis), Some(carry)) => by_x * carry.column(axis),
                     _ => continue,
