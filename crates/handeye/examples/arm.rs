@@ -14,9 +14,9 @@ use handeye::{
     kinematics::Arm,
     predict::Volume,
     register::rigid_fit::rigid_fit,
-    simulate::{ArmErrors, BuiltArm, Cell, CellNoise, DepthSensor, Truth, Viewing},
+    simulate::{ArmErrors, BuiltArm, Cell, CellNoise, DepthSensor, Random, Truth, Viewing},
 };
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 #[derive(Clone, Copy)]
 struct Scenario {
@@ -102,8 +102,8 @@ struct Task<'a> {
     /// Where the tip really is, and where the robot believes it, in the flange (m).
     tip: Vector3<f64>,
     believed: Vector3<f64>,
-    /// How the tool is held, and joint values near there.
-    held: Matrix3<f64>,
+    /// How the tool is held at each point, and joint values near there.
+    held: Vec<Matrix3<f64>>,
     near: Vec<f64>,
     /// Where the camera looks from (eye-in-hand).
     views: Vec<Vec<f64>>,
@@ -117,10 +117,10 @@ impl Task<'_> {
         by: &Arm,
         tip: &Vector3<f64>,
         view: &[f64],
-        p: &Vector3<f64>,
+        (p, held): (&Vector3<f64>, &Matrix3<f64>),
     ) -> Option<f64> {
         let there = self.in_base(x, &by.base_from_flange(view), p);
-        let flange: Pose<Base, Flange> = Pose::from_parts(&self.held, there - self.held * tip);
+        let flange: Pose<Base, Flange> = Pose::from_parts(held, there - held * tip);
         let joints = by.inverse(&flange, &self.near)?;
         let reached = self.arm.base_from_flange(&joints);
         let reached = reached.rotation() * self.tip + reached.translation();
@@ -149,8 +149,8 @@ impl Task<'_> {
     fn square(&self, x: &Pose<Mount, Camera>, by: &Arm, tip: &Vector3<f64>) -> Option<f64> {
         let (mut sum, mut count) = (0.0, 0.0);
         for view in &self.views {
-            for p in &self.volume.points {
-                sum += self.missed(x, by, tip, view, p)?.powi(2);
+            for at in self.volume.points.iter().zip(&self.held) {
+                sum += self.missed(x, by, tip, view, at)?.powi(2);
                 count += 1.0;
             }
         }
@@ -161,9 +161,9 @@ impl Task<'_> {
     fn floor(&self) -> Option<f64> {
         let (mut from, mut to) = (vec![], vec![]);
         for view in &self.views {
-            for p in &self.volume.points {
+            for (p, held) in self.volume.points.iter().zip(&self.held) {
                 let there = self.wanted(view, p);
-                let flange = Pose::from_parts(&self.held, there - self.held * self.tip);
+                let flange = Pose::from_parts(held, there - held * self.tip);
                 let joints = self.arm.joints_near(&flange, &self.near)?;
                 let says = self.arm.model.base_from_flange(&joints);
                 let says = says.rotation() * self.tip + says.translation();
@@ -193,12 +193,18 @@ fn task<'a>(
         &Vector3::new(0.2, 0.15, far_z),
         "the table",
     );
-    // the tool looks where the camera looks
-    let looks = truth.hand_eye.mount_from_camera.rotation();
-    let held = match scenario.setup {
-        Setup::EyeToHand => looks,
+    // the tool is held as in the touches: turned by up to 60 degrees, tilted by up to 17
+    let looks = match scenario.setup {
+        Setup::EyeToHand => truth.hand_eye.mount_from_camera.rotation(),
         Setup::EyeInHand => truth.hand_eye.anchor_from_target.rotation(),
     };
+    let mut random = Random::new(cell.seed);
+    let mut hold = |_: &Vector3<f64>| {
+        let tilt = Vector3::new(random.between(-0.2, 0.2), random.between(-0.2, 0.2), 0.0);
+        let turn = Rotation3::new(Vector3::z() * random.between(-1.0, 1.0));
+        looks * (turn * Rotation3::new(tilt)).matrix()
+    };
+    let held = volume.points.iter().map(&mut hold).collect();
     let views: Vec<Vec<f64>> = match scenario.setup {
         Setup::EyeToHand => vec![session.observations[0].joints.clone()],
         Setup::EyeInHand => session.observations[..3].iter().map(|o| o.joints.clone()).collect(),
@@ -217,7 +223,7 @@ fn task<'a>(
         arm,
     };
     let there = task.wanted(&task.views[0], &middle);
-    let flange = Pose::from_parts(&task.held, there - task.held * task.tip);
+    let flange = Pose::from_parts(&looks, there - looks * task.tip);
     task.near = task.arm.joints_at(&flange)?;
     Some(task)
 }
@@ -266,7 +272,9 @@ impl Sums {
         };
         self.add("rigid", task.square(&rigid.hand_eye.mount_from_camera?, &model, &tip(&rigid)));
         let x = result.hand_eye.mount_from_camera?;
-        self.add("chosen", task.square(&x, &model, &tip(&result)));
+        let offset = result.arm.as_ref().and_then(|a| a.tip_offset_mm);
+        let by_arm = offset.map(|o| task.believed + Vector3::from(o) * 1e-3);
+        self.add("chosen", task.square(&x, &model, &by_arm.unwrap_or_else(|| tip(&result))));
         self.predicted += result.predicted_tre_mm.as_ref().map_or(0.0, |t| t.rms.powi(2));
         self.add("floor", task.floor());
         match &result.arm {

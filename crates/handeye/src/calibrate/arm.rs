@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{Config, agreement::Views, joint::held_out_views};
 use crate::{
     HandEye, Observation, Pose, Setup, Touch, Warning,
-    calibration::{ArmDeviation, ArmHeldOut, ArmResult},
+    calibration::{ArmDeviation, ArmHeldOut, ArmResult, Calibration},
     evaluate,
     kinematics::{Arm, Deviation},
     lie,
@@ -307,8 +307,15 @@ impl ArmFit {
         self.arm.by_deviations(joints, &self.which)
     }
 
+    /// Says what was found.
+    pub(super) fn report(&self, views: &Views, tre_mm: Option<f64>, result: &mut Calibration) {
+        let own = self.fit.hand_eye.retarget(views.target_from_corner.inverse());
+        result.arm = Some(self.result(&own, tre_mm));
+        result.warnings.push(self.warning());
+    }
+
     /// For files; the answer about the target's own origin.
-    pub(super) fn result(&self, answer: &HandEye) -> ArmResult {
+    fn result(&self, answer: &HandEye, predicted_tre_mm: Option<f64>) -> ArmResult {
         let values = self.values();
         let one = |(k, d): (usize, &Deviation)| {
             let sigma = self.fit.extra(ExtraKind::Arm(k)).map_or(0.0, |x| x.1);
@@ -330,7 +337,7 @@ impl ArmFit {
             held_out: self.held_out,
             robot_before_mm: self.robot_mm.0,
             robot_after_mm: self.robot_mm.1,
-            predicted_tre_mm: None,
+            predicted_tre_mm,
         }
     }
 
@@ -344,7 +351,7 @@ impl ArmFit {
     }
 
     /// What to know.
-    pub(super) fn warning(&self) -> Warning {
+    fn warning(&self) -> Warning {
         Warning::new(
             "arm-deviates",
             format!(

@@ -8,6 +8,7 @@ use super::{
     arm, boards, budget, captures,
     joint::{self, Joint, held_out_views},
     optics::{self, Optics},
+    reach::Reach,
     verdict,
     workpiece::{Workpiece, inflation},
 };
@@ -47,13 +48,16 @@ pub(super) fn estimate<'a>(
             None
         }
     };
-    if let Some(arm) = &arm {
-        let own = arm.fit.hand_eye.retarget(views.target_from_corner.inverse());
-        result.arm = Some(arm.result(&own));
-        result.warnings.push(arm.warning());
-    }
     name_free(&views, &fit, best, result);
-    let workpiece = Workpiece::new(&views, &volume, best);
+    let reach = arm.as_ref().and_then(|a| Reach::new(&views, a, &volume));
+    let (best, whole) = match (&arm, &reach) {
+        (Some(arm), Some(_)) => (&arm.fit, &arm.problem),
+        _ => (best, whole),
+    };
+    let workpiece = Workpiece::new(&views, &volume, best, reach.as_ref());
+    if let Some(arm) = &arm {
+        arm.report(&views, workpiece.rms_of_best_mm().filter(|_| reach.is_some()), result);
+    }
     result.error_budget = budget::budget(whole, best, &workpiece);
     result.advice = budget::advice(whole, best, &workpiece);
     let judge =
@@ -62,6 +66,7 @@ pub(super) fn estimate<'a>(
     candidates.extend(judge.touch_candidates(&fit, config, result));
     if config.method.is_none() {
         candidates.extend(joint.as_ref().and_then(|j| judge.joint_candidate(j)));
+        candidates.extend(judge.arm_candidate(&fit));
     }
     choose(candidates, &views, &volume, config, result);
     if let (Some(tre), Some(x)) = (&mut result.predicted_tre_mm, &result.hand_eye.mount_from_camera)
@@ -235,6 +240,34 @@ impl Judge<'_> {
             note: joint.note(),
         };
         Some(Judged { candidate, tre, held_out: left_out })
+    }
+}
+
+impl Judge<'_> {
+    /// The answer that does best for a robot whose arm deviates and which does not know.
+    fn arm_candidate(&self, fit: &JointFit) -> Option<Judged> {
+        let (x, covariance) = self.workpiece.rigid()?;
+        let views = self.views;
+        let tre = self.workpiece.tre(&x);
+        let placed = solve::place_target(&pairs_of(views), &x);
+        let held_out = evaluate::placed_without(&views.views, &x);
+        let missed = evaluate::rms(&held_out);
+        let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
+        let candidate = Candidate {
+            name: "joint-with-arm".into(),
+            hand_eye: stored_registration(views, fit, &placed, Some(&covariance)),
+            in_sample: evaluate::in_sample(&placed, &views.views),
+            held_out: missed,
+            touch_rms_mm: touch_rms,
+            held_out_mm: touch_rms.or(missed.translation_rms_mm),
+            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+            note: Some(
+                "the arm's deviations are found, and the answer is made for the tool as it was \
+                 held, where it is used: elsewhere views and touches may fit it worse"
+                    .into(),
+            ),
+        };
+        Some(Judged { candidate, tre, held_out })
     }
 }
 

@@ -17,6 +17,7 @@ mod gate;
 mod joint;
 mod optics;
 mod points;
+mod reach;
 mod rejected;
 pub(crate) mod settle;
 mod sources;

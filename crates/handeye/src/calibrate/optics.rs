@@ -349,17 +349,19 @@ const DERIVATIVE_STEP: f64 = 1e-2;
 /// Covariance (m²), in camera axes, of where a point of the camera lands, for a covariance of `X`,
 /// `Y` and the extras. What pictures locate moves with the lens: a point keeps its pixel, and its
 /// distance follows its size in the picture. What scans locate moves with their depth, and all with
-/// the unit of distances where that is unknown. These errors go along with that of `X`.
+/// the unit of distances where that is unknown. These errors go along with that of `X`, as do `more`:
+/// numbers of unknowns, and how the point moves with them.
 pub(super) fn spread(
     views: &Views,
     extras: &[Extra],
     covariance: &DMatrix<f64>,
     p: &Vector3<f64>,
+    more: Vec<(usize, Vector3<f64>)>,
 ) -> Option<Matrix3<f64>> {
     let scanned = views.session.observations.iter().any(|o| !o.surface.is_empty());
     let camera = views.session.camera.as_ref();
     let moves = |which: usize| which == TARGET_SCALE || scanned == (which < LENS);
-    let mut free = vec![];
+    let mut free = more;
     for (k, extra) in extras.iter().enumerate() {
         let ExtraKind::Camera(which) = extra.kind else { continue };
         if !moves(which) {

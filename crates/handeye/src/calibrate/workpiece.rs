@@ -1,8 +1,8 @@
 //! How far off points will be where the answer is used.
 
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
 
-use super::{agreement::Views, optics};
+use super::{agreement::Views, optics, reach::Reach};
 use crate::{
     Camera, Mount, Pose,
     predict::{self, PredictedTre, Volume},
@@ -23,20 +23,29 @@ pub(super) struct Workpiece<'a> {
     views: &'a Views<'a>,
     volume: &'a Volume,
     best: &'a JointFit,
+    /// How a robot reaches it that does not know of its arm's deviations.
+    reach: Option<&'a Reach>,
     /// Covariance of each point of the volume under the best answer, m².
     spread: Option<Vec<Matrix3<f64>>>,
 }
 
 impl<'a> Workpiece<'a> {
-    pub fn new(views: &'a Views<'a>, volume: &'a Volume, best: &'a JointFit) -> Self {
-        let mut workpiece = Self { views, volume, best, spread: None };
+    pub fn new(
+        views: &'a Views<'a>,
+        volume: &'a Volume,
+        best: &'a JointFit,
+        reach: Option<&'a Reach>,
+    ) -> Self {
+        let mut workpiece = Self { views, volume, best, reach, spread: None };
         workpiece.spread = best.covariance.as_ref().and_then(|c| workpiece.spread_of(c));
         workpiece
     }
 
     /// Covariance (m²) of where a point of the camera lands, for a covariance of all unknowns.
     fn spread_at(&self, covariance: &DMatrix<f64>, p: &Vector3<f64>) -> Option<Matrix3<f64>> {
-        optics::spread(self.views, &self.best.extras, &(covariance * inflation(self.best)?), p)
+        let more = self.reach.map_or_else(Vec::new, |r| r.by_arm(p));
+        let covariance = covariance * inflation(self.best)?;
+        optics::spread(self.views, &self.best.extras, &covariance, p, more)
     }
 
     fn spread_of(&self, covariance: &DMatrix<f64>) -> Option<Vec<Matrix3<f64>>> {
@@ -53,8 +62,31 @@ impl<'a> Workpiece<'a> {
     /// Predicted error of an answer: that of the best one, and in full the distance of the two.
     /// Given all that was measured, that is its expected error.
     pub fn tre(&self, x: &Pose<Mount, Camera>) -> Option<PredictedTre> {
-        let offset = predict::difference(&self.best.hand_eye.mount_from_camera, x);
-        Some(predict::tre_of_points(self.volume, self.spread.as_ref()?, offset))
+        let own = self.spread.as_ref()?.iter().zip(&self.volume.points);
+        let spread: Vec<Matrix3<f64>> = own.map(|(s, p)| s + self.scatter(p)).collect();
+        Some(predict::tre_of_points(self.volume, &spread, self.offset(x)))
+    }
+
+    fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64> {
+        self.reach.map_or_else(Matrix3::zeros, |r| r.scatter(p))
+    }
+
+    /// Where an answer sends the robot, minus where it should go.
+    fn offset(&self, x: &Pose<Mount, Camera>) -> impl Fn(&Vector3<f64>) -> Vector3<f64> {
+        let rigid = predict::difference(&self.best.hand_eye.mount_from_camera, x);
+        move |p| rigid(p) - self.reach.map_or_else(Vector3::zeros, |r| r.shift(p))
+    }
+
+    /// Predicted error (root mean square, mm) of a robot that knows of its arm's deviations.
+    pub fn rms_of_best_mm(&self) -> Option<f64> {
+        let spread = self.spread.as_ref()?;
+        Some(predict::tre_of_points(self.volume, spread, |_| Vector3::zeros()).rms)
+    }
+
+    /// The answer for a robot that does not, and its covariance.
+    pub fn rigid(&self) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
+        let covariance = self.best.covariance.as_ref()? * inflation(self.best)?;
+        self.reach?.rigid(&covariance)
     }
 
     /// The same in slices through the volume, where the camera sees.
@@ -63,9 +95,8 @@ impl<'a> Workpiece<'a> {
         let camera = self.views.session.camera.as_ref();
         let seen = |p: &Vector3<f64>| {
             let hidden = camera.is_some_and(|c| !optics::in_picture(c, p));
-            if hidden { None } else { self.spread_at(covariance, p) }
+            if hidden { None } else { Some(self.spread_at(covariance, p)? + self.scatter(p)) }
         };
-        let offset = predict::difference(&self.best.hand_eye.mount_from_camera, x);
-        Some(predict::map(self.volume, seen, offset))
+        Some(predict::map(self.volume, seen, self.offset(x)))
     }
 }
