@@ -13,7 +13,7 @@ use handeye_io::{
     Dataset, WorkspaceFrame,
     export::Format,
     measure::{self, Measured},
-    write_atomically,
+    robot, write_atomically,
 };
 
 use crate::{
@@ -147,6 +147,9 @@ fn explain(calibration: &mut Calibration, measured: &Measured) {
     }
 }
 
+/// The corrected model of the arm, where one was found.
+const ARM: &str = "corrected_arm.json";
+
 /// Writes everything asked for into the folder.
 pub fn write(
     out: &Path,
@@ -158,6 +161,9 @@ pub fn write(
     fs::create_dir_all(out).map_err(|e| Failure::no_folder(out, e))?;
     let json = serde_json::to_string_pretty(calibration).map_err(|e| Failure::input(out, e))?;
     write_atomically(&out.join("calibration.json"), (json + "\n").as_bytes())?;
+    if let Some(arm) = &calibration.arm {
+        write_atomically(&out.join(ARM), robot::arm_file(&arm.model).as_bytes())?;
+    }
     let page = report::page(dataset, calibration, session);
     let path = out.join("report.html");
     write_atomically(&path, page.as_bytes())?;

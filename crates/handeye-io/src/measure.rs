@@ -12,8 +12,8 @@ use std::{
 };
 
 use handeye::{
-    Base, Camera, Flange, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
-    SurfaceCorner, Target, TargetPose, Warning,
+    Camera, ImageCorner, Intrinsics, Observation, Placement, Pose, Session, SurfaceCorner, Target,
+    TargetPose, Warning,
     detect::{self, surface},
     intrinsics, lens,
 };
@@ -293,7 +293,7 @@ fn session(
         .captures
         .iter()
         .zip(all.by_ref())
-        .map(|(c, (s, candidates))| observation(&c.id, c.base_from_flange, s, candidates))
+        .map(|(c, (s, candidates))| observation(c, s, candidates))
         .collect();
     let placements = dataset
         .placements
@@ -318,16 +318,18 @@ fn session(
         correspondences: dataset.correspondences.clone(),
         workspace: dataset.workspace.map(|w| w.corners),
         known_position: dataset.known_position,
-        arm: None,
+        arm: dataset.arm.clone(),
     }
 }
 
-fn observation(
-    id: &str,
-    base_from_flange: Pose<Base, Flange>,
-    seen: Seen,
-    candidates: Vec<TargetPose>,
-) -> Observation {
+fn observation(c: &CaptureSource, seen: Seen, candidates: Vec<TargetPose>) -> Observation {
     let Seen { corners, surface, .. } = seen;
-    Observation { capture: id.to_owned(), base_from_flange, corners, surface, candidates }
+    Observation {
+        capture: c.id.clone(),
+        base_from_flange: c.base_from_flange,
+        joints: c.joints.clone(),
+        corners,
+        surface,
+        candidates,
+    }
 }

@@ -7,9 +7,11 @@ use std::{collections::BTreeSet, fs};
 use handeye::{
     Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
     calibration::{
-        Advice, Answer, BudgetEntry, CameraResult, Candidate, CaptureResult, Certificate,
-        DepthResult, Determined, Diversity, Misfit, PoseCovariance, Scale, TouchResult,
+        Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BudgetEntry, CameraResult, Candidate,
+        CaptureResult, Certificate, DepthResult, Determined, Diversity, Misfit, PoseCovariance,
+        Scale, TipResult, TouchResult,
     },
+    kinematics::{Arm, DhConvention, Joint, Parameter},
     predict::{PredictedTre, TreMap, TreSlice},
 };
 use nalgebra::Vector3;
@@ -122,6 +124,24 @@ fn full() -> Calibration {
             sigma_cy: 0.0,
         }),
         depth: Some(DepthResult { scale: 1.0, sigma_scale: 0.0, bias_mm: 0.0, sigma_bias_mm: 0.0 }),
+        tip: Some(TipResult { offset_mm: [0.0; 3], sigma_mm: [0.0; 3], frame: "flange".into() }),
+        arm: Some(ArmResult {
+            model: Arm { convention: DhConvention::Standard, joints: vec![Joint::default()] },
+            deviations: vec![ArmDeviation {
+                joint: 1,
+                parameter: Parameter::A,
+                value: 0.0,
+                sigma: 0.0,
+                observed: true,
+            }],
+            mount_from_camera: Pose::identity(),
+            anchor_from_target: Pose::identity(),
+            tip_offset_mm: Some([0.0; 3]),
+            held_out: ArmHeldOut { before_mm: Some(0.0), after_mm: Some(0.0) },
+            robot_before_mm: 0.0,
+            robot_after_mm: 0.0,
+            predicted_tre_mm: Some(0.0),
+        }),
         certificate: Some(Certificate {
             certified: true,
             gap: 0.0,

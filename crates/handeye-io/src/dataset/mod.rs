@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use handeye::{
     Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics, Pose, Scan, Setup,
-    Target, TargetModel, Touch, Warning, Workspace, refine::KnownPosition,
+    Target, TargetModel, Touch, Warning, Workspace, kinematics::Arm, refine::KnownPosition,
 };
 use serde::Deserialize;
 
@@ -54,6 +54,8 @@ pub struct Dataset {
     pub workspace: Option<WorkspaceBox>,
     /// What is known of the camera's place on the mount.
     pub known_position: Option<KnownPosition>,
+    /// The robot's arm, where its poses come from joint values.
+    pub arm: Option<Arm>,
     /// What the manifest says of the noise.
     pub noise: Noise,
     /// What the job tolerates.
@@ -73,6 +75,8 @@ pub struct CaptureSource {
     pub id: String,
     /// What the robot reported.
     pub base_from_flange: Pose<Base, Flange>,
+    /// Its joint values (rad, m), where it gave those.
+    pub joints: Vec<f64>,
     /// The picture's file.
     pub image: Option<PathBuf>,
     /// The scan's file.

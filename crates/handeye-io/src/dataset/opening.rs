@@ -69,6 +69,10 @@ impl Opening {
             correspondences,
             workspace: m.workspace.as_ref().map(|w| self.workspace(w)).transpose()?,
             known_position: m.known_position.map(|k| self.known_position(&k)).transpose()?,
+            arm: match &m.robot {
+                Some(spec) => poses::arm(spec, &self.source, &self.root)?,
+                None => None,
+            },
             noise: self.noise(&m.noise)?,
             limits: self.limits(&m.limits)?,
             notation: m.robot.as_ref().and_then(|r| r.table().notation),
@@ -384,6 +388,7 @@ fn capture(id: String, indices: &[usize], series: &[Series], parts: &Parts) -> C
         id,
         robot_record: record.unwrap_or(0),
         base_from_flange: robot.unwrap_or(Pose::identity()),
+        joints: record.map_or_else(Vec::new, |i| parts.robot[i].joints.clone()),
         image: at("images").map(|i| parts.images[i].clone()),
         scan: at("scans").map(|i| parts.scans[i].clone()),
         corners: at("lists of corners").map(|i| parts.corners[i].1.clone()),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use handeye::{Base, Camera, Flange, Pose, Target, Tool, Warning};
+use handeye::{Base, Camera, Flange, Pose, Target, Tool, Warning, kinematics::Arm};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::manifest::{
@@ -22,6 +22,8 @@ pub(super) struct Named<T> {
     pub(super) id: Option<String>,
     pub(super) place: Place,
     pub(super) value: T,
+    /// Joint values behind the pose (rad, m); none where it was given as a pose.
+    pub(super) joints: Vec<f64>,
 }
 
 /// The poses of a table, and what looked suspicious about them.
@@ -64,6 +66,22 @@ impl Reading {
         })?;
         let units = Units { length, angle: table.angle_unit.unwrap_or(notation.angle_unit) };
         Ok(Reading::Notation(notation, units))
+    }
+
+    /// The joint values (rad, m) among raw numbers; none where they are a pose.
+    pub(super) fn joints(&self, numbers: &[f64]) -> Vec<f64> {
+        match self {
+            Reading::Notation(..) => vec![],
+            Reading::Joints(model, unit) => model.in_si(numbers, *unit),
+        }
+    }
+
+    /// The arm that these are the joint values of.
+    pub(super) fn arm(&self) -> Option<&Arm> {
+        match self {
+            Reading::Notation(..) => None,
+            Reading::Joints(model, _) => Some(&model.arm),
+        }
     }
 
     fn is_matrix(&self) -> bool {
@@ -138,7 +156,8 @@ fn read(
         records.iter().map(|r| reading.numbers(r)).collect::<Result<_, _>>()?;
     let pose = |(record, numbers): (Record, &Vec<f64>)| {
         let value = reading.pose(numbers, &record.place)?;
-        Ok(Named { id: record.id, place: record.place, value })
+        let joints = reading.joints(numbers);
+        Ok(Named { id: record.id, place: record.place, value, joints })
     };
     let poses = records.into_iter().zip(&numbers).map(pose).collect::<Result<_, Error>>()?;
     let warnings = match &reading {
@@ -188,9 +207,21 @@ pub(super) fn of_robot(
             value: base_from_tool * flange_from_tool.inverse(),
             id: named.id,
             place: named.place,
+            joints: named.joints,
         }
     };
     Ok((poses.into_iter().map(convert).collect(), warnings))
+}
+
+/// The arm, where the robot's poses are those of its flange by its own joints.
+pub(super) fn arm(spec: &RobotSpec, source: &Source, root: &Path) -> Result<Option<Arm>, Error> {
+    let of_flange = spec.direction == Some(RobotDirection::BaseFromFlange)
+        && matches!(spec.frame, PoseFrame::Flange);
+    if !of_flange || spec.table().notation.as_deref() != Some("joints") {
+        return Ok(None);
+    }
+    let table = PoseTable { dh: spec.dh.clone(), ..spec.table() };
+    Ok(Reading::of(&table, "robot", source, root)?.arm().cloned())
 }
 
 /// The tool whose poses are recorded; the flange itself unless the manifest says otherwise.
@@ -230,7 +261,8 @@ pub(super) fn of_board(
 ) -> Result<Poses<Pose<Camera, Target>>, Error> {
     let (poses, warnings) = read(&spec.table(), "board_poses", source, root)?;
     let convert = |n: Named<Isometry3<f64>>| {
-        Ok(Named { value: board_pose(n.value, spec, source)?, id: n.id, place: n.place })
+        let value = board_pose(n.value, spec, source)?;
+        Ok(Named { value, id: n.id, place: n.place, joints: vec![] })
     };
     Ok((poses.into_iter().map(convert).collect::<Result<_, Error>>()?, warnings))
 }

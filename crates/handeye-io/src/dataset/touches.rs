@@ -126,15 +126,17 @@ fn without_labels(record: &Record) -> Record {
 fn touch(record: &Record, position: &Position, context: &TouchContext) -> Result<Touch, Error> {
     let values = without_labels(record);
     let (placement, corner) = (placement(record, context)?, corner(record, context)?);
-    let (in_base, base_from_flange) = match position {
-        Position::Tip(unit) => (tip(&values, *unit)?, None),
+    let (in_base, base_from_flange, joints) = match position {
+        Position::Tip(unit) => (tip(&values, *unit)?, None, vec![]),
         Position::Flange(reading, tip_in_flange) => {
-            let iso = reading.pose(&reading.numbers(&values)?, &record.place)?;
-            let base_from_flange = Pose::<Base, Flange>::claim(iso);
-            (base_from_flange * *tip_in_flange, Some(base_from_flange))
+            let numbers = reading.numbers(&values)?;
+            let base_from_flange =
+                Pose::<Base, Flange>::claim(reading.pose(&numbers, &record.place)?);
+            let tip = base_from_flange * *tip_in_flange;
+            (tip, Some(base_from_flange), reading.joints(&numbers))
         }
     };
-    Ok(Touch { placement, corner, in_base, base_from_flange })
+    Ok(Touch { placement, corner, in_base, base_from_flange, joints })
 }
 
 fn tip<F>(record: &Record, unit: LengthUnit) -> Result<Point<F>, Error> {

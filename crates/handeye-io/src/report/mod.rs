@@ -3,6 +3,7 @@
 //! Everything but the 3D view is plain HTML and SVG made here, so that the page reads and prints
 //! without a script; nothing is loaded from anywhere.
 
+mod arm;
 mod map;
 mod picture;
 mod plot;
@@ -51,6 +52,7 @@ pub fn html(report: &Report) -> String {
     body += &touches(c);
     body += &view(report);
     body += &budget(c);
+    body += &arm::arm(c);
     body += &diversity(c);
     body += &pictures(report);
     format!(

@@ -1,13 +1,13 @@
 //! The flange's pose from joint values, by Denavit-Hartenberg parameters.
 //!
-//! Standard: each joint is `Rz(θ) Tz(d) Tx(a) Rx(α)` (J. Denavit and R. Hartenberg, 1955);
-//! modified: `Rx(α) Tx(a) Rz(θ) Tz(d)` (J. Craig, Introduction to Robotics). `θ` is the joint's
-//! value plus its offset; a prismatic joint's value adds to `d`.
+//! What the parameters mean is told in [`handeye::kinematics`].
 
 use std::path::Path;
 
-use handeye::{Base, Flange, Pose};
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use handeye::{
+    Base, Flange, Pose,
+    kinematics::{Arm, DhConvention, Joint},
+};
 use serde::{Deserialize, de::IgnoredAny};
 
 use crate::{
@@ -22,7 +22,7 @@ use crate::{
 #[serde(deny_unknown_fields)]
 pub(crate) struct DhSpec {
     #[serde(alias = "dh_convention")]
-    convention: Convention,
+    convention: DhConvention,
     #[serde(default)]
     length_unit: Option<LengthUnit>,
     #[serde(default)]
@@ -47,13 +47,6 @@ struct DhUnits {
     angle: AngleUnit,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Convention {
-    Standard,
-    Modified,
-}
-
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct DhJoint {
@@ -63,19 +56,17 @@ struct DhJoint {
     #[serde(default, alias = "theta", alias = "offset")]
     theta_offset: f64,
     #[serde(default)]
+    beta: f64,
+    #[serde(default)]
     prismatic: bool,
     #[serde(default, rename = "joint_id", alias = "name")]
     _name: IgnoredAny,
 }
 
-/// Most joints a robot may have.
-const MOST_JOINTS: usize = 32;
-
-/// A chain of joints, in metres and radians.
+/// An arm, and the unit of the values of joints that slide.
 #[derive(Debug, Clone)]
 pub(crate) struct DhModel {
-    convention: Convention,
-    joints: Vec<DhJoint>,
+    pub(crate) arm: Arm,
     length: LengthUnit,
 }
 
@@ -104,32 +95,28 @@ impl DhModel {
         let angle = spec.angle_unit.or(units.map(|u| u.angle)).ok_or_else(|| {
             missing("angle_unit", "are alpha and theta of the joints in \"rad\" or in \"deg\"?")
         })?;
-        let joints: Vec<DhJoint> = spec.joints.iter().map(|j| j.in_si(length, angle)).collect();
-        let finite =
-            |j: &DhJoint| [j.a, j.alpha, j.d, j.theta_offset].iter().all(|x| x.is_finite());
-        if joints.is_empty() || joints.len() > MOST_JOINTS || !joints.iter().all(finite) {
-            let what = format!("{} joints, or a value that is not finite", joints.len());
-            return Err(malformed(place.clone(), what, "give the parameters of every joint"));
-        }
-        Ok(DhModel { convention: spec.convention, joints, length })
+        let joints = spec.joints.iter().map(|j| j.in_si(length, angle)).collect();
+        let arm = Arm { convention: spec.convention, joints };
+        arm.check().map_err(|source| Error::Values { place: place.clone(), source })?;
+        Ok(DhModel { arm, length })
+    }
+
+    /// Joint values in rad, and m for those that slide, from the given unit of angle.
+    pub(crate) fn in_si(&self, values: &[f64], unit: AngleUnit) -> Vec<f64> {
+        let si = |(joint, value): (&Joint, &f64)| {
+            if joint.prismatic { self.length.to_metres(*value) } else { unit.to_radians(*value) }
+        };
+        self.arm.joints.iter().zip(values).map(si).collect()
     }
 
     /// Where the flange is for these joint values, in the given unit of angle.
     pub(crate) fn base_from_flange(&self, values: &[f64], unit: AngleUnit) -> Pose<Base, Flange> {
-        let steps = self.joints.iter().zip(values).map(|(joint, value)| {
-            let value = if joint.prismatic {
-                self.length.to_metres(*value)
-            } else {
-                unit.to_radians(*value)
-            };
-            joint.step(self.convention, value)
-        });
-        Pose::claim(steps.fold(Isometry3::identity(), |chain, step| chain * step))
+        self.arm.base_from_flange(&self.in_si(values, unit))
     }
 
     /// The joint values of a record: in order, or by names that end in the joint's number.
     pub(crate) fn values(&self, record: &Record) -> Result<Vec<f64>, Error> {
-        let names: Vec<Vec<String>> = (1..=self.joints.len()).map(joint_names).collect();
+        let names: Vec<Vec<String>> = (1..=self.arm.joints.len()).map(joint_names).collect();
         let names: Vec<Vec<&str>> =
             names.iter().map(|n| n.iter().map(String::as_str).collect()).collect();
         let columns: Vec<&'static [&'static str]> = vec![&["a joint"]; names.len()];
@@ -159,35 +146,33 @@ fn joint_names(n: usize) -> Vec<String> {
 }
 
 impl DhJoint {
-    fn in_si(&self, length: LengthUnit, angle: AngleUnit) -> DhJoint {
-        DhJoint {
+    fn in_si(&self, length: LengthUnit, angle: AngleUnit) -> Joint {
+        Joint {
             a: length.to_metres(self.a),
             d: length.to_metres(self.d),
             alpha: angle.to_radians(self.alpha),
             theta_offset: angle.to_radians(self.theta_offset),
-            ..self.clone()
-        }
-    }
-
-    fn step(&self, convention: Convention, value: f64) -> Isometry3<f64> {
-        let (turn, slide) = if self.prismatic { (0.0, value) } else { (value, 0.0) };
-        let about = |axis: Vector3<f64>, along: f64, angle: f64| {
-            Isometry3::from_parts(
-                Translation3::from(axis * along),
-                UnitQuaternion::new(axis * angle),
-            )
-        };
-        let joint = about(Vector3::z(), self.d + slide, self.theta_offset + turn);
-        let link = about(Vector3::x(), self.a, self.alpha);
-        match convention {
-            Convention::Standard => joint * link,
-            Convention::Modified => link * joint,
+            beta: angle.to_radians(self.beta),
+            prismatic: self.prismatic,
         }
     }
 }
 
+/// An arm as a file that `dh = "..."` of a manifest reads: metres and radians.
+pub fn arm_file(arm: &Arm) -> String {
+    let model = serde_json::json!({
+        "convention": arm.convention,
+        "length_unit": "m",
+        "angle_unit": "rad",
+        "joints": arm.joints,
+    });
+    format!("{model:#}\n")
+}
+
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
 
     fn model(convention: &str) -> DhModel {
@@ -204,6 +189,22 @@ mod tests {
         assert!((pose.translation() - Vector3::new(0.0, 0.2, 0.1)).norm() < 1e-15);
         let up = model("standard").base_from_flange(&[0.0, 90.0], AngleUnit::Degree);
         assert!((up.translation() - Vector3::new(0.0, 0.0, 0.3)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn an_arm_that_was_written_is_read_again() {
+        let joint = |k: f64| Joint {
+            a: 0.1 * k,
+            alpha: 0.2,
+            d: -0.3,
+            theta_offset: k,
+            beta: 1e-3,
+            prismatic: k > 1.5,
+        };
+        let convention = DhConvention::Modified;
+        let arm = Arm { convention, joints: vec![joint(1.0), joint(2.0)] };
+        let spec: DhSpec = serde_json::from_str(&arm_file(&arm)).unwrap();
+        assert_eq!(DhModel::from_spec(&spec, &Place::default()).unwrap().arm, arm);
     }
 
     #[test]

@@ -17,6 +17,7 @@ use crate::{
     table::Record,
     units::{AngleUnit, LengthUnit},
 };
+pub use dh::arm_file;
 pub(crate) use dh::{DhModel, DhSpec};
 pub use euler::{Axes, Sense};
 pub use rotation::Rotation;

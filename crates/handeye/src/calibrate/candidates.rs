@@ -55,6 +55,7 @@ pub(super) fn estimate<'a>(
         _ => (best, whole),
     };
     let workpiece = Workpiece::new(&views, &volume, best, reach.as_ref());
+    optics.report(views.session, best, result);
     if let Some(arm) = &arm {
         arm.report(&views, workpiece.rms_of_best_mm().filter(|_| reach.is_some()), result);
     }
@@ -102,7 +103,6 @@ fn fit_views(
         }
     };
     captures::orient_target(views, &mut fit);
-    optics.report(views.session, &fit, result);
     config.unknown.report(&fit, result);
     verdict::judge_scale(views, &fit, config, result);
     Some((joint::views_problem(views.session, &views.views, &extras), fit))

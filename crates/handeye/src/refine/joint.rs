@@ -132,8 +132,9 @@ pub fn fit_joint(
         return Err(crate::solve::too_few(problem.views.len()));
     }
     let start = pose_fit::fit_fixed_weights(&problem.views, start, FIRST_WEIGHT);
-    let prior = first_noise(problem, &start, known);
-    let state = State::new(problem, start, prior.clone());
+    let mut state = State::new(problem, start, NoiseModel::start(acting(problem)));
+    let prior = first_noise(problem, &state, known);
+    state.noise = prior.clone();
     Ok(climb(problem, state, &prior, known))
 }
 
@@ -161,7 +162,7 @@ pub fn fit_views(
 /// is drawn towards, what `near` found.
 pub fn refit(problem: &Problem, near: &JointFit, known: &KnownNoise) -> JointFit {
     let state = near.state(problem, &near.noise);
-    let prior = first_noise(problem, &near.hand_eye, known);
+    let prior = first_noise(problem, &state, known);
     climb(problem, state, &prior, known)
 }
 
@@ -197,11 +198,12 @@ fn climb(problem: &Problem, mut state: State, prior: &NoiseModel, known: &KnownN
 }
 
 /// The level of the misfit, shared between the sources.
-fn first_noise(problem: &Problem, start: &HandEye, known: &KnownNoise) -> NoiseModel {
+fn first_noise(problem: &Problem, start: &State, known: &KnownNoise) -> NoiseModel {
     let views = &problem.views;
     let (mut rotation, mut position) = (0.0, 0.0);
     for view in views {
-        let r = pose_fit::misfit(start, &view.pair);
+        let pair = view.with(&problem.extras, &start.values);
+        let r = pose_fit::misfit(&start.hand_eye, &pair);
         rotation += lie::omega(&r).norm_squared();
         position += lie::nu(&r).norm_squared();
     }
@@ -223,14 +225,17 @@ fn first_noise(problem: &Problem, start: &HandEye, known: &KnownNoise) -> NoiseM
 /// The same shares at the height that makes the misfit of the views as large as expected.
 fn levelled(
     problem: &Problem,
-    start: &HandEye,
+    start: &State,
     mut noise: NoiseModel,
     known: &KnownNoise,
 ) -> NoiseModel {
-    let of_views = |e: &&Extra| matches!(e.kind, ExtraKind::Camera(_) | ExtraKind::Arm(_));
-    let extras = problem.extras.iter().filter(of_views).copied().collect();
+    let of_views = |e: &Extra| matches!(e.kind, ExtraKind::Camera(_) | ExtraKind::Arm(_));
+    let kept: Vec<usize> =
+        (0..problem.extras.len()).filter(|&k| of_views(&problem.extras[k])).collect();
+    let extras = kept.iter().map(|&k| problem.extras[k]).collect();
     let views_only = Problem { boards: vec![], extras, ..problem.clone() };
-    let mut state = State::new(&views_only, *start, noise.clone());
+    let mut state = State::new(&views_only, start.hand_eye, noise.clone());
+    state.values = DVector::from_iterator(kept.len(), kept.iter().map(|&k| start.values[k]));
     for _ in 0..2 {
         System::at(&views_only, &state).advance(&views_only, &mut state);
     }
