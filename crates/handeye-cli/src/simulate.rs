@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use handeye::{
     Intrinsics, Setup, TargetModel,
-    simulate::{Cell, CellNoise, DepthSensor, Optics, Viewing},
+    simulate::{ArmErrors, Cell, CellNoise, DepthSensor, Optics, Viewing},
 };
 use handeye_io::simulated::{self, ScanFormat, Writing};
 use serde_json::json;
@@ -197,6 +197,7 @@ fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
             ..usual.viewing
         },
         noise: noise(args),
+        arm: args.arm.then(|| arm(args)),
         depth: args.scans.then_some(depth),
         scan_scale: args.scan_scale,
         optics: Optics { noise: zero_if(args.exact, args.image_noise), ..usual.optics },
@@ -250,6 +251,14 @@ fn zero_if(exact: bool, value: f64) -> f64 {
     if exact { 0.0 } else { value }
 }
 
+/// An arm's errors take the place of those of a robot that only gives poses.
+fn arm(args: &SimulateArgs) -> ArmErrors {
+    if args.exact {
+        return ArmErrors { length_m: 0.0, angle_rad: 0.0, gear_rad: 0.0, bending_rad: 0.0 };
+    }
+    ArmErrors::default()
+}
+
 fn noise(args: &SimulateArgs) -> CellNoise {
     if args.exact {
         return CellNoise::NONE;
@@ -257,8 +266,8 @@ fn noise(args: &SimulateArgs) -> CellNoise {
     CellNoise {
         robot_repeatability_m: args.repeatability_mm * 1e-3,
         robot_repeatability_rad: 0.0,
-        robot_absolute_m: args.robot_mm * 1e-3,
-        robot_absolute_rad: args.robot_deg.to_radians(),
+        robot_absolute_m: zero_if(args.arm, args.robot_mm) * 1e-3,
+        robot_absolute_rad: zero_if(args.arm, args.robot_deg).to_radians(),
         robot_systematic_m: args.robot_systematic_mm * 1e-3,
         robot_systematic_rad: args.robot_systematic_deg.to_radians(),
         corner_px: args.corner_px,

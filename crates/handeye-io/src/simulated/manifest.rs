@@ -8,7 +8,7 @@ use handeye::{
 };
 use serde_json::{Value, json};
 
-use super::{ScanFormat, TRUTH, Writing, pictures::DEPTH_SCALE};
+use super::{ARM, ScanFormat, TRUTH, Writing, pictures::DEPTH_SCALE};
 
 /// The text of `handeye.toml`.
 pub(super) fn manifest(recording: &Recording, writing: Writing) -> String {
@@ -21,8 +21,11 @@ pub(super) fn manifest(recording: &Recording, writing: Writing) -> String {
     let mut text = format!("# A simulated cell; its truth is in {TRUTH}.\nsetup = \"{setup}\"\n");
     text += &format!("\n[target]\n{}", table(&json!(cell.target)));
     text += &format!("\n[camera]\n{}", camera(&cell.intrinsics));
-    text += "\n[robot]\nposes = \"robot.csv\"\nnotation = \"quaternion-xyzw\"\n\
-             length_unit = \"m\"\ndirection = \"base_from_flange\"\n";
+    text += "\n[robot]\nposes = \"robot.csv\"\ndirection = \"base_from_flange\"\n";
+    text += &match cell.arm {
+        Some(_) => format!("notation = \"joints\"\nangle_unit = \"deg\"\ndh = \"{ARM}\"\n"),
+        None => "notation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n".into(),
+    };
     let scans = with_images && cell.depth.is_some();
     text += if with_images {
         "\n[images]\nfiles = \"images/[captures].png\"\n"
@@ -75,9 +78,12 @@ fn touches_table(recording: &Recording) -> String {
         return String::new();
     }
     let tip = recording.believed_tip().vector() * 1e3;
+    let kind = match recording.cell.arm {
+        Some(_) => "kind = \"joints\"\n",
+        None => "kind = \"flange-pose\"\nnotation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n",
+    };
     format!(
-        "\n[touches]\nfile = \"touches.csv\"\nkind = \"flange-pose\"\n\
-         notation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n\n\
+        "\n[touches]\nfile = \"touches.csv\"\n{kind}\n\
          [touches.tip]\nin_flange_mm = [{:?}, {:?}, {:?}]\n",
         tip.x, tip.y, tip.z
     )

@@ -92,7 +92,10 @@ fn write_aside(
     let cell = recording.cell;
     let mut folder = Folder { out: aside, names: vec![], fingerprints: Map::new() };
     folder.add(MANIFEST, manifest::manifest(recording, writing).as_bytes())?;
-    folder.add("robot.csv", robot(&recording.base_from_flange).as_bytes())?;
+    folder.add("robot.csv", robot(recording).as_bytes())?;
+    if let Some(arm) = cell.built_arm() {
+        folder.add(ARM, arm_file(&arm.model).as_bytes())?;
+    }
     if !recording.touches.is_empty() {
         folder.add("touches.csv", touches(recording).as_bytes())?;
     }
@@ -199,16 +202,42 @@ fn pose(p: &Pose<Base, Flange>) -> String {
     format!("{},{},{},{},{},{},{}", t.x, t.y, t.z, q.x, q.y, q.z, q.w)
 }
 
-fn robot(poses: &[Pose<Base, Flange>]) -> String {
-    let line = |(k, p): (usize, &Pose<Base, Flange>)| format!("{:03},{}\n", k + 1, pose(p));
-    format!("capture,{POSE}\n") + &poses.iter().enumerate().map(line).collect::<String>()
+/// A table with the columns of a pose, or of joint values.
+struct PoseTable {
+    columns: String,
+}
+
+impl PoseTable {
+    fn new(recording: &Recording) -> Self {
+        let joints = recording.joints.first().map_or(0, Vec::len);
+        let names: Vec<String> = (1..=joints).map(|k| format!("joint_{k}")).collect();
+        Self { columns: if joints == 0 { POSE.to_owned() } else { names.join(",") } }
+    }
+
+    fn line(&self, p: &Pose<Base, Flange>, joints: &[f64]) -> String {
+        if joints.is_empty() {
+            return pose(p);
+        }
+        joints.iter().map(|q| format!("{:?}", q.to_degrees())).collect::<Vec<_>>().join(",")
+    }
+}
+
+fn robot(recording: &Recording) -> String {
+    let table = PoseTable::new(recording);
+    let mut text = format!("capture,{}\n", table.columns);
+    for (k, (p, joints)) in recording.base_from_flange.iter().zip(&recording.joints).enumerate() {
+        let _ = writeln!(text, "{:03},{}", k + 1, table.line(p, joints));
+    }
+    text
 }
 
 fn touches(recording: &Recording) -> String {
-    let mut text = format!("placement,corner,{POSE}\n");
+    let table = PoseTable::new(recording);
+    let mut text = format!("placement,corner,{}\n", table.columns);
     for touch in &recording.touches {
         if let Some(p) = &touch.base_from_flange {
-            let _ = writeln!(text, "{},{},{}", touch.placement, touch.corner, pose(p));
+            let line = table.line(p, &touch.joints);
+            let _ = writeln!(text, "{},{},{line}", touch.placement, touch.corner);
         }
     }
     text
@@ -228,7 +257,7 @@ fn truth(recording: &Recording, folder: &Folder) -> Value {
         json!({"id": name(recording, k), "camera_from_target": p, "base_from_flange": place})
     };
     let n = &cell.noise;
-    json!({
+    let mut all = json!({
         "format": FORMAT,
         "seed": cell.seed,
         "setup": cell.setup,
@@ -252,5 +281,13 @@ fn truth(recording: &Recording, folder: &Folder) -> Value {
         "views": truth.camera_from_target.iter().enumerate().map(seen).collect::<Vec<_>>(),
         "files": folder.names.iter().map(String::as_str).chain([TRUTH]).collect::<Vec<_>>(),
         "fingerprints": folder.fingerprints,
-    })
+    });
+    if let Some(arm) = cell.built_arm() {
+        all["arm"] = json!({
+            "links": arm.links,
+            "gears_rad": arm.gears,
+            "bending_rad_per_m": arm.bending,
+        });
+    }
+    all
 }

@@ -39,10 +39,12 @@ impl Default for ArmErrors {
 pub struct BuiltArm {
     /// What the controller believes.
     pub model: Arm,
-    links: Arm,
-    /// Per joint: size and phase of the first and second wave.
-    gears: Vec<[(f64, f64); 2]>,
-    bending: [f64; 2],
+    /// Its links as they are.
+    pub links: Arm,
+    /// Per joint: size and phase of the first and second wave, rad.
+    pub gears: Vec<[(f64, f64); 2]>,
+    /// Bending of shoulder and elbow for a horizontal distance of 1 m, rad.
+    pub bending: [f64; 2],
 }
 
 /// Rounds in which waves and bending follow the joint values; each shrinks the rest by 1e-3.
