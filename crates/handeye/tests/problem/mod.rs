@@ -1,5 +1,7 @@
 //! A session as the joint fit takes it.
 
+#![allow(dead_code, reason = "each test uses a part")]
+
 use handeye::{
     Placement, Pose, PosePair, Session, Setup, TargetPose,
     refine::{Extra, Problem, TouchedBoard, TouchedCorner, View},
@@ -55,8 +57,23 @@ pub fn start(session: &Session, method: handeye::Method) -> handeye::HandEye {
     handeye::solve::solve(&pairs, method).unwrap()
 }
 
+/// The same with the loop closed the other way round, `A⁻¹ Y = X B⁻¹`: then the target's place in
+/// the camera enters, not the camera's place in the target, which the error of the target's tilt
+/// moves by the whole distance.
+pub fn start_turned(session: &Session, method: handeye::Method) -> handeye::HandEye {
+    let turned = |v: &View| PosePair {
+        anchor_from_mount: v.pair.anchor_from_mount.inverse().rename(),
+        camera_from_target: v.pair.camera_from_target.inverse().rename(),
+    };
+    let pairs: Vec<PosePair> = views(session).iter().map(turned).collect();
+    let found = handeye::solve::solve(&pairs, method).unwrap();
+    handeye::HandEye {
+        mount_from_camera: found.anchor_from_target.rename(),
+        anchor_from_target: found.mount_from_camera.rename(),
+    }
+}
+
 /// Corners as the camera has them with those touched (both in m).
-#[allow(dead_code, reason = "not every test registers touches")]
 pub fn pairs_of_touches(session: &Session) -> Vec<handeye::touches::TouchPairs> {
     let target = session.target.as_ref().unwrap();
     let seen: Vec<_> = session.observations.iter().collect();
