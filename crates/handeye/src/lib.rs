@@ -17,6 +17,7 @@ pub mod lie;
 pub mod linalg;
 pub mod observation;
 pub mod pivot;
+pub mod plan;
 pub mod predict;
 pub mod refine;
 pub mod register;

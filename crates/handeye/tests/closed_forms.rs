@@ -263,6 +263,36 @@ fn an_unknown_unit_of_the_camera_leaves_the_camera_in_its_place() {
     assert!((scale * 1000.0 - 1.0).abs() < 1e-9, "{scale}");
 }
 
+/// A quaternion near a half turn may come with either sign; one motion with the wrong one spoils
+/// the eight equations of all.
+#[test]
+fn motions_near_a_half_turn_never_spoil_the_dual_quaternions() {
+    let mut random = handeye::simulate::Random::new(15);
+    let (mut worst, mut near) = (0.0f64, 0);
+    for _ in 0..1000 {
+        let truth = truth((random.normal3() * 0.8).into());
+        let mut turn = |_| {
+            let tilt = random.normal3() * 0.3;
+            let spin = Vector3::z() * random.between(-PI, PI);
+            let both =
+                UnitQuaternion::from_scaled_axis(tilt) * UnitQuaternion::from_scaled_axis(spin);
+            both.scaled_axis().into()
+        };
+        let rotations: Vec<[f64; 3]> = (0..15).map(&mut turn).collect();
+        let mut pairs = turned(&truth, &rotations);
+        for pair in &mut pairs {
+            let (w, t) = (random.normal3() * 1e-3, random.normal3() * 0.3e-3);
+            pair.camera_from_target = pair.camera_from_target * pose(t.into(), w.into());
+        }
+        let angles = solve::motions::motions(&pairs);
+        near += angles.iter().filter(|m| m.a.rotation.angle() > 170f64.to_radians()).count();
+        let found = solve(&pairs, Method::Daniilidis).unwrap();
+        worst = worst.max(found.mount_from_camera.distance_to(&truth.mount_from_camera));
+    }
+    println!("{near} motions beyond 170 degrees; worst of 1000: {:.2} mm", worst * 1e3);
+    assert!(near > 1000 && worst < 5e-3, "{near} {worst}");
+}
+
 /// Fifteen noisy pairs and what OpenCV made of them; `bench/closed_forms/run.py --oracle` wrote it.
 const ORACLE: &str = include_str!("closed_forms_opencv.txt");
 

@@ -108,6 +108,20 @@ fn a_touch_determines_it_and_is_named_for_it() {
     assert!(angle < 1e-3 && distance < 1e-3, "{angle} {distance}");
 }
 
+/// As well as the tip is known, half a millimetre: the views say nothing of it.
+#[test]
+fn one_touch_determines_it_as_well_as_the_tip_is_known() {
+    let session = Session { touches: touched(&[22]), ..session(0.5) };
+    let found = calibrate(&session, &Config::default()).unwrap();
+    assert!(found.undetermined.is_empty(), "{:?}", found.undetermined);
+    let (angle, distance) = off(&found);
+    assert!(angle < 1e-3 && distance < 1e-3, "{angle} {distance}");
+    let covariance = found.hand_eye.covariance.mount_from_camera.unwrap();
+    let along = covariance[5][5].sqrt();
+    assert!((4e-4..1.5e-3).contains(&along), "{along}");
+    assert!(found.predicted_tre_mm.is_some_and(|e| e.rms < 1.5));
+}
+
 #[test]
 fn a_measured_height_determines_it() {
     let z = flange_from_camera().translation().z;

@@ -4,7 +4,7 @@ pub mod explain;
 mod size;
 mod strays;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use crate::{
     HandEye, Pose, PosePair, Setup, Target,
@@ -190,7 +190,12 @@ pub fn free_directions(fit: &JointFit) -> Vec<Free> {
             .flat_map(|is_rotation| axes.map(|axis| Free { is_rotation, axis }))
             .collect();
     };
-    let r = fit.hand_eye.mount_from_camera.rotation();
+    let of_mount = covariance.fixed_view::<6, 6>(0, 0).into_owned();
+    free_of(&of_mount, &fit.hand_eye.mount_from_camera.rotation())
+}
+
+/// The same for a covariance of `mount_from_camera`, whose rotation is `r`.
+pub(crate) fn free_of(covariance: &Matrix6<f64>, r: &Matrix3<f64>) -> Vec<Free> {
     let mut free = Vec::new();
     for (block, limit) in [(0, FREE.0), (3, FREE.1)] {
         let s: Matrix3<f64> = covariance.fixed_view::<3, 3>(block, block).into_owned();

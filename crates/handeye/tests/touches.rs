@@ -1,0 +1,85 @@
+//! Touches that cannot be registered, and registrations that pair the wrong corners.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod problem;
+
+use handeye::{
+    Config, Error, Method, Session, Setup, Verdict, calibrate,
+    register::IcpConfig,
+    simulate::{Cell, Truth},
+    touches::{Registration, fit_touches},
+};
+use nalgebra::Vector6;
+use problem::{pairs_of_touches, start};
+
+const SETUPS: [Setup; 2] = [Setup::EyeInHand, Setup::EyeToHand];
+
+/// A session whose touches are those of the corners for which `keep` holds (column, row of 9 x 6).
+fn session(setup: Setup, keep: impl Fn(u32, u32) -> bool) -> (Session, Truth) {
+    let placements = usize::from(setup == Setup::EyeToHand);
+    let cell = Cell { placements, touches: 54, ..Cell::new(setup, 8) };
+    let (mut session, truth) = cell.session(8).unwrap();
+    session.touches.retain(|t| keep(t.corner % 9, t.corner / 9));
+    (session, truth)
+}
+
+fn register(session: &Session, registration: Registration) -> Result<usize, Error> {
+    let touched = pairs_of_touches(session);
+    let all: Vec<_> = touched.iter().collect();
+    let begin = start(session, Method::Shah).mount_from_camera;
+    fit_touches(&all, &begin, registration).map(|fit| fit.wrong_matches)
+}
+
+fn has(found: &handeye::Calibration, candidate: &str) -> bool {
+    found.candidates.iter().any(|c| c.name == candidate)
+}
+
+/// Eye-in-hand, each view shows the line from elsewhere, and together they determine the camera.
+#[test]
+fn touches_on_a_line_are_refused_by_name_and_still_serve_the_joint_fit() {
+    let (session, truth) = session(Setup::EyeToHand, |_, row| row == 2);
+    let refused = register(&session, Registration::Svd);
+    assert!(matches!(refused, Err(Error::Collinear { .. })), "{refused:?}");
+    let found = calibrate(&session, &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
+    assert!(!has(&found, "two-step-svd") && !has(&found, "two-step-icp"));
+    let warning = found.warnings.iter().find(|w| w.code == "touches-not-enough").unwrap();
+    assert!(warning.message.contains("on one line"), "{}", warning.message);
+    assert!(found.touches.iter().all(|t| t.used));
+    let x = found.hand_eye.mount_from_camera.unwrap();
+    let off = x.distance_to(&truth.hand_eye.mount_from_camera);
+    assert!(off < 2e-3, "{off}");
+}
+
+#[test]
+fn two_touches_are_refused_by_name() {
+    for setup in SETUPS {
+        let (session, _) = session(setup, |column, row| column % 8 == 0 && row == 2);
+        let refused = register(&session, Registration::Svd);
+        assert!(matches!(refused, Err(Error::TooFewPoints { found: 2, needed: 3 })));
+        let found = calibrate(&session, &Config::default()).unwrap();
+        assert!(!has(&found, "two-step-svd") && has(&found, "joint"), "{setup:?}");
+    }
+}
+
+/// Corners are known by their ids. Neighbours serve one candidate, for comparison; it is never
+/// chosen where they differ from what was touched.
+#[test]
+fn nearest_neighbours_that_are_other_corners_are_noticed() {
+    let (session, _) = session(Setup::EyeToHand, |column, row| column < 4 && row < 4);
+    let touched = pairs_of_touches(&session);
+    let all: Vec<_> = touched.iter().collect();
+    let near = start(&session, Method::Shah).mount_from_camera;
+    let config = IcpConfig { max_correspondence_distance_m: 0.02, ..IcpConfig::default() };
+    let right = fit_touches(&all, &near, Registration::Icp(config)).unwrap();
+    assert_eq!(right.wrong_matches, 0);
+    let next_corner = Vector6::new(0.0, 0.0, 0.0, 0.03, 0.0, 0.0);
+    let far = near.retract(&next_corner);
+    let wrong = fit_touches(&all, &far, Registration::Icp(config)).unwrap();
+    assert!(wrong.wrong_matches > 0);
+    assert!(wrong.mount_from_camera.distance_to(&right.mount_from_camera) > 5e-3);
+    // known correspondences need no start
+    let svd = |start| fit_touches(&all, start, Registration::Svd).unwrap().mount_from_camera;
+    assert_eq!(svd(&near), svd(&far));
+}
