@@ -9,7 +9,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Matrix6, SMatrix, Vector3};
+use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
 use crate::{
     Calibration, Config, Error, HandEye, PosePair, Session, Verdict, Warning, calibrate,
@@ -18,8 +18,9 @@ use crate::{
     diagnose, evaluate, lie,
     predict::{self, PredictedTre},
     refine::{
-        Extra, ExtraKind, View,
-        drift::{self, DriftFit, Sequence},
+        Extra, ExtraKind, JointFit, View,
+        drift::{self, DriftFit, Free, Sequence},
+        pose_fit,
     },
     register::rigid_fit::point_jacobian,
     touches,
@@ -31,6 +32,13 @@ const FEWEST: usize = 12;
 /// Gain of the restricted likelihood that shows drift: its three parameters gain as much by chance
 /// in one of a thousand sequences (half of the point of a chi-squared distribution).
 const GAIN: f64 = 8.1;
+
+/// The same of one parameter.
+const GAIN_OF_ONE: f64 = 5.4;
+
+/// Correlation of neighbouring misfits that chance exceeds in one of a hundred sequences, times the
+/// root of their number of equations.
+const BY_CHANCE: f64 = 2.3;
 
 /// Rounds of letting captures in and putting them out.
 const ROUNDS: usize = 6;
@@ -183,10 +191,21 @@ fn fit(
 ) -> Result<Option<DriftFit>, Error> {
     let known = &config.known;
     let mut near = drift::without_drift(sequence, used, start, known)?;
-    let white = drift::fit_drift(sequence, used, &near, known, false)?;
-    let mut found = drift::fit_drift(sequence, used, &near, known, true)?;
+    if !neighbours_alike(sequence, used, &near) {
+        return Ok(None);
+    }
+    let fit =
+        |used: &[bool], near: &JointFit, free| drift::fit_drift(sequence, used, near, known, free);
+    let white = fit(used, &near, Free::Nothing)?;
+    let (mut free, mut found) = (Free::Pose, fit(used, &near, Free::Pose)?);
     if found.fit.log_likelihood - white.fit.log_likelihood < GAIN {
         return Ok(None);
+    }
+    if config.unknown.scale {
+        let unit = fit(used, &near, Free::PoseAndUnit)?;
+        if unit.fit.log_likelihood - found.fit.log_likelihood > GAIN_OF_ONE {
+            (free, found) = (Free::PoseAndUnit, unit);
+        }
     }
     for _ in 0..ROUNDS {
         let belongs: Vec<bool> = found.views.iter().map(|v| v.surprise < SURPRISING).collect();
@@ -196,9 +215,25 @@ fn fit(
         *used = belongs;
         near.hand_eye = found.fit.hand_eye;
         near.values = found.fit.values.clone();
-        found = drift::fit_drift(sequence, used, &near, known, true)?;
+        found = fit(used, &near, free)?;
     }
     Ok(Some(found))
+}
+
+/// Whether misfits of neighbouring views, each in units of its own noise, are more alike than chance
+/// has it.
+fn neighbours_alike(sequence: &Sequence, used: &[bool], near: &JointFit) -> bool {
+    let white = |view: &View| {
+        let pair = view.with(&near.extras, &near.values);
+        let r = pose_fit::misfit(&near.hand_eye, &pair);
+        let noise = near.noise.covariance(view, &near.hand_eye, sequence.setup).cholesky()?;
+        noise.l().solve_lower_triangular(&r)
+    };
+    let views = sequence.views.iter().zip(used).filter(|(_, used)| **used);
+    let misfits: Vec<Vector6<f64>> = views.filter_map(|(view, _)| white(view)).collect();
+    let products: f64 = misfits.windows(2).map(|w| w[0].dot(&w[1])).sum();
+    let squares: f64 = misfits.iter().map(Vector6::norm_squared).sum();
+    products > BY_CHANCE / (6.0 * misfits.len() as f64).sqrt() * squares
 }
 
 fn held_out(found: &DriftFit, used: &[bool]) -> Misfit {
@@ -372,3 +407,6 @@ fn predicted(sequence: &Sequence, found: &DriftFit, inflation: f64) -> Option<Pr
     let spread: Vec<_> = volume.points.iter().map(spread).collect();
     Some(predict::tre_of_points(&volume, &spread, |_| Vector3::zeros()))
 }
+
+#[cfg(test)]
+mod tests;

@@ -67,6 +67,17 @@ impl Drift {
     const NONE: Self = Self { rotation: 0.0, position: 0.0, scale: 0.0, memory: 1.0 };
 }
 
+/// What may drift.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Free {
+    /// Nothing: errors are independent.
+    Nothing,
+    /// The pose of the target.
+    Pose,
+    /// Also the unit of distances, where that is among the extras.
+    PoseAndUnit,
+}
+
 /// What a sequence says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriftFit {
@@ -106,9 +117,9 @@ type See = SMatrix<f64, 6, STATE>;
 /// Standard deviation (rad, m) of what nothing determines.
 const FREE_SIGMA: f64 = 10.0;
 /// Rounds of noise and step.
-const MOST_ROUNDS: usize = 15;
+const MOST_ROUNDS: usize = 8;
 /// The unknowns have converged when the squared step, in units of the information, is below this.
-const STEP: f64 = 1e-6;
+const STEP: f64 = 1e-5;
 /// Belief in the logarithm of each standard deviation beforehand: a factor of ten either way.
 const BELIEF: f64 = 2.3;
 
@@ -124,7 +135,7 @@ struct Line {
     used: bool,
 }
 
-/// Fits `(X, Y, extras)`, the noise and, if `free`, the drift, to the views that are `used`.
+/// Fits `(X, Y, extras)`, the noise and the drift that is `free` to the views that are `used`.
 /// `near` is a fit of about the same without drift.
 ///
 /// # Errors
@@ -135,20 +146,11 @@ pub fn fit_drift(
     used: &[bool],
     near: &JointFit,
     known: &KnownNoise,
-    free: bool,
+    free: Free,
 ) -> Result<DriftFit, Error> {
     check(sequence, used)?;
-    let mut best: Option<Climb> = None;
-    for start in starts(sequence, used, near, known, free) {
-        let climb = climb(sequence, used, near, known, start);
-        if best.as_ref().is_none_or(|b| climb.log_likelihood > b.log_likelihood) {
-            best = Some(climb);
-        }
-    }
-    let Some(best) = best else {
-        return Err(Error::Invalid("no start for the fit of drift".into()));
-    };
-    Ok(best.finish(sequence, used))
+    let starts = starts(sequence, used, near, known, free);
+    Ok(climb(sequence, used, near, known, starts).finish(sequence, used))
 }
 
 fn check(sequence: &Sequence, used: &[bool]) -> Result<(), Error> {
@@ -186,14 +188,14 @@ struct Levels {
 
 impl Levels {
     /// What is free, as logarithms.
-    fn get(&self, known: &KnownNoise, scale: bool) -> Vec<f64> {
+    fn get(&self, known: &KnownNoise) -> Vec<f64> {
         let free = |s: &&noise::Sigma| known.sigma(s.source).is_none();
         let mut all: Vec<f64> =
             self.noise.sigmas.iter().filter(free).map(|s| s.sigma.ln()).collect();
         if self.free {
             let d = &self.drift;
             all.extend([d.memory.ln(), d.rotation.ln(), d.position.ln()]);
-            all.extend(scale.then(|| d.scale.ln()));
+            all.extend((d.scale > 0.0).then(|| d.scale.ln()));
         }
         all
     }
@@ -221,13 +223,14 @@ fn starts(
     used: &[bool],
     near: &JointFit,
     known: &KnownNoise,
-    free: bool,
+    free: Free,
 ) -> Vec<Levels> {
-    let white = Levels { noise: near.noise.clone(), drift: Drift::NONE, free };
-    if !free {
+    let drifts = free != Free::Nothing;
+    let white = Levels { noise: near.noise.clone(), drift: Drift::NONE, free: drifts };
+    if !drifts {
         return vec![white];
     }
-    let scale = scaled(sequence);
+    let scale = free == Free::PoseAndUnit && scaled(sequence);
     let n = used.iter().filter(|u| **u).count() as f64;
     let level = |of: [Source; 2]| {
         let sum: f64 = of.iter().filter_map(|s| near.noise.sigma(*s)).map(|s| s * s).sum();
@@ -267,37 +270,55 @@ struct Climb {
     log_likelihood: f64,
 }
 
-/// Noise and unknowns in turn, until neither moves.
+/// Noise and unknowns in turn, until neither moves; from the start that soon is the likeliest.
 fn climb(
     sequence: &Sequence,
     used: &[bool],
     near: &JointFit,
     known: &KnownNoise,
-    start: Levels,
+    starts: Vec<Levels>,
 ) -> Climb {
-    let first = start.get(known, scaled(sequence));
-    let mut at = Climb {
-        hand_eye: near.hand_eye,
-        values: carried(sequence, near),
-        levels: start,
-        log_likelihood: f64::NEG_INFINITY,
+    let from = |levels: Levels| {
+        let scale = scaled(sequence) && levels.drift.scale > 0.0;
+        let first = levels.get(known);
+        let hessian = DMatrix::identity(first.len(), first.len()) * FIRST_STEP;
+        let search = Search { known: *known, first, scale, inverse: hessian };
+        let values = carried(sequence, near);
+        let log_likelihood = f64::NEG_INFINITY;
+        (Climb { hand_eye: near.hand_eye, values, levels, log_likelihood }, search)
     };
-    for round in 0..MOST_ROUNDS {
-        let lines = lines(sequence, used, &at.hand_eye, &at.values);
-        if round > 0 {
-            at.levels = likeliest(sequence, &lines, &at, known, &first);
+    let mut all: Vec<(Climb, Search)> = starts.into_iter().map(from).collect();
+    for (at, search) in &mut all {
+        // the first step is taken before the noise is looked for
+        for round in 0..2 {
+            at.advance(sequence, used, (round > 0).then_some(&mut *search));
         }
-        let filtered = filter(&lines, &at.levels);
-        let Some((step, size)) = filtered.step(sequence, &at.values) else { break };
-        at.log_likelihood = filtered.log_likelihood(sequence, &at.values);
-        let done = round > 1 && size < STEP;
-        at.hand_eye = pose_fit::moved(&at.hand_eye, &SVector::from_fn(|i, _| step[i]));
-        at.values += step.rows(12, sequence.extras.len());
-        if done {
+    }
+    all.sort_by(|a, b| b.0.log_likelihood.total_cmp(&a.0.log_likelihood));
+    let (mut at, mut search) = all.swap_remove(0);
+    for _ in 0..MOST_ROUNDS {
+        if at.advance(sequence, used, Some(&mut search)) < STEP {
             break;
         }
     }
     at
+}
+
+impl Climb {
+    /// Looks for the likeliest noise, and takes one step; its squared length in units of the
+    /// information.
+    fn advance(&mut self, sequence: &Sequence, used: &[bool], search: Option<&mut Search>) -> f64 {
+        let lines = lines(sequence, used, &self.hand_eye, &self.values);
+        if let Some(search) = search {
+            search.likeliest(sequence, &lines, self);
+        }
+        let filtered = filter(&lines, &self.levels);
+        self.log_likelihood = filtered.log_likelihood(sequence, &self.values);
+        let Some((step, size)) = filtered.step(sequence, &self.values) else { return 0.0 };
+        self.hand_eye = pose_fit::moved(&self.hand_eye, &SVector::from_fn(|i, _| step[i]));
+        self.values += step.rows(12, sequence.extras.len());
+        size
+    }
 }
 
 fn carried(sequence: &Sequence, near: &JointFit) -> DVector<f64> {
@@ -447,92 +468,111 @@ fn covariance(h: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 }
 
 /// Steps of the search for the likeliest noise.
-const MOST_STEPS: usize = 60;
+const MOST_STEPS: usize = 40;
 /// Difference for derivatives by logarithms of standard deviations.
-const DIFFERENCE: f64 = 1e-4;
+const DIFFERENCE: f64 = 1e-5;
 /// The search has ended when a step gains less.
-const GAIN: f64 = 1e-5;
+const GAIN: f64 = 1e-3;
 /// Longest step of one logarithm.
 const LONGEST: f64 = 1.5;
+/// Inverse of the curvature to begin with.
+const FIRST_STEP: f64 = 0.1;
 
-/// The likeliest noise and drift at a point, by the method of Broyden, Fletcher, Goldfarb and
+/// The search for the likeliest noise and drift, by the method of Broyden, Fletcher, Goldfarb and
 /// Shanno.
-fn likeliest(
-    sequence: &Sequence,
-    lines: &[Line],
-    at: &Climb,
-    known: &KnownNoise,
-    first: &[f64],
-) -> Levels {
-    let scale = scaled(sequence);
-    let mut levels = at.levels.clone();
-    let own = first.len() - if levels.free { 3 + usize::from(scale) } else { 0 };
-    let (shortest, longest) = (MEMORY.0.ln(), MEMORY.1.ln());
-    let bound = |x: &mut DVector<f64>| {
-        if x.len() > own {
-            x[own] = x[own].clamp(shortest, longest);
-        }
-        x.iter_mut().for_each(|v| *v = v.max(joint::LEAST_SIGMA.ln()));
-    };
-    let mut cost = |x: &DVector<f64>| {
-        levels.set(x.as_slice(), known);
-        let belief = |(k, (x, first)): (usize, (&f64, &f64))| {
+struct Search {
+    known: KnownNoise,
+    /// Where the logarithms are believed to be.
+    first: Vec<f64>,
+    /// Whether the unit of distances drifts.
+    scale: bool,
+    /// Inverse of the curvature.
+    inverse: DMatrix<f64>,
+}
+
+impl Search {
+    /// The place of the memory among the logarithms, where drift is free.
+    fn memory(&self, levels: &Levels) -> Option<usize> {
+        levels.free.then(|| self.first.len() - 3 - usize::from(self.scale))
+    }
+
+    fn likeliest(&mut self, sequence: &Sequence, lines: &[Line], at: &mut Climb) {
+        let mut levels = at.levels.clone();
+        let memory = self.memory(&levels);
+        let (known, first, values) = (self.known, self.first.clone(), &at.values);
+        let mut cost = |x: &DVector<f64>| {
+            levels.set(x.as_slice(), &known);
             // any memory is as likely as any other
-            if k == own { 0.0 } else { 0.5 * ((x - first) / BELIEF).powi(2) }
+            let believed = (0..x.len()).filter(|k| memory != Some(*k));
+            let beliefs: f64 = believed.map(|k| ((x[k] - first[k]) / BELIEF).powi(2)).sum();
+            0.5 * beliefs - filter(lines, &levels).log_likelihood(sequence, values)
         };
-        let beliefs: f64 = x.iter().zip(first).enumerate().map(belief).sum();
-        beliefs - filter(lines, &levels).log_likelihood(sequence, &at.values)
-    };
-    let mut x = DVector::from_vec(at.levels.get(known, scale));
-    let n = x.len();
-    let slope = |cost: &mut dyn FnMut(&DVector<f64>) -> f64, x: &DVector<f64>| {
-        DVector::from_fn(n, |k, _| {
-            let (mut ahead, mut behind) = (x.clone(), x.clone());
-            ahead[k] += DIFFERENCE;
-            behind[k] -= DIFFERENCE;
-            (cost(&ahead) - cost(&behind)) / (2.0 * DIFFERENCE)
-        })
-    };
-    let mut here = cost(&x);
-    let mut g = slope(&mut cost, &x);
-    let mut inverse = DMatrix::identity(n, n) * 0.1;
-    for _ in 0..MOST_STEPS {
-        let mut step = -(&inverse * &g);
-        if step.dot(&g) >= 0.0 {
-            inverse = DMatrix::identity(n, n) * 0.1;
-            step = -(&inverse * &g);
-        }
-        let far = step.amax();
-        if far > LONGEST {
-            step *= LONGEST / far;
-        }
-        let mut found = None;
-        for _ in 0..12 {
-            let mut next = &x + &step;
-            bound(&mut next);
-            let there = cost(&next);
-            if there < here {
-                found = Some((next, there));
+        let mut x = DVector::from_vec(at.levels.get(&known));
+        let mut here = cost(&x);
+        let mut g = slope(&mut cost, &x, here);
+        for _ in 0..MOST_STEPS {
+            let mut step = -(&self.inverse * &g);
+            if step.dot(&g) >= 0.0 {
+                self.inverse = DMatrix::identity(x.len(), x.len()) * FIRST_STEP;
+                step = -(&self.inverse * &g);
+            }
+            step *= (LONGEST / step.amax().max(f64::MIN_POSITIVE)).min(1.0);
+            let Some((next, there)) = shortened(&mut cost, &x, step, here, memory) else { break };
+            let g_next = slope(&mut cost, &next, there);
+            self.learn(&(&next - &x), &(&g_next - &g));
+            let gain = here - there;
+            (x, here, g) = (next, there, g_next);
+            if gain < GAIN {
                 break;
             }
-            step *= 0.3;
         }
-        let Some((next, there)) = found else { break };
-        let g_next = slope(&mut cost, &next);
-        let (s, y) = (&next - &x, &g_next - &g);
-        let gain = here - there;
-        (x, here, g) = (next, there, g_next);
-        if gain < GAIN {
-            break;
-        }
-        let sy = s.dot(&y);
-        if sy > 1e-12 {
-            let left = DMatrix::identity(n, n) - &s * y.transpose() / sy;
-            inverse = &left * &inverse * left.transpose() + &s * s.transpose() / sy;
+        at.levels.set(x.as_slice(), &known);
+    }
+
+    /// What a step and the change of the slope along it tell of the curvature.
+    fn learn(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
+        let along = step.dot(change);
+        if along > 1e-12 {
+            let n = step.len();
+            let left = DMatrix::identity(n, n) - step * change.transpose() / along;
+            self.inverse = &left * &self.inverse * left.transpose();
+            self.inverse += step * step.transpose() / along;
         }
     }
-    levels.set(x.as_slice(), known);
-    levels
+}
+
+fn slope(cost: &mut impl FnMut(&DVector<f64>) -> f64, x: &DVector<f64>, here: f64) -> DVector<f64> {
+    DVector::from_fn(x.len(), |k, _| {
+        let mut ahead = x.clone();
+        ahead[k] += DIFFERENCE;
+        (cost(&ahead) - here) / DIFFERENCE
+    })
+}
+
+/// Halvings, and more, of a step that does not gain.
+const SHORTER: usize = 8;
+
+/// The first point along a step, shortened ever more, that costs less.
+fn shortened(
+    cost: &mut impl FnMut(&DVector<f64>) -> f64,
+    x: &DVector<f64>,
+    mut step: DVector<f64>,
+    here: f64,
+    memory: Option<usize>,
+) -> Option<(DVector<f64>, f64)> {
+    for _ in 0..SHORTER {
+        let mut next = x + &step;
+        next.iter_mut().for_each(|v| *v = v.max(joint::LEAST_SIGMA.ln()));
+        if let Some(k) = memory {
+            next[k] = next[k].clamp(MEMORY.0.ln(), MEMORY.1.ln());
+        }
+        let there = cost(&next);
+        if there < here {
+            return Some((next, there));
+        }
+        step *= 0.3;
+    }
+    None
 }
 
 impl Climb {
@@ -650,3 +690,6 @@ pub fn without_drift(
     };
     super::fit_joint(&problem, start, known)
 }
+
+#[cfg(test)]
+mod tests;
