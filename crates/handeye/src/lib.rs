@@ -23,6 +23,7 @@ pub mod refine;
 pub mod register;
 pub mod repeat;
 pub mod scan;
+pub mod sequence;
 pub mod simulate;
 pub mod solve;
 pub mod streams;
@@ -43,6 +44,7 @@ pub use observation::{
     TargetPose, Touch, Workspace,
 };
 pub use scan::Scan;
+pub use sequence::calibrate_sequence;
 pub use solve::Method;
 pub use streams::{Stamped, Streams, calibrate_streams};
 pub use target::TargetModel;

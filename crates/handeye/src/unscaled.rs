@@ -10,12 +10,15 @@
 //! N. Andreff, R. Horaud and B. Espiau, *Robot hand-eye calibration using structure-from-motion*,
 //! IJRR 20(3), 2001.
 
+use std::collections::BTreeMap;
+
 use crate::{
     Calibration, Config, Error, PosePair, Session,
     calibrate::{
         self,
         settle::{self, Captures, Stand},
     },
+    calibrate_sequence,
     solve::{FEWEST_POSES, andreff},
 };
 
@@ -47,7 +50,7 @@ pub fn calibrate_unscaled(session: &Session, config: &Config) -> Result<Calibrat
         settle::settle(start, true, session.setup, &config.known, at)
     });
     match settled {
-        Ok(settled) => calibrate_at(&session, settled.stand.scale, config),
+        Ok(settled) => calibrate_at(&session, settled.stand.scale, &BTreeMap::new(), config),
         Err(error) => undetermined(&session, &error),
     }
 }
@@ -62,10 +65,12 @@ fn pairs(session: &Session) -> Vec<PosePair> {
     session.observations.iter().filter_map(pair).collect()
 }
 
-/// The result with this factor taken out and free from there on.
+/// The result with this factor taken out and free from there on; `times` as in
+/// [`calibrate_sequence`].
 pub(crate) fn calibrate_at(
     session: &Session,
     scale: f64,
+    times: &BTreeMap<String, f64>,
     config: &Config,
 ) -> Result<Calibration, Error> {
     let mut session = session.clone();
@@ -74,7 +79,7 @@ pub(crate) fn calibrate_at(
     }
     let mut config = config.clone();
     config.unknown.scale = true;
-    let mut result = calibrate::calibrate(&session, &config)?;
+    let mut result = calibrate_sequence(&session, times, &config)?;
     match result.scale_sigma {
         Some(sigma) => {
             result.scale = result.scale.map(|s| s * scale);

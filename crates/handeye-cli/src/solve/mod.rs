@@ -2,9 +2,11 @@
 
 mod input;
 
+use std::collections::BTreeMap;
+
 use handeye::{
-    Calibration, Config, Method, Warning, calibrate, calibrate_streams, calibrate_unscaled,
-    certify::certify_result,
+    Calibration, Config, Method, Warning, calibrate_sequence, calibrate_streams,
+    calibrate_unscaled, certify::certify_result,
 };
 
 use crate::{
@@ -34,7 +36,7 @@ fn solved(input: &Input, config: &Config) -> Result<Calibration, Failure> {
     Ok(match &input.measured {
         Measured::Streams(streams) => calibrate_streams(streams, config)?,
         Measured::Pairs(session) if input.unknown_scale => calibrate_unscaled(session, config)?,
-        Measured::Pairs(session) => calibrate(session, config)?,
+        Measured::Pairs(session) => calibrate_sequence(session, &BTreeMap::new(), config)?,
     })
 }
 

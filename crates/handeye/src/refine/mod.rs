@@ -1,9 +1,11 @@
 //! Refinement of both unknowns from a start, with covariance.
 //!
 //! [`joint`] is the estimator: one maximum-likelihood fit of everything that was measured, the
-//! noise of every source estimated alongside, `system` its equations. [`pose_fit`] is least squares, for starts and for
-//! comparison.
+//! noise of every source estimated alongside, `system` its equations. [`drift`] is the same for views
+//! taken one after the other, whose errors may change slowly. [`pose_fit`] is least squares, for
+//! starts and for comparison.
 
+pub mod drift;
 pub mod extra;
 pub mod joint;
 pub mod noise;

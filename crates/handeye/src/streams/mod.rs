@@ -25,6 +25,7 @@ use crate::{
         self,
         settle::{self, Settled, Stand},
     },
+    calibrate_sequence,
     solve::FEWEST_POSES,
     unscaled,
 };
@@ -233,13 +234,13 @@ fn finish(
     unknown_scale: bool,
     config: &Config,
 ) -> Result<Calibration, Error> {
-    let (session, velocities) = session(both, chosen, stand.offset);
+    let Moving { session, velocities, times } = session(both, chosen, stand.offset);
     let mut config = config.clone();
     config.unknown.velocities = velocities;
     let mut result = if unknown_scale {
-        unscaled::calibrate_at(&session, stand.scale, &config)?
+        unscaled::calibrate_at(&session, stand.scale, &times, &config)?
     } else {
-        calibrate::calibrate(&session, &config)?
+        calibrate_sequence(&session, &times, &config)?
     };
     result.time_offset_s = match result.time_offset_sigma_s {
         Some(_) => result.time_offset_s.map(|later| stand.offset + later + both.epochs()),
@@ -248,17 +249,22 @@ fn finish(
     Ok(result)
 }
 
-/// The captures at an offset, named by camera time, and how the mount moves in each.
-fn session(
-    both: &Both,
-    chosen: &[usize],
-    offset: f64,
-) -> (Session, BTreeMap<String, Vector6<f64>>) {
-    let mut velocities = BTreeMap::new();
+/// The captures at an offset, named by camera time.
+struct Moving {
+    session: Session,
+    /// How the mount moves in each.
+    velocities: BTreeMap<String, Vector6<f64>>,
+    /// By the camera's clock, s.
+    times: BTreeMap<String, f64>,
+}
+
+fn session(both: &Both, chosen: &[usize], offset: f64) -> Moving {
+    let (mut velocities, mut times) = (BTreeMap::new(), BTreeMap::new());
     let mut observations = vec![];
     for moment in chosen.iter().filter_map(|&k| both.moment(k, offset)) {
         let capture = format!("{:.6} s", moment.camera_time_s);
         velocities.insert(capture.clone(), both.mount_velocity(&moment));
+        times.insert(capture.clone(), moment.camera_time_s);
         observations.push(observation(capture, moment.robot, moment.camera));
     }
     let session = Session {
@@ -274,7 +280,7 @@ fn session(
         known_position: None,
         arm: None,
     };
-    (session, velocities)
+    Moving { session, velocities, times }
 }
 
 fn observation(capture: String, robot: Isometry3<f64>, camera: Isometry3<f64>) -> Observation {
@@ -299,7 +305,7 @@ fn without_offset(
     // at any offset the motions are the same: the calibration names what they leave open
     let start = starts(both).first().copied().unwrap_or(0.0);
     let chosen = choose::choose(both, start, choose::MOST_VIEWS);
-    let (session, _) = session(both, &chosen, start);
+    let session = session(both, &chosen, start).session;
     let mut result = if session.observations.is_empty() {
         return Err(error.clone());
     } else if streams.unknown_scale {
