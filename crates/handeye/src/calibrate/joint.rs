@@ -173,9 +173,12 @@ fn worst_touch(problem: &Problem, fit: &JointFit) -> Option<(usize, usize)> {
 
 /// Strengths of a systematic difference that are tried.
 const STRENGTHS: [f64; 6] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0];
-/// Chance of a disagreement as large, when there is none, below which a systematic difference is
-/// part of the model. One that is none costs more than it saves.
-const NOTICED: f64 = 0.05;
+/// A systematic difference is part of the model when one of a usual strength raises the logarithm
+/// of the likelihood by more than this: one cell in thirty without any has it, and gets an error
+/// that is a few parts in a hundred larger, while one with a difference that goes unnoticed states
+/// an error far too small.
+const NOTICED_GAIN: f64 = 0.3;
+const USUAL_STRENGTH: f64 = 0.75;
 /// Beside a wrong tip, it must raise the logarithm of the likelihood by more.
 const EXPLAINED_GAIN: f64 = 3.0;
 /// Sizes of a tip's error that are tried, m.
@@ -195,7 +198,11 @@ fn conflict(problem: &Problem, fit: &JointFit, explained: bool) -> Option<Confli
     let gains = STRENGTHS.map(|s| gain(&h, &g, s));
     let best = (0..gains.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b]))?;
     // a tip that had to be found leaves little that could tell a second difference from noise
-    let noticed = if explained { gains[best] > EXPLAINED_GAIN } else { p_value < NOTICED };
+    let noticed = if explained {
+        gains[best] > EXPLAINED_GAIN
+    } else {
+        gain(&h, &g, USUAL_STRENGTH) > NOTICED_GAIN
+    };
     let strength = if noticed { STRENGTHS[best] } else { 0.0 };
     Some(Conflict { p_value, strength })
 }

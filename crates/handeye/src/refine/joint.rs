@@ -118,6 +118,8 @@ const FIRST_WEIGHT: f64 = 0.3;
 /// Prior share of the misfit in rotation that is the robot's: a robot reports its orientation
 /// several times better than one picture tells a board's tilt.
 const ROBOT_ROTATION_SHARE: f64 = 0.3;
+/// The same in position: the camera's depth and what rotations do at a distance are in it as well.
+const ROBOT_POSITION_SHARE: f64 = 0.7;
 
 /// Fits everything, noise included.
 ///
@@ -214,6 +216,7 @@ fn first_noise(problem: &Problem, start: &State, known: &KnownNoise) -> NoiseMod
             Source::Picture => 1.0,
             Source::Touch => level(position),
             Source::RobotRotation => level(rotation) * ROBOT_ROTATION_SHARE,
+            Source::RobotPosition => level(position) * ROBOT_POSITION_SHARE,
             s if s.is_rotation() => level(rotation),
             _ => level(position),
         };

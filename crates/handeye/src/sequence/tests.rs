@@ -12,6 +12,7 @@ fn session(setup: Setup, pairs: &[PosePair]) -> Session {
             Setup::EyeInHand => p.anchor_from_mount.rename(),
             Setup::EyeToHand => p.anchor_from_mount.inverse().rename(),
         },
+        joints: vec![],
         corners: vec![],
         surface: vec![],
         candidates: vec![TargetPose { camera_from_target: p.camera_from_target, covariance: None }],
@@ -27,6 +28,7 @@ fn session(setup: Setup, pairs: &[PosePair]) -> Session {
         correspondences: vec![],
         workspace: None,
         known_position: None,
+        arm: None,
     }
 }
 
