@@ -274,9 +274,11 @@ fn touch_level(problem: &Problem, state: &State, noise: &NoiseModel) -> f64 {
         sum += rows.residual.norm_squared();
         count += rows.residual.len() as f64;
     }
-    (sum / f64::max(count, 1.0)).sqrt().clamp(1e-9, LARGEST_TOUCH)
+    (TOUCH_SHARE * (sum / f64::max(count, 1.0)).sqrt()).clamp(1e-9, LARGEST_TOUCH)
 }
 
+/// Share of that misfit which is believed to be the hand's: the answer of the views errs as well.
+const TOUCH_SHARE: f64 = 0.75;
 /// First belief in the error of a tip led by hand, m per axis: at most this.
 const LARGEST_TOUCH: f64 = 0.25e-3;
 
