@@ -69,6 +69,10 @@ pub struct SimulateArgs {
     /// Largest turn of the camera about its axis, either way.
     #[arg(long, default_value_t = 90.0)]
     pub spin_deg: f64,
+    /// A six-axis arm that gives joint values, and is not built quite as its model says; takes the
+    /// place of --robot-mm and --robot-deg.
+    #[arg(long)]
+    pub arm: bool,
     /// Distance of robot and its reading in every pose (3-D RMS).
     #[arg(long, default_value_t = 0.5)]
     pub robot_mm: f64,

@@ -20,12 +20,14 @@ use handeye::{
 };
 use serde_json::{Map, Value, json};
 
-use crate::{Error, MANIFEST, files::write_atomically};
+use crate::{Error, MANIFEST, files::write_atomically, robot::arm_file};
 
 /// Name of the file with the truth.
 pub const TRUTH: &str = "truth.json";
 /// Version of its format.
 const FORMAT: &str = "handeye-simulation-1";
+/// Name of the arm's model.
+const ARM: &str = "arm.json";
 
 /// What a dataset is written as.
 #[derive(Debug, Clone, Copy, PartialEq)]
