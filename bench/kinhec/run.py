@@ -124,7 +124,9 @@ def evaluated(root, program, limit, stored):
     manifest, tier = load_manifest(root), tier_of(root)
     rows = []
     for track, group in manifest.groupby("track"):
-        for name in list(group.sequence_id)[:limit]:
+        names = list(group.sequence_id)
+        # evenly over all levels of difficulty
+        for name in names[:: max(1, -(-len(names) // limit))] if limit else names:
             sequence = load_sequence(root, name, manifest)
             for mode in ["oracle"] if sequence.synchronous else ["oracle", "estimated"]:
                 here = {"tier": tier, "sequence_id": name, "eval_sync": mode}

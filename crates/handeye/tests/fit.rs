@@ -12,9 +12,9 @@ use handeye::{
         extra::{TIP_PRIOR, tip},
         fit_joint, joint,
     },
-    simulate::{Cell, DepthSensor},
+    simulate::{ArmErrors, Cell, DepthSensor},
 };
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 use problem::{problem, start};
 
 const SETUPS: [Setup; 2] = [Setup::EyeInHand, Setup::EyeToHand];
@@ -29,7 +29,47 @@ fn fitted(setup: Setup, seed: u64) -> (Problem, JointFit) {
     (problem, fit)
 }
 
-/// Where an answer is after a step of `(X, Y, tip)`.
+/// The same with an arm of which five parameters may deviate.
+fn fitted_with_arm(setup: Setup, seed: u64) -> (Problem, JointFit) {
+    let mut cell = Cell { arm: Some(ArmErrors::default()), ..Cell::new(setup, seed) };
+    (cell.noise.robot_absolute_m, cell.noise.robot_absolute_rad) = (0.0, 0.0);
+    let (session, _) = cell.session(seed).unwrap();
+    let arm = session.arm.as_ref().unwrap();
+    let which = &arm.deviations()[3..8];
+    let free = |k| Extra::about_zero(ExtraKind::Arm(k), 4e-4);
+    let extras: Vec<Extra> = tip(TIP_PRIOR).into_iter().chain((0..which.len()).map(free)).collect();
+    let mut problem = problem(&session, &extras);
+    for (view, o) in problem.views.iter_mut().zip(&session.observations) {
+        let flange = arm.by_deviations(&o.joints, which);
+        // a step of the mount on the right of its place in the anchor
+        let by = match setup {
+            Setup::EyeInHand => flange,
+            Setup::EyeToHand => {
+                let carry = lie::adjoint(o.base_from_flange.iso());
+                -DMatrix::from_column_slice(6, 6, carry.as_slice()) * flange
+            }
+        };
+        view.by_arm = Some(by.into());
+    }
+    let corners = problem.boards.iter_mut().flat_map(|b| &mut b.corners);
+    for (corner, touch) in corners.zip(&session.touches) {
+        corner.by_arm = Some(arm.by_deviations(&touch.joints, which).into());
+    }
+    let fit = fit_joint(&problem, &start(&session, Method::Shah), &KnownNoise::default()).unwrap();
+    (problem, fit)
+}
+
+/// The arm's deviations after a step.
+fn arm_at(problem: &Problem, fit: &JointFit, step: &DVector<f64>) -> DVector<f64> {
+    DVector::from_fn(problem.extras.len() - 3, |k, _| fit.values[3 + k] + step[15 + k])
+}
+
+/// `by · values` as a twist.
+fn twist(by: Option<&std::sync::Arc<DMatrix<f64>>>, values: &DVector<f64>) -> Vector6<f64> {
+    by.map_or_else(Vector6::zeros, |by| (&**by * values).fixed_rows::<6>(0).into_owned())
+}
+
+/// Where an answer is after a step of `(X, Y, tip, arm)`.
 fn moved(fit: &JointFit, step: &DVector<f64>) -> (HandEye, Vector3<f64>) {
     let six = |k: usize| Vector6::from_fn(|i, _| step[k + i]);
     let HandEye { mount_from_camera, anchor_from_target } = fit.hand_eye;
@@ -40,25 +80,34 @@ fn moved(fit: &JointFit, step: &DVector<f64>) -> (HandEye, Vector3<f64>) {
     (at, Vector3::from_fn(|k, _| fit.values[k] + step[12 + k]))
 }
 
-fn view_misfit(at: &HandEye, view: &handeye::refine::View) -> DVector<f64> {
+fn view_misfit(at: &HandEye, view: &handeye::refine::View, arm: &DVector<f64>) -> DVector<f64> {
     let HandEye { mount_from_camera, anchor_from_target } = *at;
-    let anchor_from_camera = view.pair.anchor_from_mount * mount_from_camera;
+    let anchor_from_mount = view.pair.anchor_from_mount.retract(&twist(view.by_arm.as_ref(), arm));
+    let anchor_from_camera = anchor_from_mount * mount_from_camera;
     let expected = anchor_from_camera.inverse() * anchor_from_target;
     let r = lie::log((view.pair.camera_from_target.inverse() * expected).iso());
     DVector::from_column_slice(r.as_slice())
 }
 
 /// Tip minus corner, all of one board.
-fn touch_misfit(at: &HandEye, tip: &Vector3<f64>, board: &TouchedBoard) -> DVector<f64> {
+fn touch_misfit(
+    at: &HandEye,
+    tip: &Vector3<f64>,
+    arm: &DVector<f64>,
+    board: &TouchedBoard,
+) -> DVector<f64> {
     let base_from_board = match &board.seen {
         Some(view) => at.mount_from_camera.iso() * view.pair.camera_from_target.iso(),
         None => *at.anchor_from_target.iso(),
     };
     let mut e = DVector::zeros(3 * board.corners.len());
     for (k, corner) in board.corners.iter().enumerate() {
-        let flange = corner.base_from_flange.map_or(Matrix3::identity(), |f| f.rotation());
+        let flange = corner.base_from_flange.unwrap();
+        let held = flange.inverse().rotation() * (corner.in_base - flange.translation());
+        let flange = flange.retract(&twist(corner.by_arm.as_ref(), arm));
+        let touched = flange.rotation() * (held + tip) + flange.translation();
         let there = base_from_board.transform_point(&corner.in_target.into()).coords;
-        e.rows_mut(3 * k, 3).copy_from(&(corner.in_base + flange * tip - there));
+        e.rows_mut(3 * k, 3).copy_from(&(touched - there));
     }
     e
 }
@@ -112,14 +161,16 @@ impl Definition {
 
     fn misfits(&self, step: &DVector<f64>) -> DVector<f64> {
         let (at, tip) = moved(&self.fit, step);
-        let views = self.problem.views.iter().map(|v| view_misfit(&at, v));
-        let boards = self.problem.boards.iter().map(|b| touch_misfit(&at, &tip, b));
+        let arm = arm_at(&self.problem, &self.fit, step);
+        let views = self.problem.views.iter().map(|v| view_misfit(&at, v, &arm));
+        let boards = self.problem.boards.iter().map(|b| touch_misfit(&at, &tip, &arm, b));
         let divided = views
             .chain(boards)
             .zip(&self.roots)
             .map(|(r, root)| root.solve_lower_triangular(&r).unwrap());
         let mut all: Vec<f64> = divided.flat_map(|r| r.as_slice().to_vec()).collect();
-        all.extend(tip.iter().map(|t| t / TIP_PRIOR));
+        let extras = tip.iter().chain(&arm).zip(&self.problem.extras);
+        all.extend(extras.map(|(x, e)| x / e.prior_sigma));
         all.into()
     }
 
@@ -142,16 +193,22 @@ const STEP: f64 = 1e-6;
 #[test]
 fn the_information_is_that_of_numeric_derivatives() {
     for setup in SETUPS {
-        let (problem, fit) = fitted(setup, 4);
-        let definition = Definition::new(problem, fit);
-        let (j, _) = definition.differences();
-        let (numeric, stated) = (j.transpose() * &j, &definition.fit.information);
-        for a in 0..numeric.nrows() {
-            for b in 0..numeric.ncols() {
-                let size = (numeric[(a, a)] * numeric[(b, b)]).sqrt();
-                let off = (numeric[(a, b)] - stated[(a, b)]).abs() / size;
-                assert!(off < 1e-6, "{setup:?} ({a}, {b}): {off:.1e}");
-            }
+        informed(fitted(setup, 4), 1e-6);
+        // the arm's deviations are linearised where they start, not where they end
+        informed(fitted_with_arm(setup, 4), 2e-3);
+    }
+}
+
+fn informed((problem, fit): (Problem, JointFit), tolerance: f64) {
+    let setup = problem.setup;
+    let definition = Definition::new(problem, fit);
+    let (j, _) = definition.differences();
+    let (numeric, stated) = (j.transpose() * &j, &definition.fit.information);
+    for a in 0..numeric.nrows() {
+        for b in 0..numeric.ncols() {
+            let size = (numeric[(a, a)] * numeric[(b, b)]).sqrt();
+            let off = (numeric[(a, b)] - stated[(a, b)]).abs() / size;
+            assert!(off < tolerance, "{setup:?} ({a}, {b}): {off:.1e}");
         }
     }
 }

@@ -23,14 +23,15 @@ use crate::{
     touches::{self, Registration, TouchPairs},
 };
 
-/// Makes and judges all candidates, chooses one, and reports the touches.
+/// Makes and judges all candidates, chooses one, and reports the touches. With the views comes the
+/// fit in which the arm deviates, where the choice rests on it.
 pub(super) fn estimate<'a>(
     mut views: Views<'a>,
     found: &Consensus,
     optics: &Optics,
     config: &Config,
     result: &mut Calibration,
-) -> Option<Views<'a>> {
+) -> Option<(Views<'a>, Option<JointFit>)> {
     let (problem, fit) = fit_views(&mut views, found, optics, config, result)?;
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
@@ -75,7 +76,9 @@ pub(super) fn estimate<'a>(
         tre.map = workpiece.map(x);
     }
     captures::report_touches(&views, &paired, joint.as_ref(), result);
-    Some(views)
+    let rests_on_arm = result.chosen.as_deref() == Some(WITH_ARM);
+    let found = arm.filter(|_| rests_on_arm).map(|a| a.fit);
+    Some((views, found))
 }
 
 /// The likeliest answer of views alone, and what it says beside both poses.
@@ -243,6 +246,9 @@ impl Judge<'_> {
     }
 }
 
+/// Name of the candidate that knows of the arm's deviations.
+const WITH_ARM: &str = "joint-with-arm";
+
 impl Judge<'_> {
     /// The answer that does best for a robot whose arm deviates and which does not know.
     fn arm_candidate(&self, fit: &JointFit) -> Option<Judged> {
@@ -254,7 +260,7 @@ impl Judge<'_> {
         let missed = evaluate::rms(&held_out);
         let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
         let candidate = Candidate {
-            name: "joint-with-arm".into(),
+            name: WITH_ARM.into(),
             hand_eye: stored_registration(views, fit, &placed, Some(&covariance)),
             in_sample: evaluate::in_sample(&placed, &views.views),
             held_out: missed,

@@ -132,7 +132,20 @@ fn from_views(
             return;
         }
     }
-    let Some(views) = candidates::estimate(views, &found, optics, config, result) else { return };
+    let Some((views, arm)) = candidates::estimate(views, &found, optics, config, result) else {
+        return;
+    };
+    // an arm that deviates has its own say about the lens: once more from there
+    if round <= OPTICS_ROUNDS
+        && let Some((moved, next)) = arm.and_then(|fit| optics.moved_by(given, &fit))
+    {
+        let mut again = empty(session);
+        from_views(given, (&moved, &next, OPTICS_ROUNDS + 1), config, &mut again);
+        if again.chosen.is_some() {
+            *result = again;
+            return;
+        }
+    }
     captures::report_captures(&views, result);
 }
 

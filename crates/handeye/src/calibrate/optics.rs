@@ -107,12 +107,7 @@ pub(super) fn look(
         next.extras = what_to_free(given, &sighted, camera, start, config)?;
     }
     let fit = fitted(views, &sighted, &next.extras, start, config)?;
-    let far = |(k, e): (usize, &Extra)| {
-        let sigma = fit.extra(e.kind).map_or(0.0, |x| x.1).max(f64::MIN_POSITIVE);
-        (fit.values[k] / sigma).abs()
-    };
-    let farthest = next.extras.iter().enumerate().map(far).fold(0.0, f64::max);
-    if farthest < SETTLED && !optics.extras.is_empty() {
+    if next.is_settled(&fit) && !optics.extras.is_empty() {
         return None;
     }
     next.take(&fit);
@@ -179,6 +174,23 @@ fn what_to_free(
 }
 
 impl Optics {
+    /// The session where another fit, of the same unknowns, puts camera and depth; `None` where that
+    /// is here.
+    pub(super) fn moved_by(&self, given: &Session, fit: &JointFit) -> Option<(Session, Optics)> {
+        if self.is_settled(fit) {
+            return None;
+        }
+        let mut next = self.clone();
+        next.take(fit);
+        let session = next.applied(given)?;
+        Some((session, next))
+    }
+
+    fn is_settled(&self, fit: &JointFit) -> bool {
+        let near = |e: &Extra| fit.extra(e.kind).is_none_or(|(x, s)| x.abs() < SETTLED * s);
+        self.extras.iter().all(near)
+    }
+
     /// Moves to where the fit puts camera and depth.
     fn take(&mut self, fit: &JointFit) {
         let at = |which: usize| fit.extra(ExtraKind::Camera(which)).map_or(0.0, |x| x.0);

@@ -46,6 +46,7 @@ impl TouchedCorner {
     /// that place moves with each deviation.
     fn by_arm_at(
         &self,
+        tip_error: &Vector3<f64>,
         extras: &[Extra],
         values: &DVector<f64>,
     ) -> (Matrix3<f64>, Vector3<f64>, Option<Matrix3xX<f64>>) {
@@ -65,7 +66,7 @@ impl TouchedCorner {
         let moved = flange.retract(&step);
         let rotation = moved.rotation();
         let place = rotation * tip + moved.translation();
-        (rotation, place, Some(carried(&rotation, &tip) * &**by_arm))
+        (rotation, place, Some(carried(&rotation, &(tip + tip_error)) * &**by_arm))
     }
 }
 
@@ -176,8 +177,8 @@ fn fill(
     residual: &mut DVector<f64>,
     jacobian: &mut DMatrix<f64>,
 ) {
-    let (flange, touched, by_arm) = corner.by_arm_at(extras, values);
     let tip = Vector3::from_fn(|k, _| super::extra::value(extras, values, ExtraKind::Tip(k)));
+    let (flange, touched, by_arm) = corner.by_arm_at(&tip, extras, values);
     let r = carrier.base_from_board.rotation.to_rotation_matrix().into_inner();
     let in_base = r * corner.in_target + carrier.base_from_board.translation.vector;
     let mut e = touched + flange * tip - in_base;
