@@ -1,36 +1,83 @@
 //! Processor time of the estimator, one thread, in process: medians of batches.
 //!
-//! `cargo run --release -p handeye --example speed`
+//! `cargo run --release -p handeye --example speed -- [FILE]`; with a FILE, writes it between the
+//! markers `speed` there as well.
 
-use std::{fs, hint::black_box};
+#[allow(clippy::unwrap_used, reason = "shared with tests")]
+#[path = "../tests/problem/mod.rs"]
+mod problem;
+#[path = "../../../bench/section.rs"]
+mod section;
+
+use std::{env, fs, hint::black_box};
 
 use handeye::{
     Config, Pose, PosePair, Setup, TargetModel, calibrate,
-    refine::{KnownNoise, View, fit_views},
+    refine::{
+        KnownNoise, View,
+        extra::{TIP_PRIOR, tip},
+        fit_joint, fit_views,
+    },
     simulate::{Cell, CellNoise, DepthSensor, Random},
     solve::{Method, solve},
 };
 use nalgebra::{Isometry3, Vector3, Vector6};
 
+const HEAD: &str = "## Speed of the estimator
+
+Processor time, one thread, in process, medians of batches. The machine's own speed is in the section
+on closed forms, in the time that OpenCV's SHAH takes there.
+
+";
+
+fn line(table: &mut String, text: &str) {
+    println!("{text}");
+    *table += &format!("- {text}\n");
+}
+
 fn main() {
+    let mut table = String::from(HEAD);
     for n in [15, 50, 200, 1000, 10_000] {
         let pairs = pairs(n);
         let start = solve(&pairs, Method::Shah).expect("well-posed");
         let views: Vec<View> = pairs.into_iter().map(View::bare).collect();
         let known = KnownNoise::default();
         let fit = || fit_views(black_box(&views), &start, &known, Setup::EyeInHand).is_ok();
-        println!("fit of {n} pose pairs, noise of six sources found: {:.3} ms", milliseconds(fit));
+        line(
+            &mut table,
+            &format!(
+                "fit of {n} pose pairs, noise of six sources found: {:.3} ms",
+                milliseconds(fit)
+            ),
+        );
     }
     for setup in [Setup::EyeToHand, Setup::EyeInHand] {
         for depth in [false, true] {
             let session = session(setup, depth);
+            let problem = problem::problem(&session, &tip(TIP_PRIOR));
+            let start = problem::start(&session, Method::Shah);
+            let known = KnownNoise::default();
+            let fit = || fit_joint(black_box(&problem), &start, &known).is_ok();
+            line(
+                &mut table,
+                &format!(
+                    "joint fit, {setup:?}, 20 captures of 88 corners, 12 touches, depth {depth}: {:.2} ms",
+                    milliseconds(fit)
+                ),
+            );
             let run = || calibrate(black_box(&session), &Config::default()).is_ok();
-            println!(
-                "calibrate, {setup:?}, 20 captures of 88 corners, 12 touches, depth {depth}, all \
+            line(
+                &mut table,
+                &format!(
+                    "calibrate, {setup:?}, 20 captures of 88 corners, 12 touches, depth {depth}, all \
                  candidates with everything left out: {:.1} ms",
-                milliseconds(run)
+                    milliseconds(run)
+                ),
             );
         }
+    }
+    if let Some(file) = env::args().nth(1) {
+        section::write(file, "speed", &table);
     }
 }
 

@@ -154,6 +154,13 @@ fn blocks(covariance: &refine::pose_fit::Matrix12) -> (Matrix6<f64>, Matrix6<f64
     )
 }
 
+/// The views where a fit's camera puts them.
+fn as_fitted(fit: &JointFit, views: &[refine::View]) -> Vec<refine::View> {
+    let moved =
+        |v: &refine::View| refine::View { pair: v.with(&fit.extras, &fit.values), ..v.clone() };
+    views.iter().map(moved).collect()
+}
+
 /// What every candidate is judged by.
 struct Judge<'a> {
     views: &'a Views<'a>,
@@ -179,7 +186,10 @@ impl Judge<'_> {
         if config.method.is_none() {
             let problem = joint::views_problem(self.views.session, &self.views.views, &fit.extras);
             let left_out = held_out_views(&problem, fit, &self.known);
-            judged.push(self.judged(fit, likeliest.into(), &fit.hand_eye, left_out));
+            let mut own = self.judged(fit, likeliest.into(), &fit.hand_eye, left_out);
+            own.candidate.in_sample =
+                evaluate::in_sample(&fit.hand_eye, &as_fitted(fit, &self.views.views));
+            judged.push(own);
         }
         judged
     }
@@ -235,7 +245,7 @@ impl Judge<'_> {
         let candidate = Candidate {
             name: "joint".into(),
             hand_eye: stored(self.views, &fit.hand_eye, stated_covariance(fit).as_ref()),
-            in_sample: evaluate::in_sample(&fit.hand_eye, &self.views.views),
+            in_sample: evaluate::in_sample(&fit.hand_eye, &as_fitted(fit, &self.views.views)),
             held_out,
             touch_rms_mm: joint.touch_rms().map(|m| m * 1e3),
             held_out_mm: touch_held_out.or(held_out.translation_rms_mm),

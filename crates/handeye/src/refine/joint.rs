@@ -100,7 +100,7 @@ pub struct JointFit {
 /// Most rounds of step and noise update.
 const MOST_ROUNDS: usize = 100;
 /// The noise has converged when no standard deviation changes by more than this part.
-const SIGMA_CHANGE: f64 = 3e-4;
+const SIGMA_CHANGE: f64 = 1e-3;
 /// The unknowns have converged when the squared step, in units of their own information, is below
 /// this. One more step follows, which squares the rest.
 const STEP: f64 = 1e-6;
