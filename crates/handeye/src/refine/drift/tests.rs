@@ -1,6 +1,6 @@
-use super::*;
+use super::{kalman::*, *};
 use crate::{
-    PosePair,
+    PosePair, lie, linalg,
     refine::noise::Sigma,
     simulate::Random,
     solve::tests::{exact_pairs, truths},
