@@ -119,7 +119,7 @@ const FIRST_WEIGHT: f64 = 0.3;
 /// several times better than one picture tells a board's tilt.
 const ROBOT_ROTATION_SHARE: f64 = 0.3;
 /// The same in position: the camera's depth and what rotations do at a distance are in it as well.
-const ROBOT_POSITION_SHARE: f64 = 0.7;
+const ROBOT_POSITION_SHARE: f64 = 0.85;
 
 /// Fits everything, noise included.
 ///
