@@ -161,8 +161,10 @@ pub fn write(
     fs::create_dir_all(out).map_err(|e| Failure::no_folder(out, e))?;
     let json = serde_json::to_string_pretty(calibration).map_err(|e| Failure::input(out, e))?;
     write_atomically(&out.join("calibration.json"), (json + "\n").as_bytes())?;
-    if let Some(arm) = &calibration.arm {
-        write_atomically(&out.join(ARM), robot::arm_file(&arm.model).as_bytes())?;
+    match &calibration.arm {
+        Some(arm) => write_atomically(&out.join(ARM), robot::arm_file(&arm.model).as_bytes())?,
+        // that of an earlier run does not belong to this result
+        None => drop(fs::remove_file(out.join(ARM))),
     }
     let page = report::page(dataset, calibration, session);
     let path = out.join("report.html");

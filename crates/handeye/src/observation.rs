@@ -91,6 +91,24 @@ pub struct Observation {
     pub candidates: Vec<TargetPose>,
 }
 
+impl Observation {
+    /// A capture of which both poses came from elsewhere, of unknown covariance.
+    pub fn bare(
+        capture: String,
+        base_from_flange: Pose<Base, Flange>,
+        camera_from_target: Pose<Camera, Target>,
+    ) -> Self {
+        Self {
+            capture,
+            base_from_flange,
+            joints: vec![],
+            corners: vec![],
+            surface: vec![],
+            candidates: vec![TargetPose { camera_from_target, covariance: None }],
+        }
+    }
+}
+
 /// A board lying still, seen once by the camera and then touched (eye-to-hand), or the fixed board
 /// of the views (eye-in-hand, where it carries no picture of its own).
 #[derive(Debug, Clone, PartialEq)]

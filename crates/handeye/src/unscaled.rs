@@ -162,39 +162,20 @@ fn draws(n: usize) -> Vec<[usize; DRAWN]> {
 mod tests {
     use super::*;
     use crate::{
-        HandEye, Observation, Pose, Setup, TargetPose, Verdict, lie,
+        HandEye, Observation, Pose, Setup, Verdict, lie,
         simulate::Random,
         solve::tests::{exact_pairs, noisy_pairs, pose, truths},
     };
 
     fn session(setup: Setup, pairs: &[PosePair], scale: f64) -> Session {
-        let observation = |(k, p): (usize, &PosePair)| Observation {
-            capture: format!("{k:02}"),
-            base_from_flange: match setup {
+        let observation = |(k, p): (usize, &PosePair)| {
+            let robot = match setup {
                 Setup::EyeInHand => p.anchor_from_mount.rename(),
                 Setup::EyeToHand => p.anchor_from_mount.inverse().rename(),
-            },
-            joints: vec![],
-            corners: vec![],
-            surface: vec![],
-            candidates: vec![TargetPose {
-                camera_from_target: p.camera_from_target.farther(scale),
-                covariance: None,
-            }],
+            };
+            Observation::bare(format!("{k:02}"), robot, p.camera_from_target.farther(scale))
         };
-        Session {
-            setup,
-            target: None,
-            camera: None,
-            camera_from_views: false,
-            observations: pairs.iter().enumerate().map(observation).collect(),
-            placements: vec![],
-            touches: vec![],
-            correspondences: vec![],
-            workspace: None,
-            known_position: None,
-            arm: None,
-        }
+        Session::of_captures(setup, pairs.iter().enumerate().map(observation).collect())
     }
 
     fn solved(session: &Session) -> Calibration {

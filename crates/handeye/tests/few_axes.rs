@@ -34,30 +34,11 @@ fn session(turn: f64) -> Session {
             (base_from_flange * flange_from_camera()).inverse() * base_from_target();
         let (w, t) = (random.normal3() * 2e-4, random.normal3() * 1e-4);
         let noise = Vector6::new(w.x, w.y, w.z, t.x, t.y, t.z);
-        Observation {
-            capture: format!("{k:02}"),
-            base_from_flange,
-            joints: vec![],
-            corners: vec![],
-            surface: vec![],
-            candidates: vec![TargetPose {
-                camera_from_target: exact.retract(&noise),
-                covariance: None,
-            }],
-        }
+        Observation::bare(format!("{k:02}"), base_from_flange, exact.retract(&noise))
     };
     Session {
-        setup: Setup::EyeInHand,
         target: Some(TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 }),
-        camera: None,
-        camera_from_views: false,
-        observations: (0..12).map(view).collect(),
-        placements: vec![],
-        touches: vec![],
-        correspondences: vec![],
-        workspace: None,
-        known_position: None,
-        arm: None,
+        ..Session::of_captures(Setup::EyeInHand, (0..12).map(view).collect())
     }
 }
 

@@ -3,7 +3,7 @@
 use std::{collections::HashSet, fs, path::Path};
 
 use handeye::{
-    Base, Camera, Flange, Observation, Pose, Session, Setup, Stamped, Streams, Target, TargetPose,
+    Base, Camera, Flange, Observation, Pose, Session, Setup, Stamped, Streams, Target,
     refine::KnownNoise,
 };
 use serde::{Deserialize, de::DeserializeOwned};
@@ -183,31 +183,13 @@ fn session(setup: Setup, pairs: Vec<Pair>, path: &Path) -> Result<Session, Failu
             let what = format!("pair {}: the id {capture:?} is there twice", k + 1);
             return Err(Failure::input(path, what).with_capture(&capture));
         }
-        observations.push(Observation {
+        observations.push(Observation::bare(
             capture,
-            base_from_flange: pair.base_from_flange,
-            joints: vec![],
-            corners: vec![],
-            surface: vec![],
-            candidates: vec![TargetPose {
-                camera_from_target: pair.camera_from_target,
-                covariance: None,
-            }],
-        });
+            pair.base_from_flange,
+            pair.camera_from_target,
+        ));
     }
-    Ok(Session {
-        camera_from_views: false,
-        known_position: None,
-        arm: None,
-        setup,
-        target: None,
-        camera: None,
-        observations,
-        placements: vec![],
-        touches: vec![],
-        correspondences: vec![],
-        workspace: None,
-    })
+    Ok(Session::of_captures(setup, observations))
 }
 
 fn streams(

@@ -10,10 +10,10 @@ use super::{
     optics::{self, Optics},
     reach::Reach,
     verdict,
-    workpiece::{Workpiece, inflation},
+    workpiece::{Workpiece, inflation, volume},
 };
 use crate::{
-    Camera, Error, HandEye, Mount, Pose, PosePair, Setup, Target, Warning, Workspace,
+    Error, HandEye, PosePair, Warning,
     calibration::{Answer, Calibration, Candidate, PoseCovariance, rows},
     diagnose,
     evaluate::{self, Estimator},
@@ -402,7 +402,7 @@ fn stored_registration(
     }
 }
 
-fn pairs_of(views: &Views) -> Vec<PosePair> {
+pub(super) fn pairs_of(views: &Views) -> Vec<PosePair> {
     views.views.iter().map(|v| v.pair).collect()
 }
 
@@ -466,36 +466,4 @@ fn why(best: &Judged, all: &[Judged], volume: &Volume, config: &Config) -> Strin
         tre.rms,
         others.join(", ")
     )
-}
-
-/// Where the answer will be used, in the camera frame.
-fn volume(views: &Views, fit: &JointFit) -> Option<Volume> {
-    if let Some(w) = &views.session.workspace {
-        return Some(workspace_volume(views.session.setup, w, &fit.hand_eye.mount_from_camera));
-    }
-    let Some(target) = &views.session.target else {
-        let origin = [crate::Point::new(0.0, 0.0, 0.0)];
-        let name = "the box around the target's origin in all poses";
-        return diagnose::seen_volume(&pairs_of(views), &origin, name);
-    };
-    let corners: Vec<crate::Point<Target>> =
-        target.corners().iter().map(|c| views.target_from_corner.inverse() * *c).collect();
-    let name = "the box in which the camera saw the target";
-    let mut volume = diagnose::seen_volume(&pairs_of(views), &corners, name)?;
-    if let Some(camera) = &views.session.camera {
-        let seen: Vec<_> =
-            volume.points.iter().copied().filter(|p| optics::in_picture(camera, p)).collect();
-        if !seen.is_empty() {
-            volume.points = seen;
-        }
-    }
-    Some(volume)
-}
-
-pub(super) fn workspace_volume(setup: Setup, w: &Workspace, x: &Pose<Mount, Camera>) -> Volume {
-    let volume = Volume::of_box(&w.minimum, &w.maximum, "the workspace box of the manifest");
-    match setup {
-        Setup::EyeInHand => volume, // declared in the camera frame
-        Setup::EyeToHand => volume.seen_from(&x.iso().inverse(), setup.mount()),
-    }
 }

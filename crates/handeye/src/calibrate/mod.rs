@@ -66,6 +66,25 @@ pub struct Session {
     pub arm: Option<Arm>,
 }
 
+impl Session {
+    /// Captures alone: no target model, camera, touches, or anything else that was measured.
+    pub fn of_captures(setup: Setup, observations: Vec<Observation>) -> Self {
+        Self {
+            setup,
+            target: None,
+            camera: None,
+            camera_from_views: false,
+            observations,
+            placements: vec![],
+            touches: vec![],
+            correspondences: vec![],
+            workspace: None,
+            known_position: None,
+            arm: None,
+        }
+    }
+}
+
 /// What the user wants of a calibration.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Config {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Session, candidates::workspace_volume};
+use super::{Session, workpiece::workspace_volume};
 use crate::{
     Camera, Error, Mount, Pose, Warning,
     calibration::{Answer, Calibration, Candidate, Misfit, PoseCovariance, Verdict, rows},

@@ -25,6 +25,9 @@ const MOST_SCALE_ERROR: f64 = 0.03;
 /// Chance of a scale as far from one as it is below which it is called wrong.
 const IMPROBABLE_SCALE: f64 = 1e-3;
 
+/// The same for one beyond any printer, which is then named, but does not yet reject.
+const UNLIKELY_SCALE: f64 = 1e-2;
+
 /// Scale errors below this part are within what printers and lenses do.
 const LEAST_SCALE_ERROR: f64 = 0.005;
 
@@ -150,7 +153,9 @@ pub(super) fn judge_scale(
     let found = diagnose::target_scale(&views.views, fit, &config.known, views.session.setup);
     let Some(diagnose::TargetScale { value, sigma, p_value }) = found else { return };
     result.target_scale = Some(Scale { value, sigma });
-    if p_value > IMPROBABLE_SCALE || (value - 1.0).abs() < LEAST_SCALE_ERROR {
+    let beyond_printers = (value - 1.0).abs() > MOST_SCALE_ERROR;
+    let named = if beyond_printers { UNLIKELY_SCALE } else { IMPROBABLE_SCALE };
+    if p_value > named || (value - 1.0).abs() < LEAST_SCALE_ERROR {
         return;
     }
     let size = views.session.target.as_ref().map_or(String::new(), |t| {
@@ -165,7 +170,7 @@ pub(super) fn judge_scale(
         sigma * 100.0,
         if value > 1.0 { "larger" } else { "smaller" },
     );
-    if (value - 1.0).abs() > MOST_SCALE_ERROR {
+    if beyond_printers && p_value <= IMPROBABLE_SCALE {
         result.reasons.push(message.clone());
         result.verdict = Verdict::Rejected;
     }

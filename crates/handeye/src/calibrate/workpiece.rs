@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
 
-use super::{agreement::Views, optics, reach::Reach};
+use super::{agreement::Views, candidates::pairs_of, optics, reach::Reach};
 use crate::{
-    Camera, Mount, Pose,
+    Camera, Mount, Pose, Setup, Target, Workspace, diagnose,
     predict::{self, PredictedTre, Volume},
     refine::JointFit,
     touches,
@@ -16,6 +16,38 @@ pub(super) fn inflation(fit: &JointFit) -> Option<f64> {
     let misfit = if dof > 0.0 { (fit.chi_squared / dof).max(1.0) } else { 1.0 };
     let factor = misfit * touches::small_sample(dof);
     factor.is_finite().then_some(factor)
+}
+
+/// Where the answer will be used, in the camera frame.
+pub(super) fn volume(views: &Views, fit: &JointFit) -> Option<Volume> {
+    if let Some(w) = &views.session.workspace {
+        return Some(workspace_volume(views.session.setup, w, &fit.hand_eye.mount_from_camera));
+    }
+    let Some(target) = &views.session.target else {
+        let origin = [crate::Point::new(0.0, 0.0, 0.0)];
+        let name = "the box around the target's origin in all poses";
+        return diagnose::seen_volume(&pairs_of(views), &origin, name);
+    };
+    let corners: Vec<crate::Point<Target>> =
+        target.corners().iter().map(|c| views.target_from_corner.inverse() * *c).collect();
+    let name = "the box in which the camera saw the target";
+    let mut volume = diagnose::seen_volume(&pairs_of(views), &corners, name)?;
+    if let Some(camera) = &views.session.camera {
+        let seen: Vec<_> =
+            volume.points.iter().copied().filter(|p| optics::in_picture(camera, p)).collect();
+        if !seen.is_empty() {
+            volume.points = seen;
+        }
+    }
+    Some(volume)
+}
+
+pub(super) fn workspace_volume(setup: Setup, w: &Workspace, x: &Pose<Mount, Camera>) -> Volume {
+    let volume = Volume::of_box(&w.minimum, &w.maximum, "the workspace box of the manifest");
+    match setup {
+        Setup::EyeInHand => volume, // declared in the camera frame
+        Setup::EyeToHand => volume.seen_from(&x.iso().inverse(), setup.mount()),
+    }
 }
 
 /// Where the answer is used, and the best answer there.

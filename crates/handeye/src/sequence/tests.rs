@@ -1,35 +1,19 @@
 use super::*;
 use crate::{
-    Observation, Pose, Setup, TargetPose,
+    Observation, Pose, Setup,
     simulate::Random,
     solve::tests::{exact_pairs, pose, truths},
 };
 
 fn session(setup: Setup, pairs: &[PosePair]) -> Session {
-    let observation = |(k, p): (usize, &PosePair)| Observation {
-        capture: format!("{k:03}"),
-        base_from_flange: match setup {
+    let observation = |(k, p): (usize, &PosePair)| {
+        let robot = match setup {
             Setup::EyeInHand => p.anchor_from_mount.rename(),
             Setup::EyeToHand => p.anchor_from_mount.inverse().rename(),
-        },
-        joints: vec![],
-        corners: vec![],
-        surface: vec![],
-        candidates: vec![TargetPose { camera_from_target: p.camera_from_target, covariance: None }],
+        };
+        Observation::bare(format!("{k:03}"), robot, p.camera_from_target)
     };
-    Session {
-        setup,
-        target: None,
-        camera: None,
-        camera_from_views: false,
-        observations: pairs.iter().enumerate().map(observation).collect(),
-        placements: vec![],
-        touches: vec![],
-        correspondences: vec![],
-        workspace: None,
-        known_position: None,
-        arm: None,
-    }
+    Session::of_captures(setup, pairs.iter().enumerate().map(observation).collect())
 }
 
 /// Pairs whose target drifts by so much (rad, m) a capture, under a little noise.

@@ -16,11 +16,11 @@ mod stream;
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Vector6};
+use nalgebra::Vector6;
 
 use crate::{
     Base, Calibration, Camera, Config, Error, Flange, Observation, Pose, Session, Setup, Target,
-    TargetPose, Warning,
+    Warning,
     calibrate::{
         self,
         settle::{self, Settled, Stand},
@@ -265,34 +265,11 @@ fn session(both: &Both, chosen: &[usize], offset: f64) -> Moving {
         let capture = format!("{:.6} s", moment.camera_time_s);
         velocities.insert(capture.clone(), both.mount_velocity(&moment));
         times.insert(capture.clone(), moment.camera_time_s);
-        observations.push(observation(capture, moment.robot, moment.camera));
+        let (robot, camera) = (Pose::claim(moment.robot), Pose::claim(moment.camera));
+        observations.push(Observation::bare(capture, robot, camera));
     }
-    let session = Session {
-        setup: both.setup,
-        target: None,
-        camera: None,
-        camera_from_views: false,
-        observations,
-        placements: vec![],
-        touches: vec![],
-        correspondences: vec![],
-        workspace: None,
-        known_position: None,
-        arm: None,
-    };
+    let session = Session::of_captures(both.setup, observations);
     Moving { session, velocities, times }
-}
-
-fn observation(capture: String, robot: Isometry3<f64>, camera: Isometry3<f64>) -> Observation {
-    let pose = TargetPose { camera_from_target: Pose::claim(camera), covariance: None };
-    Observation {
-        capture,
-        base_from_flange: Pose::claim(robot),
-        joints: vec![],
-        corners: vec![],
-        surface: vec![],
-        candidates: vec![pose],
-    }
 }
 
 /// The result where no offset could be found: what the data leave open is named.

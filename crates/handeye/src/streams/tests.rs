@@ -1,6 +1,6 @@
 use super::*;
 use crate::{Anchor, HandEye, Mount, Verdict, lie, simulate::Random};
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 
 type Poses<A, B> = Vec<Stamped<Pose<A, B>>>;
 
