@@ -5,7 +5,7 @@
 
 use handeye::{
     Base, Calibration, Camera, Config, Flange, Observation, Point, Pose, Session, Setup, Target,
-    TargetModel, TargetPose, Touch, Verdict, calibrate, refine::KnownPosition, simulate::Random,
+    TargetModel, Touch, Verdict, calibrate, refine::KnownPosition, simulate::Random,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 
