@@ -21,6 +21,8 @@ pub struct Scenario {
     pub touch: f64,
     /// The tip beyond where the robot believes it.
     pub tip: f64,
+    /// How well the user says the tip is known, per axis.
+    pub tip_known: Option<f64>,
     /// Depth noise at 1 m; 0 for no scans.
     pub depth: f64,
     pub fault: Fault,
@@ -50,12 +52,13 @@ pub const BASE: Scenario = Scenario {
     robot: (0.5, 0.03),
     touch: 0.3,
     tip: 0.0,
+    tip_known: None,
     depth: 0.3,
     fault: Fault::None,
 };
 pub const IN_HAND: Scenario = Scenario { setup: Setup::EyeInHand, ..BASE };
 
-pub const SCENARIOS: [Scenario; 21] = [
+pub const SCENARIOS: [Scenario; 24] = [
     BASE,
     Scenario { name: "10 views, 6 touches", captures: 10, touches: 6, ..BASE },
     Scenario { name: "20 views, 12 touches", captures: 20, touches: 12, ..BASE },
@@ -67,6 +70,14 @@ pub const SCENARIOS: [Scenario; 21] = [
     Scenario { name: "tip off 0.5 mm", tip: 0.5, ..BASE },
     Scenario { name: "tip off 1 mm", tip: 1.0, ..BASE },
     Scenario { name: "robot off where it touches", fault: Fault::Local(0.4, 0.03), ..BASE },
+    Scenario { name: "tip known to 0.05 mm", tip_known: Some(0.05), ..BASE },
+    Scenario {
+        name: "the same, robot off where it touches",
+        tip_known: Some(0.05),
+        fault: Fault::Local(0.4, 0.03),
+        ..BASE
+    },
+    Scenario { name: "the same, tip off 0.5 mm", tip_known: Some(0.05), tip: 0.5, ..BASE },
     Scenario { name: "clustered touches", fault: Fault::Clustered, ..BASE },
     Scenario { name: "4 touches", touches: 4, ..BASE },
     Scenario { name: "24 touches of 0.1 mm", touches: 24, touch: 0.1, ..BASE },

@@ -96,6 +96,7 @@ pub fn run_on(
             robot_rotation_rad: dataset.noise.robot_rotation,
             robot_position_m: dataset.noise.robot_position,
             touch_m: dataset.noise.touch,
+            tip_m: dataset.noise.tip,
         },
         max_error_mm: dataset.limits.max_error.map(|m| m * 1e3),
         ..config

@@ -34,6 +34,12 @@ struct Sums {
     worse: usize,
 }
 
+/// What the user says of the cell.
+fn config(scenario: &Scenario) -> Config {
+    let tip_m = scenario.tip_known.map(|mm| mm * 1e-3);
+    Config { known: KnownNoise { tip_m, ..KnownNoise::default() }, ..Config::default() }
+}
+
 const CHI2_6_95: f64 = 12.592;
 
 impl Sums {
@@ -45,7 +51,7 @@ impl Sums {
             volume.points.iter().map(|p| d(p).norm_squared()).sum::<f64>()
                 / volume.points.len() as f64
         };
-        let result = calibrate(&session, &Config::default()).expect("a session to calibrate from");
+        let result = calibrate(&session, &config(scenario)).expect("a session to calibrate from");
         let Some(found) = result.hand_eye.mount_from_camera else {
             self.none += 1;
             return;
@@ -129,6 +135,7 @@ fn known(
         robot_rotation_rad: Some(noise.robot_absolute_rad.hypot(noise.robot_repeatability_rad)),
         robot_position_m: axis(noise.robot_absolute_m.hypot(noise.robot_repeatability_m)),
         touch_m: axis(noise.touch_m.max(1e-6)),
+        tip_m: scenario.tip_known.map(|mm| mm * 1e-3),
     };
     let result = calibrate(session, &Config { known, ..Config::default() }).ok()?;
     let joint = result.candidates.iter().find(|k| k.name == "joint")?;

@@ -41,6 +41,7 @@ fn known(cell: &Cell) -> KnownNoise {
         robot_rotation_rad: Some(n.robot_absolute_rad.hypot(n.robot_repeatability_rad)),
         robot_position_m: Some(n.robot_absolute_m.hypot(n.robot_repeatability_m) / 3f64.sqrt()),
         touch_m: Some(n.touch_m / 3f64.sqrt()),
+        tip_m: None,
     }
 }
 

@@ -289,6 +289,7 @@ fn cost_over_expected(trials: u64, scans: bool) -> f64 {
             robot_rotation_rad: Some(n.robot_absolute_rad.hypot(n.robot_repeatability_rad)),
             robot_position_m: Some(n.robot_absolute_m.hypot(n.robot_repeatability_m) / 3f64.sqrt()),
             touch_m: None,
+            tip_m: None,
         };
         let problem = problem(&session, &[]);
         let fit = fit_joint(&problem, &start(&session, Method::Shah), &known).unwrap();

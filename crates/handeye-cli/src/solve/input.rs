@@ -119,6 +119,7 @@ fn noise(noise: Noise, path: &Path) -> Result<KnownNoise, Failure> {
         robot_rotation_rad: noise.robot_rotation_deg.map(f64::to_radians),
         robot_position_m: noise.robot_position_mm.map(|mm| mm * 1e-3),
         touch_m: None,
+        tip_m: None,
     })
 }
 

@@ -280,6 +280,7 @@ pub(super) struct NoiseSpec {
     pub(super) robot_rotation_deg: Option<f64>,
     pub(super) depth_mm: Option<f64>,
     pub(super) touch_mm: Option<f64>,
+    pub(super) tip_mm: Option<f64>,
 }
 
 #[derive(Debug, Clone, Copy, Default, Deserialize)]

@@ -136,6 +136,8 @@ pub struct Noise {
     pub depth: Option<f64>,
     /// Of a touch, m.
     pub touch: Option<f64>,
+    /// Of the tool tip that the robot believes, m per axis.
+    pub tip: Option<f64>,
 }
 
 /// What the job tolerates.

@@ -361,6 +361,7 @@ impl Opening {
             )?,
             depth: positive("depth_mm", spec.depth_mm, 1e-3)?,
             touch: positive("touch_mm", spec.touch_mm, 1e-3)?,
+            tip: positive("tip_mm", spec.tip_mm, 1e-3)?,
         })
     }
 

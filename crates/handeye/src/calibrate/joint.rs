@@ -61,7 +61,7 @@ pub(super) fn fit(
 ) -> Option<Joint> {
     let mut problem = Problem {
         boards: boards.boards.clone(),
-        ..views_problem(views.session, &views.views, &[extras, &tip(TIP_PRIOR)].concat())
+        ..views_problem(views.session, &views.views, &[extras, &believed_tip(known)].concat())
     };
     if problem.boards.is_empty() {
         return None;
@@ -78,6 +78,11 @@ pub(super) fn fit(
         fit = joint::refit(&problem, &fit, known);
     }
     Some(Joint { problem, fit, used: touches.concat(), left_out, conflict, wrong_tip })
+}
+
+/// The tip as free as the user's knowledge of it leaves it.
+fn believed_tip(known: &KnownNoise) -> [Extra; 3] {
+    tip(known.tip_m.unwrap_or(TIP_PRIOR))
 }
 
 /// What is believed of a tip once it is known to be wrong, m per axis.

@@ -173,6 +173,9 @@ pub struct KnownNoise {
     pub robot_position_m: Option<f64>,
     /// Touching, m per axis.
     pub touch_m: Option<f64>,
+    /// How well the tool tip is known, m per axis; [`super::extra::TIP_PRIOR`] where not given.
+    #[serde(default)]
+    pub tip_m: Option<f64>,
 }
 
 impl KnownNoise {
