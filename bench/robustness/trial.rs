@@ -68,7 +68,7 @@ impl Outcome {
             Mistake::Shifted => {
                 &["robot pose of the", "robot pose belongs", "robot pose is that of"]
             }
-            Mistake::WrongDetection | Mistake::Mirrored => &["disagrees"],
+            Mistake::WrongDetection | Mistake::Mirrored | Mistake::Moving => &["disagrees"],
         };
         let says = |i: &usize| {
             let reason = self.result.captures[*i].reason.as_deref().unwrap_or("");

@@ -140,7 +140,7 @@ fn the_promise_is_what_the_calibration_states() {
         robot_rotation_rad: Some(t.setting.noise.robot_rotation_rad),
         robot_position_m: Some(t.setting.noise.robot_position_m),
         touch_m: None,
-            tip_m: None,
+        tip_m: None,
     };
     let config = handeye::Config { known, ..handeye::Config::default() };
     let found = calibrate(&session, &config).unwrap();

@@ -7,7 +7,7 @@
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use super::{Config, agreement::Captures};
+use super::{Config, agreement::Captures, masked::masked};
 use crate::{
     refine::{self, JointFit, View},
     solve::{FEWEST_POSES, consensus::Consensus},
@@ -33,8 +33,9 @@ pub(super) fn gate(
     for _ in 0..ROUNDS {
         let Some(fit) = fit_of(captures, &found, &agreeing(&found), config) else { break };
         found.hand_eye = fit.hand_eye;
-        let changed =
-            readmit(captures, &mut found, &fit) || put_out(captures, &mut found, &fit, config);
+        let changed = readmit(captures, &mut found, &fit)
+            || put_out(captures, &mut found, &fit, config)
+            || unmask(captures, &mut found, &fit, config);
         last = Some(fit);
         if !changed {
             break;
@@ -99,9 +100,23 @@ fn put_out(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &
     worst.is_some()
 }
 
+/// Puts out captures that hid behind one another.
+fn unmask(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &Config) -> bool {
+    let used = agreeing(found);
+    let view = |&i: &usize| captures.view(i, found.reading[i]);
+    let views: Vec<View> = used.iter().map(view).collect();
+    let setup = captures.session.setup;
+    let hidden = masked(&views, fit, setup, |part| {
+        let part: Vec<View> = part.iter().map(|&k| views[k].clone()).collect();
+        refine::fit_views(&part, &found.hand_eye, &config.known, setup).ok()
+    });
+    hidden.iter().for_each(|&k| found.agrees[used[k]] = false);
+    !hidden.is_empty()
+}
+
 /// Squared distance, in units of six axes, that noise estimated from so few equations reaches with
 /// probability [`IMPROBABLE`].
-fn surprise_limit(degrees_of_freedom: f64) -> f64 {
+pub(super) fn surprise_limit(degrees_of_freedom: f64) -> f64 {
     let dof = degrees_of_freedom.max(1.0);
     FisherSnedecor::new(6.0, dof).map_or(f64::INFINITY, |f| 6.0 * f.inverse_cdf(1.0 - IMPROBABLE))
 }

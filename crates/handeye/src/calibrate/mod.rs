@@ -15,6 +15,7 @@ mod captures;
 mod doubt;
 mod gate;
 mod joint;
+mod masked;
 mod optics;
 mod points;
 mod reach;

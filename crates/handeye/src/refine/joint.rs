@@ -333,6 +333,13 @@ impl JointFit {
         Some(r.dot(&(linalg::invert_spd(&expected)? * r)))
     }
 
+    /// Squared Mahalanobis distance of a capture against its own noise alone.
+    pub(crate) fn distance(&self, view: &View, setup: Setup) -> Option<f64> {
+        let r = pose_fit::misfit(&self.hand_eye, &view.with(&self.extras, &self.values));
+        let own = self.noise.covariance(view, &self.hand_eye, setup);
+        Some(r.dot(&(linalg::invert_spd(&own)? * r)))
+    }
+
     /// Misfit of every touch of a board, in the base (m).
     pub(crate) fn touch_misfits(
         &self,

@@ -23,17 +23,20 @@ pub enum Mistake {
     Mirrored,
     /// From one capture to another, each has the robot pose of the capture after it.
     Shifted,
+    /// The robot was not at rest yet: where it says it is, it is off by 3 to 10 mm, up to a degree.
+    Moving,
 }
 
 impl Mistake {
     /// Every kind.
-    pub const ALL: [Mistake; 6] = [
+    pub const ALL: [Mistake; 7] = [
         Mistake::Turned,
         Mistake::Exchanged,
         Mistake::Stale,
         Mistake::WrongDetection,
         Mistake::Mirrored,
         Mistake::Shifted,
+        Mistake::Moving,
     ];
 
     /// Words for tables.
@@ -45,6 +48,7 @@ impl Mistake {
             Mistake::WrongDetection => "wrong detection",
             Mistake::Mirrored => "mirrored pose",
             Mistake::Shifted => "run off by one",
+            Mistake::Moving => "robot not at rest",
         }
     }
 }
@@ -125,9 +129,21 @@ fn commit(
                 move_target(session, i, |_| Isometry3::new(shift, turn));
             }
             Mistake::Mirrored => move_target(session, i, mirrored),
+            Mistake::Moving => {
+                let (near, far) = MOVED_M;
+                let shift = random.normal3().normalize() * (near + (far - near) * random.unit());
+                let turn = random.normal3().normalize() * (MOST_TURNED * random.unit());
+                let step = Isometry3::new(shift, turn);
+                session.observations[i].base_from_flange = Pose::claim(robot[i].iso() * step);
+            }
         }
     }
 }
+
+/// How far a robot that is not at rest has to go, least and most (m).
+const MOVED_M: (f64, f64) = (3e-3, 10e-3);
+/// How far it has to turn at most, rad.
+const MOST_TURNED: f64 = 0.0175;
 
 /// Spread of poses that are far off: rad and m per axis.
 const GARBAGE: (f64, f64) = (0.15, 0.03);

@@ -1,0 +1,102 @@
+//! Wrong captures that hide one another.
+//!
+//! Several captures that are each a little wrong make the noise look larger than it is, and none of
+//! them is a surprise any more. So the fit starts from the part of the captures that agrees best and
+//! grows, always by the capture that fits next best, until the next one is a surprise. The best part
+//! of good captures is better than all of them: their squared distances, six axes each, fall short by
+//! `P(χ²₈ < q)/P(χ²₆ < q)`, with `q` where the part ends.
+//!
+//! A. Atkinson and M. Riani, *Robust Diagnostic Regression Analysis*, 2000 (forward search);
+//! P. Rousseeuw and K. Van Driessen, *Computing LTS regression for large data sets*, 2006
+//! (concentration).
+
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::gate::surprise_limit;
+use crate::{
+    Setup,
+    refine::{JointFit, View},
+};
+
+/// Part of the captures that the search starts from.
+const BEST_PART: f64 = 0.6;
+/// Fewest captures to start from.
+const FEWEST: usize = 6;
+/// Rounds in which that part settles.
+const ROUNDS: usize = 6;
+/// Steps in which the search grows, at most: of many captures it takes several at once.
+const STEPS: usize = 30;
+
+/// Those of `views` that surprise a fit of the others; `fit_of` fits a part of them.
+pub(super) fn masked(
+    views: &[View],
+    all: &JointFit,
+    setup: Setup,
+    fit_of: impl Fn(&[usize]) -> Option<JointFit>,
+) -> Vec<usize> {
+    let start = (BEST_PART * views.len() as f64).ceil() as usize;
+    if start < FEWEST {
+        return vec![];
+    }
+    let mut inner = nearest(views, all, setup, start);
+    let mut fit = None;
+    for _ in 0..ROUNDS {
+        let Some(of_inner) = fit_of(&inner) else { return vec![] };
+        let next = nearest(views, &of_inner, setup, start);
+        fit = Some(of_inner);
+        if next == inner {
+            break;
+        }
+        inner = next;
+    }
+    let step = (views.len() - start).div_ceil(STEPS).max(1);
+    while let Some(of_inner) = fit {
+        let fitted = inner.len() as f64 / views.len() as f64;
+        let limit = surprise_limit(of_inner.degrees_of_freedom) / shortfall(fitted);
+        let outside = (0..views.len()).filter(|i| !inner.contains(i));
+        let surprises: Vec<(usize, f64)> =
+            outside.filter_map(|i| Some((i, of_inner.surprise(&views[i], setup)?))).collect();
+        let next = surprises.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
+        if next > limit {
+            return surprises.into_iter().map(|s| s.0).collect();
+        }
+        if inner.len() + step >= views.len() {
+            break;
+        }
+        inner = nearest(views, &of_inner, setup, inner.len() + step);
+        fit = fit_of(&inner);
+    }
+    vec![]
+}
+
+/// The `count` views with the smallest misfit in units of the noise, in order.
+fn nearest(views: &[View], fit: &JointFit, setup: Setup, count: usize) -> Vec<usize> {
+    let distance = |v: &View| fit.distance(v, setup).unwrap_or(f64::INFINITY);
+    let mut ranked: Vec<(f64, usize)> =
+        views.iter().enumerate().map(|(i, v)| (distance(v), i)).collect();
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked.truncate(count);
+    let mut nearest: Vec<usize> = ranked.into_iter().map(|(_, i)| i).collect();
+    nearest.sort_unstable();
+    nearest
+}
+
+/// Mean squared distance of the best part of good captures over that of all.
+fn shortfall(part: f64) -> f64 {
+    let (Ok(six), Ok(eight)) = (ChiSquared::new(6.0), ChiSquared::new(8.0)) else { return 1.0 };
+    if part >= 1.0 { 1.0 } else { eight.cdf(six.inverse_cdf(part)) / part }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_part_of_good_captures_is_better_than_all() {
+        assert!((shortfall(1.0) - 1.0).abs() < 1e-12);
+        let shares: Vec<f64> = (1..10).map(|k| shortfall(f64::from(k) / 10.0)).collect();
+        assert!(shares.is_sorted() && shares[0] > 0.1 && shares[8] < 0.9, "{shares:?}");
+        // by hand: the lower half of a chi-squared of six ends at 5.348
+        assert!((shortfall(0.5) - 0.560).abs() < 5e-3, "{}", shortfall(0.5));
+    }
+}
