@@ -106,6 +106,37 @@ fn init_finds_everything_that_a_simulation_wrote() {
     fs::remove_dir_all(out).unwrap();
 }
 
+/// Joint values from files, of views and of touches; then another cell into the same folder.
+#[test]
+fn an_arm_that_is_not_as_its_model_says_is_corrected_from_files() {
+    let out = folder("arm");
+    let (cell, result) = (out.join("cell"), out.join("result"));
+    let (cell, result) = (cell.to_str().unwrap(), result.to_str().unwrap());
+    let simulate = ["simulate", cell, "--setup", "eye-to-hand", "--arm", "--no-images"];
+    assert_eq!(handeye(&[&simulate[..], &["--captures", "20", "--seed", "3"]].concat()).0, 0);
+    let answer = |found: &str| serde_json::from_str::<Value>(found).unwrap();
+    let calibrate = ["calibrate", cell, "--out", result, "--json"];
+    let (code, found, said) = handeye(&calibrate);
+    assert_eq!(code, 0, "{said}");
+    let found = answer(&found);
+    assert_eq!(found["method"], "joint-with-arm");
+    let [before, after] =
+        ["robot_before_mm", "robot_after_mm"].map(|key| found["arm"][key].as_f64().unwrap());
+    assert!(after < 0.4 * before, "{before} {after}");
+    assert!(out.join("result/corrected_arm.json").exists());
+    // a cell without joint values has no arm to correct, and nothing of the earlier run stays
+    let plain = out.join("plain");
+    let plain = plain.to_str().unwrap();
+    let simulate = ["simulate", plain, "--setup", "eye-to-hand", "--no-images"];
+    assert_eq!(handeye(&simulate).0, 0);
+    let calibrate = ["calibrate", plain, "--out", result, "--json"];
+    let (code, found, said) = handeye(&calibrate);
+    assert_eq!(code, 0, "{said}");
+    assert!(answer(&found)["arm"].is_null());
+    assert!(!out.join("result/corrected_arm.json").exists());
+    fs::remove_dir_all(out).unwrap();
+}
+
 #[test]
 fn init_says_that_there_is_nothing() {
     let out = folder("nothing");
