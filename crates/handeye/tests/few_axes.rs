@@ -115,6 +115,8 @@ fn a_measured_height_determines_it() {
     let covariance = found.hand_eye.covariance.mount_from_camera.unwrap();
     let along = covariance[5][5].sqrt();
     assert!((3e-4..2e-3).contains(&along), "{along}");
+    let warning = found.warnings.iter().find(|w| w.code == "determined-by-known-position").unwrap();
+    assert!(warning.message.contains("translation along"), "{}", warning.message);
 }
 
 #[test]

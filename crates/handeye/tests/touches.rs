@@ -114,3 +114,51 @@ fn a_tip_that_is_known_makes_the_answer_better_and_surer() {
     }
     assert!(squares[1] < 0.7 * squares[0], "{squares:?}");
 }
+
+fn renamed(session: &Session, way: impl Fn(u32) -> u32) -> Session {
+    let mut session = session.clone();
+    session.touches.iter_mut().for_each(|t| t.corner = way(t.corner));
+    session
+}
+
+#[test]
+fn two_touches_exchanged_are_left_out_and_named() {
+    for setup in SETUPS {
+        let (session, _) = session(setup, |column, row| column % 4 == 0 && row % 5 == 0);
+        let mut swapped = session.clone();
+        let (a, b) = (swapped.touches[0].corner, swapped.touches[5].corner);
+        (swapped.touches[0].corner, swapped.touches[5].corner) = (b, a);
+        let found = calibrate(&swapped, &Config::default()).unwrap();
+        assert_eq!(found.verdict, Verdict::Accepted, "{setup:?}: {:?}", found.reasons);
+        let left_out = |corner: u32| corner == a || corner == b;
+        assert!(found.touches.iter().all(|t| t.used != left_out(t.corner)), "{:?}", found.touches);
+        let named = |corner: u32, other: u32| {
+            let text = format!("the touch of corner {corner} of ");
+            found.warnings.iter().any(|w| {
+                w.code == "touch-rejected"
+                    && w.message.starts_with(&text)
+                    && w.message.ends_with(&format!("exchanged with that of corner {other}"))
+            })
+        };
+        assert!(named(a, b) && named(b, a), "{setup:?}: {:?}", found.warnings);
+    }
+}
+
+#[test]
+fn touches_under_other_ids_contradict_the_views_and_the_way_of_counting_is_named() {
+    for setup in SETUPS {
+        let (session, _) = session(setup, |column, row| column % 4 == 0 && row % 5 == 0);
+        let ways: [(&str, fn(u32) -> u32); 4] = [
+            ("turned by half a turn", |id| 53 - id),
+            ("counted from 1", |id| (id + 1).min(53)),
+            ("column by column", |id| id % 9 * 6 + id / 9),
+            ("from the other side", |id| id / 9 * 9 + 8 - id % 9),
+        ];
+        for (name, way) in ways {
+            let found = calibrate(&renamed(&session, way), &Config::default()).unwrap();
+            assert_eq!(found.verdict, Verdict::Rejected, "{setup:?} {name}");
+            assert!(found.reasons[0].contains(name), "{setup:?} {name}: {:?}", found.reasons);
+            assert!(found.touches.iter().all(|t| !t.used), "{setup:?} {name}");
+        }
+    }
+}

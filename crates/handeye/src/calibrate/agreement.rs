@@ -151,7 +151,10 @@ fn suspect_conventions(
             && (bare || e.convention != Convention::TargetInverted)
             && 2 * e.agree > readings.len()
             && declared.is_none_or(|d| {
-                e.median_m < EXPLAINS * d.median_m && e.median_rad < 1.2 * d.median_rad + 1e-3
+                // a few captures can be left out until the rest fits anything
+                e.agree >= d.agree
+                    && e.median_m < EXPLAINS * d.median_m
+                    && e.median_rad < 1.2 * d.median_rad + 1e-3
             })
     };
     let explaining: Vec<&diagnose::Evidence> = all.iter().filter(better).collect();

@@ -7,10 +7,12 @@ use super::{
     agreement::Views,
     arm, boards, budget, captures,
     joint::{self, Joint, held_out_views},
+    known_position,
     optics::{self, Optics},
     reach::Reach,
     verdict,
     workpiece::{Workpiece, inflation, volume},
+    wrong_touches,
 };
 use crate::{
     Error, HandEye, PosePair, Warning,
@@ -35,7 +37,12 @@ pub(super) fn estimate<'a>(
     let (problem, fit) = fit_views(&mut views, found, optics, config, result)?;
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
-    let boards = boards::boards(&views, &fit, optics);
+    let mut boards = boards::boards(&views, &fit, optics);
+    let wrong = wrong_touches::find(&views, &boards, &problem, &fit);
+    wrong.left_out_of(&mut boards);
+    let right = |p: &TouchPairs| !wrong.which.contains(&p.touch);
+    let trusted: Vec<TouchPairs> = paired.iter().filter(|p| right(p)).cloned().collect();
+    wrong.report(result);
     let joint = joint::fit(&views, &boards, &problem.extras, &fit, &config.known);
     if let Some(joint) = &joint {
         joint.warn(&views, result);
@@ -50,6 +57,7 @@ pub(super) fn estimate<'a>(
         }
     };
     name_free(&views, &fit, best, result);
+    known_position::judge(whole, best, &views, &config.known, result);
     let reach = arm.as_ref().and_then(|a| Reach::new(&views, a, &volume));
     let (best, whole) = match (&arm, &reach) {
         (Some(arm), Some(_)) => (&arm.fit, &arm.problem),
@@ -63,7 +71,7 @@ pub(super) fn estimate<'a>(
     result.error_budget = budget::budget(whole, best, &workpiece);
     result.advice = budget::advice(whole, best, &workpiece);
     let judge =
-        Judge { views: &views, paired: &paired, known: config.known, workpiece: &workpiece };
+        Judge { views: &views, paired: &trusted, known: config.known, workpiece: &workpiece };
     let mut candidates = judge.view_candidates(&fit, joint.is_some(), config);
     candidates.extend(judge.touch_candidates(&fit, config, result));
     if config.method.is_none() {
@@ -143,7 +151,7 @@ struct Judged {
 
 /// Covariance of X and Y in their own frames, widened for noise estimated from few captures, and
 /// for data that fit worse than their noise says.
-fn stated_covariance(fit: &JointFit) -> Option<refine::pose_fit::Matrix12> {
+pub(super) fn stated_covariance(fit: &JointFit) -> Option<refine::pose_fit::Matrix12> {
     fit.pose_covariance().zip(inflation(fit)).map(|(c, factor)| c * factor)
 }
 

@@ -15,6 +15,7 @@ mod captures;
 mod doubt;
 mod gate;
 mod joint;
+mod known_position;
 mod masked;
 mod optics;
 mod points;
@@ -25,6 +26,7 @@ mod sources;
 mod unknown;
 mod verdict;
 mod workpiece;
+mod wrong_touches;
 
 use crate::{
     Correspondence, Error, Intrinsics, Observation, Placement, Setup, TargetModel, Touch,

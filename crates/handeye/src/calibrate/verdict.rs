@@ -5,7 +5,7 @@ use crate::{
     Camera, Mount, Pose, Warning,
     calibration::{Answer, Calibration, Determined, Scale, Verdict},
     diagnose,
-    refine::JointFit,
+    refine::{JointFit, noise::Source},
 };
 
 /// Predicted error (95 %) beyond which an answer is rejected when the user named no limit, mm.
@@ -14,6 +14,9 @@ const MOST_PREDICTED_MM: f64 = 10.0;
 /// Misfit of captures that were left out beyond which an answer is rejected: no robot and camera
 /// in working order are that far apart. mm and degrees.
 const MOST_HELD_OUT: (f64, f64) = (15.0, 2.5);
+
+/// Captures from which on those left out say something of the others.
+const FEWEST_HELD_OUT: usize = 5;
 
 /// Share of the captures that must agree.
 const LEAST_AGREEING: f64 = 0.5;
@@ -115,6 +118,10 @@ fn contradictions(result: &Calibration) -> Vec<String> {
         ));
     }
     let (mm, deg) = (result.held_out.translation_rms_mm, result.held_out.rotation_rms_deg);
+    // what is left of very few captures hardly determines an answer, and misses by rights
+    if used < FEWEST_HELD_OUT {
+        return against;
+    }
     if mm.is_some_and(|mm| mm > MOST_HELD_OUT.0) || deg.is_some_and(|deg| deg > MOST_HELD_OUT.1) {
         against.push(format!(
             "captures left out are missed by {:.1} mm and {:.2} degrees (RMS): far beyond a robot \
@@ -141,6 +148,21 @@ fn imprecision(config: &Config, result: &Calibration) -> Vec<String> {
     }
 }
 
+/// The robot moved farther than this many standard deviations of its own position.
+const TRAVELS: f64 = 10.0;
+
+/// Whether the robot's positions say anything of lengths: one that only turned about its flange does
+/// not, and its noise would be taken for lengths.
+fn travels(views: &Views, fit: &JointFit) -> bool {
+    let places: Vec<_> = views.used.iter().map(|o| o.base_from_flange.translation()).collect();
+    let count = places.len().max(1) as f64;
+    let middle = places.iter().sum::<nalgebra::Vector3<f64>>() / count;
+    let squares: f64 = places.iter().map(|p| (p - middle).norm_squared()).sum();
+    let sigma = fit.noise.sigma(Source::RobotPosition).unwrap_or(0.0);
+    (squares / count).sqrt() > TRAVELS * sigma
+}
+
+/// Names a target whose size is not what the robot says.
 pub(super) fn judge_scale(
     views: &Views,
     fit: &JointFit,
@@ -148,6 +170,9 @@ pub(super) fn judge_scale(
     result: &mut Calibration,
 ) {
     if config.unknown.scale || views.views.len() < 5 || result.verdict == Verdict::Rejected {
+        return;
+    }
+    if !travels(views, fit) {
         return;
     }
     let found = diagnose::target_scale(&views.views, fit, &config.known, views.session.setup);

@@ -350,6 +350,25 @@ impl JointFit {
         (0..board.corners.len()).map(|k| rows.residual.fixed_rows::<3>(3 * k).into()).collect()
     }
 
+    /// Misfit of every touch of a board, in the base (m), and its covariance without what the touch
+    /// itself adds.
+    pub(crate) fn expected_touches(
+        &self,
+        problem: &Problem,
+        board: &TouchedBoard,
+    ) -> Option<Vec<(nalgebra::Vector3<f64>, nalgebra::Matrix3<f64>)>> {
+        let rows = self.touch_rows(problem, board);
+        let spread = &rows.jacobian * self.covariance.as_ref()? * rows.jacobian.transpose();
+        let all = rows.covariance + spread;
+        let one = |k: usize| {
+            (
+                rows.residual.fixed_rows::<3>(3 * k).into(),
+                all.fixed_view::<3, 3>(3 * k, 3 * k).into(),
+            )
+        };
+        Some((0..board.corners.len()).map(one).collect())
+    }
+
     fn touch_rows(&self, problem: &Problem, board: &TouchedBoard) -> TouchRows {
         let values = carried_values(problem, self);
         let variances = self.noise.variances();

@@ -1,0 +1,228 @@
+//! Touches that cannot be of the corners they name.
+//!
+//! The views say where every touched corner is, up to their own uncertainty and the tool tip's
+//! offset, which is one for all. The offset on which most touches agree is looked for, each touch
+//! proposing its own; the others touched something else. Where fewer than two thirds agree, either
+//! the touches are wrong or the views are, and no answer can be trusted.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{agreement::Views, boards::Boards};
+use crate::{
+    TargetModel, Warning,
+    calibration::{Calibration, Verdict},
+    linalg,
+    refine::{JointFit, Problem, TouchedBoard},
+    solve::consensus::median,
+};
+
+/// Largest offset of a tip that is still taken for one, m.
+const LARGEST_TIP: f64 = 60e-3;
+/// What touching, tip and robot may add to the views' uncertainty, m per axis.
+const SLACK: f64 = 2e-3;
+/// Squared distance, three axes, beyond which a touch does not agree.
+const AGREES: f64 = 25.0;
+
+/// One touch against what the views expect.
+struct Expected {
+    /// Its place in the session.
+    touch: usize,
+    /// Where it was touched minus where the views put the corner, in the base (m).
+    misfit: Vector3<f64>,
+    /// Rotation of the flange; of the base where no flange was recorded.
+    flange: Matrix3<f64>,
+    /// Weight of the misfit: the inverse of its covariance.
+    weight: Matrix3<f64>,
+}
+
+impl Expected {
+    fn distance(&self, tip: &Vector3<f64>) -> f64 {
+        let r = self.misfit + self.flange * tip;
+        r.dot(&(self.weight * r))
+    }
+}
+
+/// What does not agree.
+pub(super) struct WrongTouches {
+    /// Touches of the session to leave out.
+    pub which: Vec<usize>,
+    /// Words for the user; for each touch, or for all.
+    warnings: Vec<Warning>,
+    /// Why no answer can be trusted.
+    contradiction: Option<String>,
+}
+
+/// Looks for wrong touches, by views alone.
+pub(super) fn find(
+    views: &Views,
+    boards: &Boards,
+    problem: &Problem,
+    fit: &JointFit,
+) -> WrongTouches {
+    let mut found = WrongTouches { which: vec![], warnings: vec![], contradiction: None };
+    let Some(target) = &views.session.target else { return found };
+    let all = expected(boards, problem, fit);
+    let (tip, agreeing) = consensus(&all);
+    if agreeing == all.len() {
+        return found;
+    }
+    let session = views.session;
+    let outside = all.iter().filter(|e| !agrees(e, &tip));
+    if 3 * agreeing >= 2 * all.len() {
+        for e in outside {
+            let touch = &session.touches[e.touch];
+            let off = (e.misfit + e.flange * tip).norm() * 1e3;
+            let partner = exchanged(e, boards, &all, problem, fit, &tip).map(|k| {
+                let other = &session.touches[k];
+                format!("; it looks exchanged with that of corner {}", other.corner)
+            });
+            found.warnings.push(Warning::new(
+                "touch-rejected",
+                format!(
+                    "the touch of corner {} of {:?} is left out: it is {off:.1} mm from where views \
+                     and other touches put that corner{}",
+                    touch.corner,
+                    touch.placement,
+                    partner.unwrap_or("; a wrong corner, or a slipped tip".into())
+                ),
+            ));
+            found.which.push(e.touch);
+        }
+        return found;
+    }
+    let off = median(all.iter().map(|e| e.misfit.norm()).collect());
+    let hint = renamed(boards, target, problem, fit, all.len())
+        .map_or(String::new(), |how| format!("; with {how} they would agree"));
+    found.contradiction = Some(format!(
+        "views and touches contradict each other: only {agreeing} of {} touches agree with any one \
+         tool tip, half of them are more than {:.0} mm from where the views put their corners: \
+         check corner ids, unit and frame of the touches, and which placement each belongs to{hint}",
+        all.len(),
+        off * 1e3
+    ));
+    found.which = all.iter().map(|e| e.touch).collect();
+    found
+}
+
+impl WrongTouches {
+    /// The boards without these touches.
+    pub(super) fn left_out_of(&self, boards: &mut Boards) {
+        for (board, touches) in boards.boards.iter_mut().zip(&mut boards.touches) {
+            let keep: Vec<bool> = touches.iter().map(|k| !self.which.contains(k)).collect();
+            let mut keeps = keep.iter();
+            board.corners.retain(|_| *keeps.next().unwrap_or(&true));
+            let mut keeps = keep.iter();
+            touches.retain(|_| *keeps.next().unwrap_or(&true));
+        }
+        let touched: Vec<bool> = boards.touches.iter().map(|t| !t.is_empty()).collect();
+        let mut some = touched.iter();
+        boards.boards.retain(|_| *some.next().unwrap_or(&true));
+        boards.touches.retain(|t| !t.is_empty());
+    }
+
+    pub(super) fn report(self, result: &mut Calibration) {
+        result.warnings.extend(self.warnings);
+        if let Some(reason) = self.contradiction {
+            result.reasons.push(reason);
+            result.verdict = Verdict::Rejected;
+        }
+    }
+}
+
+fn expected(boards: &Boards, problem: &Problem, fit: &JointFit) -> Vec<Expected> {
+    let mut all = vec![];
+    for (board, touches) in boards.boards.iter().zip(&boards.touches) {
+        let Some(expectations) = fit.expected_touches(problem, board) else { continue };
+        for ((corner, &touch), (misfit, covariance)) in
+            board.corners.iter().zip(touches).zip(expectations)
+        {
+            let spread = covariance + Matrix3::identity() * SLACK.powi(2);
+            let Some(weight) = linalg::invert_spd(&spread) else { continue };
+            let flange = corner.base_from_flange.map_or_else(Matrix3::identity, |f| f.rotation());
+            all.push(Expected { touch, misfit, flange, weight });
+        }
+    }
+    all
+}
+
+fn agrees(e: &Expected, tip: &Vector3<f64>) -> bool {
+    e.distance(tip) < AGREES
+}
+
+/// The offset of the tip on which most touches agree, and how many; of equals the smallest.
+fn consensus(all: &[Expected]) -> (Vector3<f64>, usize) {
+    let count = |tip: &Vector3<f64>| all.iter().filter(|e| agrees(e, tip)).count();
+    let proposals = all.iter().map(|e| -(e.flange.transpose() * e.misfit));
+    let zero = (Vector3::zeros(), count(&Vector3::zeros()));
+    proposals.filter(|tip| tip.norm() < LARGEST_TIP).fold(zero, |best, tip| {
+        let agreeing = count(&tip);
+        let nearer = agreeing == best.1 && tip.norm() < best.0.norm();
+        if agreeing > best.1 || nearer { (tip, agreeing) } else { best }
+    })
+}
+
+/// The touch of the same board that fits this one's corner, while this one fits its.
+fn exchanged(
+    e: &Expected,
+    boards: &Boards,
+    all: &[Expected],
+    problem: &Problem,
+    fit: &JointFit,
+    tip: &Vector3<f64>,
+) -> Option<usize> {
+    let b = boards.touches.iter().position(|t| t.contains(&e.touch))?;
+    let own = boards.touches[b].iter().position(|k| *k == e.touch)?;
+    let wrong = |k: &usize| all.iter().any(|o| o.touch == *k && !agrees(o, tip));
+    boards.touches[b].iter().enumerate().find_map(|(other, k)| {
+        if other == own || !wrong(k) {
+            return None;
+        }
+        let mut board = boards.boards[b].clone();
+        let (mine, theirs) = (board.corners[own].in_target, board.corners[other].in_target);
+        (board.corners[own].in_target, board.corners[other].in_target) = (theirs, mine);
+        let swapped = Boards { boards: vec![board], touches: vec![boards.touches[b].clone()] };
+        let both = expected(&swapped, problem, fit);
+        (agrees(both.get(own)?, tip) && agrees(both.get(other)?, tip)).then_some(*k)
+    })
+}
+
+/// A way of counting the corners with which two thirds of the touches agree.
+fn renamed(
+    boards: &Boards,
+    target: &TargetModel,
+    problem: &Problem,
+    fit: &JointFit,
+    count: usize,
+) -> Option<&'static str> {
+    let (columns, rows) = target.grid();
+    let last = (columns * rows).checked_sub(1)?;
+    let by_columns = |id: u32| Some((id % rows) * columns + id / rows);
+    let other_way = |id: u32| Some(id / columns * columns + (columns - 1 - id % columns));
+    let ways: [(&str, &dyn Fn(u32) -> Option<u32>); 5] = [
+        ("the board turned by half a turn", &|id| last.checked_sub(id)),
+        ("the corners counted from 1", &|id| id.checked_sub(1)),
+        ("the corners counted from 0", &|id| Some(id + 1)),
+        ("the corners counted column by column", &by_columns),
+        ("the columns counted from the other side", &other_way),
+    ];
+    let reference = target.reference().vector();
+    let id_of = |p: &Vector3<f64>| {
+        (0..=last).find(|id| {
+            target.corner(*id).is_some_and(|c| (c.vector() - reference - p).norm() < 1e-9)
+        })
+    };
+    ways.into_iter().find_map(|(name, way)| {
+        let rename = |board: &TouchedBoard| {
+            let mut board = board.clone();
+            for corner in &mut board.corners {
+                let id = way(id_of(&corner.in_target)?)?;
+                corner.in_target = target.corner(id)?.vector() - reference;
+            }
+            Some(board)
+        };
+        let renamed: Option<Vec<TouchedBoard>> = boards.boards.iter().map(rename).collect();
+        let all =
+            expected(&Boards { boards: renamed?, touches: boards.touches.clone() }, problem, fit);
+        (3 * consensus(&all).1 >= 2 * count).then_some(name)
+    })
+}
