@@ -186,6 +186,9 @@ fn exchanged(
     })
 }
 
+/// A way of counting corners, in words, and the right id of a corner counted so.
+type Way<'a> = (&'static str, &'a dyn Fn(u32) -> Option<u32>);
+
 /// A way of counting the corners with which two thirds of the touches agree.
 fn renamed(
     boards: &Boards,
@@ -198,7 +201,7 @@ fn renamed(
     let last = (columns * rows).checked_sub(1)?;
     let by_columns = |id: u32| Some((id % rows) * columns + id / rows);
     let other_way = |id: u32| Some(id / columns * columns + (columns - 1 - id % columns));
-    let ways: [(&str, &dyn Fn(u32) -> Option<u32>); 5] = [
+    let ways: [Way; 5] = [
         ("the board turned by half a turn", &|id| last.checked_sub(id)),
         ("the corners counted from 1", &|id| id.checked_sub(1)),
         ("the corners counted from 0", &|id| Some(id + 1)),
