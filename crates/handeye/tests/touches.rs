@@ -144,11 +144,13 @@ fn two_touches_exchanged_are_left_out_and_named() {
     }
 }
 
+type Way = fn(u32) -> u32;
+
 #[test]
 fn touches_under_other_ids_contradict_the_views_and_the_way_of_counting_is_named() {
     for setup in SETUPS {
         let (session, _) = session(setup, |column, row| column % 4 == 0 && row % 5 == 0);
-        let ways: [(&str, fn(u32) -> u32); 4] = [
+        let ways: [(&str, Way); 4] = [
             ("turned by half a turn", |id| 53 - id),
             ("counted from 1", |id| (id + 1).min(53)),
             ("column by column", |id| id % 9 * 6 + id / 9),
