@@ -117,6 +117,30 @@ fn the_least_squares_fit_is_certified() {
 }
 
 #[test]
+fn what_has_no_answer_is_not_certified() {
+    let folder = Folder::new();
+    let pair = |k: u32| {
+        let s = f64::from(k);
+        let flange = pose([3.0, 0.1, 0.2], [0.6 + 0.1 * s.sin(), 0.15 * (1.7 * s).cos(), 0.5])
+            * pose([0.0, 0.0, 0.4 * s - 1.0], [0.0; 3]);
+        let camera = flange * pose([0.1, -0.2, 1.5], CAMERA);
+        let seen = camera.inverse() * pose([0.1, 3.0, 0.1], [0.6, 0.1, 0.02]);
+        json!({ "base_from_flange": stored(&flange, 1.0), "camera_from_target": stored(&seen, 1.0) })
+    };
+    let file = json!({ "setup": "eye-in-hand", "pairs": (0..15).map(pair).collect::<Vec<_>>() });
+    folder.put("pairs.json", &file.to_string());
+    let run = handeye(&folder, &["solve", "pairs.json", "--certify", "--json"]);
+    assert_eq!(run.code, 3, "{}", run.stderr);
+    let answer = run.json();
+    assert_eq!(answer["verdict"], "undetermined");
+    assert_eq!(answer["undetermined"], json!(["translation along the rotation axis z of flange"]));
+    assert!(answer["hand_eye"]["mount_from_camera"].is_null());
+    assert!(answer["certificate"].is_null());
+    let warnings = answer["warnings"].as_array().unwrap();
+    assert!(warnings.iter().any(|w| w["code"] == "not-certified"), "{warnings:?}");
+}
+
+#[test]
 fn bad_files_are_refused_with_the_place_and_what_to_do() {
     let folder = Folder::new();
     let text = |value: Value| serde_json::to_string_pretty(&value).unwrap();

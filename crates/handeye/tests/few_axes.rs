@@ -1,11 +1,13 @@
 //! Robots that turn about one axis only, or not at all: what the motions determine is given, what
 //! they do not is named, and a touch or a measured height fills it in.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use handeye::{
-    Base, Calibration, Camera, Config, Flange, Observation, Point, Pose, Session, Setup, Target,
-    TargetModel, Touch, Verdict, calibrate, refine::KnownPosition, simulate::Random,
+    Base, Calibration, Camera, Config, Flange, Observation, Point, Pose, Session, Setup,
+    Target, TargetModel, Touch, Verdict, calibrate,
+    refine::{KnownNoise, KnownPosition},
+    simulate::Random,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 
@@ -77,6 +79,50 @@ fn one_axis_leaves_the_position_along_it() {
     assert!(rotation.angle_to(&truth.iso().rotation) < 1e-3);
     let off = Vector3::from(known.translation_across_m.unwrap()) - truth.translation();
     assert!(off.xy().norm() < 3e-4, "{off}");
+}
+
+/// Exact views whose robot turns about one axis of its flange, as far as rounding lets it.
+fn exact(axis: Vector3<f64>) -> Session {
+    let view = |k: usize| {
+        let s = k as f64;
+        let down = UnitQuaternion::from_scaled_axis(Vector3::new(3.0, 0.1, 0.2));
+        let turn = UnitQuaternion::from_scaled_axis(axis * (0.4 * s - 1.0));
+        let at = Vector3::new(0.6 + 0.1 * s.sin(), 0.15 * (1.7 * s).cos(), 0.5 + 0.01 * s);
+        let base_from_flange: Pose<Base, Flange> =
+            Pose::claim(Isometry3::from_parts(at.into(), down * turn));
+        let seen = (base_from_flange * flange_from_camera()).inverse() * base_from_target();
+        Observation::bare(format!("{k:02}"), base_from_flange, seen)
+    };
+    Session::of_captures(Setup::EyeInHand, (0..15).map(view).collect())
+}
+
+#[test]
+fn rounding_does_not_pass_for_information() {
+    for axis in [Vector3::x(), Vector3::y(), Vector3::z(), Vector3::new(1.0, 2.0, 3.0).normalize()]
+    {
+        let found = calibrate(&exact(axis), &Config::default()).unwrap();
+        assert_eq!(found.verdict, Verdict::Undetermined, "{axis}: {:?}", found.reasons);
+        let [named] = found.undetermined.as_slice() else { panic!("{:?}", found.undetermined) };
+        assert!(named.starts_with("translation along the rotation axis "), "{named}");
+        assert!(found.hand_eye.mount_from_camera.is_none());
+        let known = found.determined.unwrap();
+        assert!(Vector3::from(known.free_translations[0]).dot(&axis).abs() > 0.9999);
+        let t = flange_from_camera().translation();
+        let across = t - axis * axis.dot(&t);
+        assert!((Vector3::from(known.translation_across_m.unwrap()) - across).norm() < 1e-6);
+    }
+}
+
+#[test]
+fn known_noise_below_rounding_does_not_either() {
+    let known = KnownNoise {
+        robot_rotation_rad: Some(1e-12),
+        robot_position_m: Some(1e-12),
+        ..KnownNoise::default()
+    };
+    let config = Config { known, ..Config::default() };
+    let found = calibrate(&exact(Vector3::z()), &config).unwrap();
+    assert_eq!(found.undetermined, ["translation along the rotation axis z of flange"]);
 }
 
 #[test]
