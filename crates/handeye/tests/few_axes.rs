@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use handeye::{
-    Base, Calibration, Camera, Config, Flange, Observation, Point, Pose, Session, Setup,
+    Base, Calibration, Camera, Config, Flange, Method, Observation, Point, Pose, Session, Setup,
     Target, TargetModel, Touch, Verdict, calibrate,
     refine::{KnownNoise, KnownPosition},
     simulate::Random,
@@ -123,6 +123,24 @@ fn known_noise_below_rounding_does_not_either() {
     let config = Config { known, ..Config::default() };
     let found = calibrate(&exact(Vector3::z()), &config).unwrap();
     assert_eq!(found.undetermined, ["translation along the rotation axis z of flange"]);
+}
+
+#[test]
+fn what_is_open_is_so_for_every_method() {
+    for turn in [0.0, 0.5] {
+        let session = Session { target: None, ..session(turn) };
+        let plain = calibrate(&session, &Config::default()).unwrap();
+        for method in Method::ALL {
+            let config = Config { method: Some(method), ..Config::default() };
+            let found = calibrate(&session, &config).unwrap();
+            let name = method.name();
+            assert_eq!(found.verdict, Verdict::Undetermined, "{name}: {:?}", found.reasons);
+            assert_eq!(found.undetermined, plain.undetermined, "{name}");
+            assert!(found.hand_eye.mount_from_camera.is_none(), "{name}");
+            assert!(found.held_out.translation_rms_mm.unwrap() < 1.0, "{name}");
+            assert!(found.captures.iter().all(|c| c.residual_mm.is_none_or(|r| r < 1.0)), "{name}");
+        }
+    }
 }
 
 #[test]

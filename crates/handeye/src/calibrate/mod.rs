@@ -16,6 +16,7 @@ mod doubt;
 mod gate;
 mod joint;
 mod masked;
+mod named;
 mod optics;
 mod points;
 mod reach;
