@@ -181,6 +181,37 @@ fn a_measured_height_determines_it() {
     assert!((3e-4..2e-3).contains(&along), "{along}");
 }
 
+/// Half turns about the three axes of the flange: the rotations alone fit four cameras.
+#[test]
+fn half_turns_are_solved_and_no_method_invents_an_answer() {
+    use std::f64::consts::PI;
+    let turns = [Vector3::zeros(), Vector3::x() * PI, Vector3::y() * PI, Vector3::z() * PI];
+    let view = |(k, turn): (usize, Vector3<f64>)| {
+        let s = k as f64;
+        let at = Vector3::new(0.6 + 0.2 * s.sin(), 0.3 * (1.7 * s).cos(), 0.5 + 0.1 * s);
+        let first = Isometry3::new(at, Vector3::new(3.0, 0.1, 0.2));
+        let base_from_flange: Pose<Base, Flange> =
+            Pose::claim(first * UnitQuaternion::from_scaled_axis(turn));
+        let seen = (base_from_flange * flange_from_camera()).inverse() * base_from_target();
+        Observation::bare(format!("{k:02}"), base_from_flange, seen)
+    };
+    let all = turns.into_iter().enumerate().map(view).collect();
+    let session = Session::of_captures(Setup::EyeInHand, all);
+    let found = calibrate(&session, &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
+    assert!(off(&found).0 < 1e-6 && off(&found).1 < 1e-6);
+    for method in Method::ALL {
+        let config = Config { method: Some(method), ..Config::default() };
+        let found = calibrate(&session, &config).unwrap();
+        if found.verdict == Verdict::Accepted {
+            assert!(off(&found).0 < 1e-6 && off(&found).1 < 1e-6, "{}", method.name());
+        } else {
+            assert!(found.hand_eye.mount_from_camera.is_none(), "{}", method.name());
+            assert!(found.reasons[0].starts_with(method.name()), "{:?}", found.reasons);
+        }
+    }
+}
+
 #[test]
 fn no_rotation_leaves_the_whole_position() {
     let found = calibrate(&session(0.0), &Config::default()).unwrap();
