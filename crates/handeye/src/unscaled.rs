@@ -39,6 +39,7 @@ pub fn calibrate_unscaled(session: &Session, config: &Config) -> Result<Calibrat
                 .into(),
         ));
     }
+    calibrate::check(session)?;
     let session = calibrate::in_order(session);
     let pairs = pairs(&session);
     let at = |stand: Stand| Captures {
@@ -51,7 +52,7 @@ pub fn calibrate_unscaled(session: &Session, config: &Config) -> Result<Calibrat
     });
     match settled {
         Ok(settled) => calibrate_at(&session, settled.stand.scale, &BTreeMap::new(), config),
-        Err(error) => undetermined(&session, &error),
+        Err(error) => Ok(undetermined(&session, &error)),
     }
 }
 
@@ -104,13 +105,17 @@ pub(crate) fn name(undetermined: &mut Vec<String>, what: &str) {
 }
 
 /// The result without an answer.
-pub(crate) fn undetermined(session: &Session, error: &Error) -> Result<Calibration, Error> {
-    let mut result = calibrate::without_answer(session)?;
+pub(crate) fn undetermined(session: &Session, error: &Error) -> Calibration {
+    let mut result = calibrate::without_answer(session);
     result.scale = None;
     result.reasons.push(error.to_string());
-    let camera = format!("the pose of the camera on the {}", session.setup.mount());
-    result.undetermined.extend([SCALE.into(), camera]);
-    Ok(result)
+    result.undetermined.extend([SCALE.into(), camera(session)]);
+    result
+}
+
+/// The camera's pose, in words.
+pub(crate) fn camera(session: &Session) -> String {
+    format!("the pose of the camera on the {}", session.setup.mount())
 }
 
 /// Small sets that are drawn; with 40 % wrong captures one in eight sets of four is clean.

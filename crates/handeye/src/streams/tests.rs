@@ -183,6 +183,50 @@ fn a_robot_that_does_not_move_leaves_the_offset_open() {
     assert!(found.hand_eye.mount_from_camera.is_none());
 }
 
+/// What a robot reports that is noisy itself.
+fn noisy_robot(scene: &Scene, seed: u64) -> Streams {
+    let mut streams = scene.record(seed);
+    let mut random = Random::new(seed + 100);
+    for sample in &mut streams.robot {
+        let off = lie::tangent(&(random.normal3() * 1e-4), &(random.normal3() * 2e-5));
+        sample.pose = sample.pose.retract(&off);
+    }
+    streams
+}
+
+#[test]
+fn noise_of_the_robot_is_no_motion() {
+    let scene = Scene { motion: |_| wander(1.0), noise: (1e-4, 2e-5), ..Scene::new(0.3) };
+    for seed in 0..4 {
+        let found = solved(&noisy_robot(&scene, seed));
+        assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
+        assert_eq!((found.time_offset_s, found.hand_eye.mount_from_camera), (None, None));
+        assert_eq!(found.undetermined, ["the pose of the camera on the flange", OFFSET]);
+        assert!(found.reasons[0].contains("the robot does not move"), "{:?}", found.reasons);
+    }
+}
+
+#[test]
+fn noise_of_the_robot_is_no_change_of_speed() {
+    let about_z = |t: f64| {
+        let twist = Vector6::new(0.0, 0.0, 0.3, 0.0, 0.0, 0.0);
+        Pose::claim(*wander(0.0).iso() * lie::exp(&(twist * t)))
+    };
+    for setup in [Setup::EyeInHand, Setup::EyeToHand] {
+        let noise = (1e-4, 2e-5);
+        let scene = Scene { motion: about_z, noise, setup, seconds: 10.0, ..Scene::new(0.2) };
+        for seed in 0..3 {
+            let found = solved(&noisy_robot(&scene, seed));
+            assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
+            assert_eq!((found.time_offset_s, found.time_offset_sigma_s), (None, None));
+            let named = &found.undetermined;
+            assert!(named.iter().any(|u| u == OFFSET), "{named:?}");
+            assert!(named.iter().any(|u| u.starts_with("rotation about")), "{named:?}");
+            assert!(found.warnings.iter().all(|w| w.code != "time-offset-ambiguous"));
+        }
+    }
+}
+
 #[test]
 fn constant_speed_leaves_the_offset_open() {
     let screw = |t: f64| {
