@@ -52,15 +52,16 @@ pub struct Streams {
 /// deviation; captures are named by camera time.
 ///
 /// # Errors
-/// [`Error::NotFinite`] on times and poses that are no numbers, [`Error::TooFewPoses`] where a stream
-/// has fewer than three samples.
+/// [`Error::NotFinite`] on times and poses that are no numbers, [`Error::TooFewSamples`] where a
+/// stream is empty. Fewer samples than needed end in a verdict.
 pub fn calibrate_streams(streams: &Streams, config: &Config) -> Result<Calibration, Error> {
     let both = both(streams)?;
     let mut warnings = cleaning(&both.robot, "robot");
     warnings.extend(cleaning(&both.camera, "camera"));
-    let found = settle_streams(&both, streams.unknown_scale, config);
+    let found = enough(&both).and_then(|()| settle_streams(&both, streams.unknown_scale, config));
     let still = open::still(&both, found.as_ref().ok().map(|f| &f.0));
     let mut result = match found {
+        Err(error @ Error::TooFewSamples { .. }) => nothing(&both, streams, &error),
         _ if let Some(still) = still => nothing(&both, streams, &still),
         Ok((settled, chosen, rivals)) => {
             let likeness = choose::likeness(&settled, both.setup);
@@ -90,24 +91,30 @@ fn both(streams: &Streams) -> Result<Both, Error> {
             return Err(Error::NotFinite { what: format!("pose of {name} sample {}", k + 1) });
         }
         let one = |s: &Stamped<Pose<A, B>>| Stamped { time_s: s.time_s, pose: *s.pose.iso() };
-        let stream = Stream::new(&all.iter().map(one).collect::<Vec<_>>(), name)?;
-        if stream.times.len() < FEWEST_POSES {
-            return Err(Error::TooFewPoses {
-                found: stream.times.len(),
-                needed: FEWEST_POSES,
-                advice: format!(
-                    "of the {name}, at different times; record both streams while the robot moves \
-                     and turns about two axes"
-                ),
-            });
+        match all.len() {
+            0 => Err(too_few(name, 0)),
+            _ => Stream::new(&all.iter().map(one).collect::<Vec<_>>(), name),
         }
-        Ok(stream)
     }
     Ok(Both {
         setup: streams.setup,
         robot: bare(&streams.robot, "robot")?,
         camera: bare(&streams.camera, "camera")?,
     })
+}
+
+fn too_few(stream: &str, found: usize) -> Error {
+    Error::TooFewSamples { stream: stream.into(), found, needed: FEWEST_POSES }
+}
+
+/// Refuses streams of fewer samples than captures are needed.
+fn enough(both: &Both) -> Result<(), Error> {
+    for (stream, name) in [(&both.robot, "robot"), (&both.camera, "camera")] {
+        if stream.times.len() < FEWEST_POSES {
+            return Err(too_few(name, stream.times.len()));
+        }
+    }
+    Ok(())
 }
 
 /// What had to be put right in a stream.

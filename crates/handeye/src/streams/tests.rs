@@ -306,15 +306,35 @@ fn a_recording_of_half_an_hour_is_no_burden() {
 #[test]
 fn bad_streams_are_refused_in_words() {
     let good = Scene::new(0.0).record(1);
-    let mut short = good.clone();
-    short.camera.truncate(2);
-    let said = calibrate_streams(&short, &Config::default()).unwrap_err().to_string();
-    assert!(said.starts_with("2 usable captures") && said.contains("of the camera"), "{said}");
+    let mut none = good.clone();
+    none.camera.clear();
+    let said = calibrate_streams(&none, &Config::default()).unwrap_err().to_string();
+    assert!(said.starts_with("of the camera stream 0 samples"), "{said}");
     let mut broken = good.clone();
     broken.robot[7].time_s = f64::INFINITY;
     let said = calibrate_streams(&broken, &Config::default()).unwrap_err().to_string();
     assert_eq!(said, "time_s of robot sample 8 is not finite");
-    let mut same_time = good;
+}
+
+#[test]
+fn too_few_samples_end_with_a_verdict() {
+    let good = Scene::new(0.0).record(1);
+    let mut short = good.clone();
+    short.camera.truncate(2);
+    let mut same_time = good.clone();
     same_time.robot.iter_mut().for_each(|s| s.time_s = 1.0);
-    assert!(calibrate_streams(&same_time, &Config::default()).is_err());
+    // too short a time for any pose in between
+    let mut instant = good;
+    instant.robot.iter_mut().for_each(|s| s.time_s *= 1e-300);
+    for (streams, said) in [
+        (short, "of the camera stream 2 samples at different times can be used, at least 3 are"),
+        (same_time, "of the robot stream 0 samples at different times"),
+        (instant, "at no time offset do robot and camera turn alike"),
+    ] {
+        let found = solved(&streams);
+        assert_eq!(found.verdict, Verdict::Undetermined);
+        assert!(found.reasons[0].contains(said), "{:?}", found.reasons);
+        assert_eq!((found.time_offset_s, found.hand_eye.mount_from_camera), (None, None));
+        assert_eq!(found.undetermined, ["the pose of the camera on the flange", OFFSET]);
+    }
 }
