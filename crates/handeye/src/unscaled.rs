@@ -169,6 +169,7 @@ mod tests {
     use crate::{
         HandEye, Observation, Pose, Setup, Verdict, lie,
         simulate::Random,
+        solve::Method,
         solve::tests::{exact_pairs, noisy_pairs, pose, truths},
     };
 
@@ -255,6 +256,23 @@ mod tests {
             assert_eq!((found.scale, found.hand_eye.mount_from_camera), (None, None));
             assert!(found.undetermined.iter().any(|u| u == SCALE), "{:?}", found.undetermined);
         }
+    }
+
+    #[test]
+    fn a_method_that_finds_the_scale_reports_its_own() {
+        let pairs = noisy_pairs(&truths()[0], 15);
+        let named = |method: Method| Config { method: Some(method), ..Config::default() };
+        let own = 3.0 / andreff::solve_with_scale(&pairs).unwrap().scale;
+        let metric = session(Setup::EyeInHand, &pairs, 1.0);
+        let session = session(Setup::EyeInHand, &pairs, 3.0);
+        let by = |method| calibrate_unscaled(&session, &named(method)).unwrap().scale.unwrap();
+        assert!((by(Method::AndreffScaled) / own - 1.0).abs() < 1e-9);
+        let likeliest = solved(&session).scale.unwrap();
+        assert!((by(Method::Shah) / likeliest - 1.0).abs() < 1e-12);
+        assert!((likeliest / own - 1.0).abs() > 1e-6);
+        // it takes its factor out even where nobody calls the scale unknown
+        let found = calibrate::calibrate(&metric, &named(Method::AndreffScaled)).unwrap();
+        assert!((found.scale.unwrap() * 3.0 / own - 1.0).abs() < 1e-9);
     }
 
     #[test]

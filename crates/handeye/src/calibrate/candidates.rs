@@ -77,8 +77,9 @@ pub(super) fn estimate<'a>(
         named::name_failure(&views, method, result);
     }
     choose(candidates, &views, &volume, config, result);
-    if config.method.is_some() {
+    if let Some(method) = config.method {
         named::judge_by_likeliest(&views, &fit, config, result);
+        named::report_scale(&views, method, result);
     }
     if let (Some(tre), Some(x)) = (&mut result.predicted_tre_mm, &result.hand_eye.mount_from_camera)
     {

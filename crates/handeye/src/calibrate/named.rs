@@ -1,4 +1,4 @@
-//! Verdicts on methods that were asked for by name: what the motions leave open is a property of the
+//! Results of methods that were asked for by name: what the motions leave open is a property of the
 //! data, whatever numbers a closed form makes of them.
 
 use super::{Config, agreement::Views, candidates, joint, verdict};
@@ -44,6 +44,16 @@ pub(super) fn name_failure(views: &Views, method: solve::Method, result: &mut Ca
     ));
     let mount = views.session.setup.mount();
     result.undetermined.push(format!("the pose of the camera on the {mount}"));
+}
+
+/// The unit of the distances as the method has found it, where it does.
+pub(super) fn report_scale(views: &Views, method: solve::Method, result: &mut Calibration) {
+    if method == solve::Method::AndreffScaled
+        && result.undetermined.is_empty()
+        && let Ok(found) = solve::andreff::solve_with_scale(&candidates::pairs_of(views))
+    {
+        result.scale = Some(1.0 / found.scale);
+    }
 }
 
 /// Misfit of every capture when it was left out.
