@@ -149,7 +149,9 @@ impl From<handeye::Error> for Failure {
     fn from(error: handeye::Error) -> Self {
         use handeye::Error as E;
         let code = match error {
-            E::TooFewPoses { .. } | E::TooFewPoints { .. } => "too-few-data",
+            E::TooFewPoses { .. } | E::TooFewSamples { .. } | E::TooFewPoints { .. } => {
+                "too-few-data"
+            }
             E::Collinear { .. } | E::NotDetermined { .. } => "not-determined",
             _ => "unusable",
         };

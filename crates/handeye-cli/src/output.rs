@@ -186,8 +186,14 @@ fn unknowns(c: &Calibration) -> String {
     if let (Some(offset), Some(sigma)) = (c.time_offset_s, c.time_offset_sigma_s) {
         text += &format!("  time offset  {offset:11.6} +- {sigma:.6} s, camera minus robot\n");
     }
-    if let (Some(scale), Some(sigma)) = (c.scale, c.scale_sigma) {
-        text += &format!("  scale        {scale:11.6} +- {sigma:.6}, measured over metric\n");
+    match (c.scale, c.scale_sigma) {
+        (Some(scale), Some(sigma)) => {
+            text += &format!("  scale        {scale:11.6} +- {sigma:.6}, measured over metric\n");
+        }
+        (Some(scale), None) if scale != 1.0 => {
+            text += &format!("  scale        {scale:11.6}, measured over metric\n");
+        }
+        _ => {}
     }
     text
 }

@@ -380,7 +380,7 @@ pub struct Calibration {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_offset_sigma_s: Option<f64>,
     /// Factor that was taken out of the measured distances, `measured = scale * metric`: one where
-    /// the target's size is trusted, null where the factor is free and the motions do not tell it.
+    /// the target's size is trusted, the method's own where one was asked for that finds it, null where the factor is free and the motions do not tell it.
     pub scale: Option<f64>,
     /// Its standard deviation, where it was estimated.
     #[serde(default, skip_serializing_if = "Option::is_none")]

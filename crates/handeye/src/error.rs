@@ -16,6 +16,19 @@ pub enum Error {
         /// What to do next.
         advice: String,
     },
+    /// Not enough samples of a stream that can be used.
+    #[error(
+        "of the {stream} stream {found} samples at different times can be used, at least {needed} \
+         are needed: record both streams while the robot moves and turns about two axes"
+    )]
+    TooFewSamples {
+        /// `robot` or `camera`.
+        stream: String,
+        /// How many there are.
+        found: usize,
+        /// How many are needed.
+        needed: usize,
+    },
     /// Not enough point pairs.
     #[error("{found} point pairs, at least {needed} are needed")]
     TooFewPoints {

@@ -39,6 +39,7 @@ pub fn calibrate_unscaled(session: &Session, config: &Config) -> Result<Calibrat
                 .into(),
         ));
     }
+    calibrate::check(session)?;
     let session = calibrate::in_order(session);
     let pairs = pairs(&session);
     let at = |stand: Stand| Captures {
@@ -51,7 +52,7 @@ pub fn calibrate_unscaled(session: &Session, config: &Config) -> Result<Calibrat
     });
     match settled {
         Ok(settled) => calibrate_at(&session, settled.stand.scale, &BTreeMap::new(), config),
-        Err(error) => undetermined(&session, &error),
+        Err(error) => Ok(undetermined(&session, &error)),
     }
 }
 
@@ -104,13 +105,17 @@ pub(crate) fn name(undetermined: &mut Vec<String>, what: &str) {
 }
 
 /// The result without an answer.
-pub(crate) fn undetermined(session: &Session, error: &Error) -> Result<Calibration, Error> {
-    let mut result = calibrate::without_answer(session)?;
+pub(crate) fn undetermined(session: &Session, error: &Error) -> Calibration {
+    let mut result = calibrate::without_answer(session);
     result.scale = None;
     result.reasons.push(error.to_string());
-    let camera = format!("the pose of the camera on the {}", session.setup.mount());
-    result.undetermined.extend([SCALE.into(), camera]);
-    Ok(result)
+    result.undetermined.extend([SCALE.into(), camera(session)]);
+    result
+}
+
+/// The camera's pose, in words.
+pub(crate) fn camera(session: &Session) -> String {
+    format!("the pose of the camera on the {}", session.setup.mount())
 }
 
 /// Small sets that are drawn; with 40 % wrong captures one in eight sets of four is clean.
@@ -164,6 +169,7 @@ mod tests {
     use crate::{
         HandEye, Observation, Pose, Setup, Verdict, lie,
         simulate::Random,
+        solve::Method,
         solve::tests::{exact_pairs, noisy_pairs, pose, truths},
     };
 
@@ -250,6 +256,23 @@ mod tests {
             assert_eq!((found.scale, found.hand_eye.mount_from_camera), (None, None));
             assert!(found.undetermined.iter().any(|u| u == SCALE), "{:?}", found.undetermined);
         }
+    }
+
+    #[test]
+    fn a_method_that_finds_the_scale_reports_its_own() {
+        let pairs = noisy_pairs(&truths()[0], 15);
+        let named = |method: Method| Config { method: Some(method), ..Config::default() };
+        let own = 3.0 / andreff::solve_with_scale(&pairs).unwrap().scale;
+        let metric = session(Setup::EyeInHand, &pairs, 1.0);
+        let session = session(Setup::EyeInHand, &pairs, 3.0);
+        let by = |method| calibrate_unscaled(&session, &named(method)).unwrap().scale.unwrap();
+        assert!((by(Method::AndreffScaled) / own - 1.0).abs() < 1e-9);
+        let likeliest = solved(&session).scale.unwrap();
+        assert!((by(Method::Shah) / likeliest - 1.0).abs() < 1e-12);
+        assert!((likeliest / own - 1.0).abs() > 1e-6);
+        // it takes its factor out even where nobody calls the scale unknown
+        let found = calibrate::calibrate(&metric, &named(Method::AndreffScaled)).unwrap();
+        assert!((found.scale.unwrap() * 3.0 / own - 1.0).abs() < 1e-9);
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! Robots that turn about one axis only, or not at all: what the motions determine is given, what
 //! they do not is named, and a touch or a measured height fills it in.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use handeye::{
-    Base, Calibration, Camera, Config, Flange, Observation, Point, Pose, Session, Setup, Target,
-    TargetModel, Touch, Verdict, calibrate, refine::KnownPosition, simulate::Random,
+    Base, Calibration, Camera, Config, Flange, Method, Observation, Point, Pose, Session, Setup,
+    Target, TargetModel, Touch, Verdict, calibrate,
+    refine::{KnownNoise, KnownPosition},
+    simulate::Random,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 
@@ -79,6 +81,68 @@ fn one_axis_leaves_the_position_along_it() {
     assert!(off.xy().norm() < 3e-4, "{off}");
 }
 
+/// Exact views whose robot turns about one axis of its flange, as far as rounding lets it.
+fn exact(axis: Vector3<f64>) -> Session {
+    let view = |k: usize| {
+        let s = k as f64;
+        let down = UnitQuaternion::from_scaled_axis(Vector3::new(3.0, 0.1, 0.2));
+        let turn = UnitQuaternion::from_scaled_axis(axis * (0.4 * s - 1.0));
+        let at = Vector3::new(0.6 + 0.1 * s.sin(), 0.15 * (1.7 * s).cos(), 0.5 + 0.01 * s);
+        let base_from_flange: Pose<Base, Flange> =
+            Pose::claim(Isometry3::from_parts(at.into(), down * turn));
+        let seen = (base_from_flange * flange_from_camera()).inverse() * base_from_target();
+        Observation::bare(format!("{k:02}"), base_from_flange, seen)
+    };
+    Session::of_captures(Setup::EyeInHand, (0..15).map(view).collect())
+}
+
+#[test]
+fn rounding_does_not_pass_for_information() {
+    for axis in [Vector3::x(), Vector3::y(), Vector3::z(), Vector3::new(1.0, 2.0, 3.0).normalize()]
+    {
+        let found = calibrate(&exact(axis), &Config::default()).unwrap();
+        assert_eq!(found.verdict, Verdict::Undetermined, "{axis}: {:?}", found.reasons);
+        let [named] = found.undetermined.as_slice() else { panic!("{:?}", found.undetermined) };
+        assert!(named.starts_with("translation along the rotation axis "), "{named}");
+        assert!(found.hand_eye.mount_from_camera.is_none());
+        let known = found.determined.unwrap();
+        assert!(Vector3::from(known.free_translations[0]).dot(&axis).abs() > 0.9999);
+        let t = flange_from_camera().translation();
+        let across = t - axis * axis.dot(&t);
+        assert!((Vector3::from(known.translation_across_m.unwrap()) - across).norm() < 1e-6);
+    }
+}
+
+#[test]
+fn known_noise_below_rounding_does_not_either() {
+    let known = KnownNoise {
+        robot_rotation_rad: Some(1e-12),
+        robot_position_m: Some(1e-12),
+        ..KnownNoise::default()
+    };
+    let config = Config { known, ..Config::default() };
+    let found = calibrate(&exact(Vector3::z()), &config).unwrap();
+    assert_eq!(found.undetermined, ["translation along the rotation axis z of flange"]);
+}
+
+#[test]
+fn what_is_open_is_so_for_every_method() {
+    for turn in [0.0, 0.5] {
+        let session = Session { target: None, ..session(turn) };
+        let plain = calibrate(&session, &Config::default()).unwrap();
+        for method in Method::ALL {
+            let config = Config { method: Some(method), ..Config::default() };
+            let found = calibrate(&session, &config).unwrap();
+            let name = method.name();
+            assert_eq!(found.verdict, Verdict::Undetermined, "{name}: {:?}", found.reasons);
+            assert_eq!(found.undetermined, plain.undetermined, "{name}");
+            assert!(found.hand_eye.mount_from_camera.is_none(), "{name}");
+            assert!(found.held_out.translation_rms_mm.unwrap() < 1.0, "{name}");
+            assert!(found.captures.iter().all(|c| c.residual_mm.is_none_or(|r| r < 1.0)), "{name}");
+        }
+    }
+}
+
 #[test]
 fn a_touch_determines_it_and_is_named_for_it() {
     let session = Session { touches: touched(&[0, 8, 45]), ..session(0.5) };
@@ -117,6 +181,37 @@ fn a_measured_height_determines_it() {
     assert!((3e-4..2e-3).contains(&along), "{along}");
     let warning = found.warnings.iter().find(|w| w.code == "determined-by-known-position").unwrap();
     assert!(warning.message.contains("translation along"), "{}", warning.message);
+}
+
+/// Half turns about the three axes of the flange: the rotations alone fit four cameras.
+#[test]
+fn half_turns_are_solved_and_no_method_invents_an_answer() {
+    use std::f64::consts::PI;
+    let turns = [Vector3::zeros(), Vector3::x() * PI, Vector3::y() * PI, Vector3::z() * PI];
+    let view = |(k, turn): (usize, Vector3<f64>)| {
+        let s = k as f64;
+        let at = Vector3::new(0.6 + 0.2 * s.sin(), 0.3 * (1.7 * s).cos(), 0.5 + 0.1 * s);
+        let first = Isometry3::new(at, Vector3::new(3.0, 0.1, 0.2));
+        let base_from_flange: Pose<Base, Flange> =
+            Pose::claim(first * UnitQuaternion::from_scaled_axis(turn));
+        let seen = (base_from_flange * flange_from_camera()).inverse() * base_from_target();
+        Observation::bare(format!("{k:02}"), base_from_flange, seen)
+    };
+    let all = turns.into_iter().enumerate().map(view).collect();
+    let session = Session::of_captures(Setup::EyeInHand, all);
+    let found = calibrate(&session, &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
+    assert!(off(&found).0 < 1e-6 && off(&found).1 < 1e-6);
+    for method in Method::ALL {
+        let config = Config { method: Some(method), ..Config::default() };
+        let found = calibrate(&session, &config).unwrap();
+        if found.verdict == Verdict::Accepted {
+            assert!(off(&found).0 < 1e-6 && off(&found).1 < 1e-6, "{}", method.name());
+        } else {
+            assert!(found.hand_eye.mount_from_camera.is_none(), "{}", method.name());
+            assert!(found.reasons[0].starts_with(method.name()), "{:?}", found.reasons);
+        }
+    }
 }
 
 #[test]

@@ -22,14 +22,23 @@ pub fn run(args: &SolveArgs, manners: &Manners) -> Result<u8, Failure> {
     let config = Config { method, known: input.noise, ..Config::default() };
     let mut calibration = solved(&input, &config)?;
     if args.certify {
-        calibration.certificate = certify_result(&calibration)?;
-        if calibration.certificate.is_none() {
-            let message = "there is no answer, so there is nothing to certify";
-            calibration.warnings.push(Warning::new("not-certified", message));
-        }
+        certify(&mut calibration);
     }
     show(&calibration, manners);
     Ok(calibration.exit_code())
+}
+
+/// Adds the certificate, or a warning that says why there is none.
+fn certify(calibration: &mut Calibration) {
+    let message = match certify_result(calibration) {
+        Ok(Some(found)) => {
+            calibration.certificate = Some(found);
+            return;
+        }
+        Ok(None) => "there is no answer, so there is nothing to certify".to_owned(),
+        Err(error) => format!("the least-squares fit cannot be certified: {error}"),
+    };
+    calibration.warnings.push(Warning::new("not-certified", message));
 }
 
 fn solved(input: &Input, config: &Config) -> Result<Calibration, Failure> {

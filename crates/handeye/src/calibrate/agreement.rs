@@ -108,6 +108,8 @@ fn no_consensus(session: &Session, readings: &[Readings], error: &Error, result:
 /// An inversion explains the data when most captures agree under it, the misfit in position falls
 /// to less than this part, and that in rotation does not rise (rotations alone often fit both ways).
 const EXPLAINS: f64 = 0.2;
+/// A misfit (m) up to this is rounding: there is nothing to explain.
+const ROUNDING: f64 = 1e-7;
 
 /// In words. Robot poses inverted, target poses inverted, and the other setup can explain the same
 /// data equally well; target poses from our own detection are not in doubt.
@@ -152,7 +154,8 @@ fn suspect_conventions(
             && 2 * e.agree > readings.len()
             && declared.is_none_or(|d| {
                 // a few captures can be left out until the rest fits anything
-                e.agree >= d.agree
+                d.median_m > ROUNDING
+                    && e.agree >= d.agree
                     && e.median_m < EXPLAINS * d.median_m
                     && e.median_rad < 1.2 * d.median_rad + 1e-3
             })

@@ -7,7 +7,7 @@ use super::{
     agreement::Views,
     arm, boards, budget, captures,
     joint::{self, Joint, held_out_views},
-    known_position,
+    known_position, named,
     optics::{self, Optics},
     reach::Reach,
     verdict,
@@ -78,7 +78,16 @@ pub(super) fn estimate<'a>(
         candidates.extend(joint.as_ref().and_then(|j| judge.joint_candidate(j)));
         candidates.extend(judge.arm_candidate(&fit));
     }
+    if let Some(method) = config.method
+        && candidates.is_empty()
+    {
+        named::name_failure(&views, method, result);
+    }
     choose(candidates, &views, &volume, config, result);
+    if let Some(method) = config.method {
+        named::judge_by_likeliest(&views, &fit, config, result);
+        named::report_scale(&views, method, result);
+    }
     if let (Some(tre), Some(x)) = (&mut result.predicted_tre_mm, &result.hand_eye.mount_from_camera)
     {
         tre.map = workpiece.map(x);
@@ -163,7 +172,7 @@ fn blocks(covariance: &refine::pose_fit::Matrix12) -> (Matrix6<f64>, Matrix6<f64
 }
 
 /// The views where a fit's camera puts them.
-fn as_fitted(fit: &JointFit, views: &[refine::View]) -> Vec<refine::View> {
+pub(super) fn as_fitted(fit: &JointFit, views: &[refine::View]) -> Vec<refine::View> {
     let moved =
         |v: &refine::View| refine::View { pair: v.with(&fit.extras, &fit.values), ..v.clone() };
     views.iter().map(moved).collect()
@@ -296,7 +305,7 @@ impl Judge<'_> {
 }
 
 /// The answer for files: about the target's own origin again.
-fn stored(
+pub(super) fn stored(
     views: &Views,
     answer: &HandEye,
     covariance: Option<&refine::pose_fit::Matrix12>,
@@ -444,10 +453,7 @@ fn choose(
         result.predicted_tre_mm = best.tre.clone();
         result.residual = best.candidate.in_sample;
         result.held_out = best.candidate.held_out;
-        for (&i, left_out) in views.indices.iter().zip(&best.held_out) {
-            result.captures[i].held_out_deg = left_out.map(|h| h.0.to_degrees());
-            result.captures[i].held_out_mm = left_out.map(|h| h.1 * 1e3);
-        }
+        named::captures_held_out(views, &best.held_out, result);
     }
     result.candidates = candidates.into_iter().map(|c| c.candidate).collect();
 }

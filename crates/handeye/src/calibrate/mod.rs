@@ -17,13 +17,14 @@ mod gate;
 mod joint;
 mod known_position;
 mod masked;
+mod named;
 mod optics;
 mod points;
 mod reach;
 mod rejected;
 pub(crate) mod settle;
 mod sources;
-mod unknown;
+pub(crate) mod unknown;
 mod verdict;
 mod workpiece;
 mod wrong_touches;
@@ -111,14 +112,8 @@ const FORMAT: &str = "handeye-calibration-1";
 /// # Errors
 /// [`Error::Invalid`] when the session holds nothing to calibrate from.
 pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Error> {
+    check(session)?;
     let session = in_order(session);
-    if session.observations.is_empty() && session.correspondences.is_empty() {
-        return Err(Error::Invalid(
-            "nothing to calibrate from: no captures with a robot pose and a picture of the target, \
-             and no point pairs"
-                .into(),
-        ));
-    }
     if session.observations.is_empty() {
         let mut result = empty(&session);
         points::from_points(&session, &mut result);
@@ -131,6 +126,18 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
         verdict::conclude(config, &mut result);
         result
     }))
+}
+
+/// Refuses a session that holds nothing.
+pub(crate) fn check(session: &Session) -> Result<(), Error> {
+    if session.observations.is_empty() && session.correspondences.is_empty() {
+        return Err(Error::Invalid(
+            "nothing to calibrate from: no captures with a robot pose and a pose or a picture of \
+             the target, and no point pairs"
+                .into(),
+        ));
+    }
+    Ok(())
 }
 
 /// Most looks at camera and depth; the second settles it.
@@ -217,14 +224,11 @@ pub fn natural(a: &str, b: &str) -> std::cmp::Ordering {
 }
 
 /// The result of a session that has no answer.
-pub(crate) fn without_answer(session: &Session) -> Result<Calibration, Error> {
-    if session.observations.is_empty() {
-        return Err(Error::Invalid("nothing to calibrate from: no captures".into()));
-    }
+pub(crate) fn without_answer(session: &Session) -> Calibration {
     let mut result = empty(session);
     result.captures = session.observations.iter().map(agreement::first_report).collect();
     result.captures.iter_mut().for_each(|c| c.used = false);
-    Ok(result)
+    result
 }
 
 fn empty(session: &Session) -> Calibration {

@@ -107,7 +107,7 @@ pub(super) fn determined(x: &Pose<Mount, Camera>, free: &[diagnose::Free]) -> De
 }
 
 /// What the data say against themselves.
-fn contradictions(result: &Calibration) -> Vec<String> {
+pub(super) fn contradictions(result: &Calibration) -> Vec<String> {
     let mut against = Vec::new();
     let used = result.captures.iter().filter(|c| c.used).count();
     let seen = used + result.rejected.len();

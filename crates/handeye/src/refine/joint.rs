@@ -110,8 +110,9 @@ const FAR: f64 = 1.0;
 pub(super) const PRIOR_VIEWS: f64 = 2.0;
 /// Touches' worth of prior belief in the first level of their noise.
 pub(super) const PRIOR_TOUCHES: f64 = 2.0;
-/// Least standard deviation, far below any instrument.
-pub(super) const LEAST_SIGMA: f64 = 1e-12;
+/// Least standard deviation (rad, m): far below any instrument, and far enough above rounding that
+/// the rounding of large information does not pass for information on what is free.
+pub(super) const LEAST_SIGMA: f64 = 1e-7;
 /// Weight of rotation against translation in the fit whose misfit gives the first noise level,
 /// m per rad.
 const FIRST_WEIGHT: f64 = 0.3;
@@ -256,6 +257,7 @@ fn levelled(
     {
         s.sigma = touch;
     }
+    noise.sigmas.iter_mut().for_each(|s| s.sigma = s.sigma.max(LEAST_SIGMA));
     noise
 }
 

@@ -13,7 +13,7 @@
 use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix};
 use serde::{Deserialize, Serialize};
 
-use super::View;
+use super::{View, joint::LEAST_SIGMA};
 use crate::{HandEye, PosePair, Setup, lie};
 
 /// One source of error.
@@ -181,12 +181,13 @@ pub struct KnownNoise {
 impl KnownNoise {
     /// What the user knows of a source.
     pub(super) fn sigma(&self, source: Source) -> Option<f64> {
-        match source {
+        let known = match source {
             Source::RobotRotation => self.robot_rotation_rad,
             Source::RobotPosition => self.robot_position_m,
             Source::Touch => self.touch_m,
             _ => None,
-        }
+        };
+        known.map(|sigma| sigma.max(LEAST_SIGMA))
     }
 }
 

@@ -19,7 +19,7 @@
 use crate::{
     Anchor, Camera, Error, HandEye, Mount, Pose, PosePair, Target,
     refine::{View, fit_fixed_weights},
-    solve::{self, FEWEST_POSES, Method, few_axes, graduated::graduated, motions},
+    solve::{self, FEWEST_POSES, Method, few_axes, graduated::graduated, half_turns, motions},
 };
 
 /// One capture with every reading of its picture.
@@ -161,10 +161,14 @@ fn hypotheses(captures: &[Readings], triple: [usize; 3], two_axes: bool) -> Vec<
     }
     allowed.sort_by(|x, y| x.0.total_cmp(&y.0));
     allowed.truncate(MOST_COMBINATIONS);
-    let answer = |pairs: &[PosePair; 3]| {
-        if two_axes { solve::solve(pairs, Method::Shah).ok() } else { few_axes::solve(pairs) }
+    let answers = |(_, pairs): &(f64, [PosePair; 3])| -> Vec<HandEye> {
+        if !two_axes {
+            return few_axes::solve(pairs).into_iter().collect();
+        }
+        let shah = solve::solve(pairs, Method::Shah).ok();
+        shah.into_iter().chain(half_turns::solve(pairs)).collect()
     };
-    allowed.iter().filter_map(|(_, pairs)| answer(pairs)).collect()
+    allowed.iter().flat_map(answers).collect()
 }
 
 /// By how much robot and camera disagree on the angle of one motion; `None` when beyond belief.
@@ -315,6 +319,21 @@ mod tests {
         let first = found.reading[0];
         for (i, reading) in found.reading.iter().enumerate() {
             assert_eq!((reading + usize::from(i % 3 == 1)) % 2, first, "capture {i}");
+        }
+    }
+
+    #[test]
+    fn captures_a_half_turn_apart_agree() {
+        for truth in truths() {
+            let readings = |p: &PosePair| Readings {
+                anchor_from_mount: p.anchor_from_mount,
+                camera_from_target: vec![p.camera_from_target],
+            };
+            let captures: Vec<Readings> =
+                half_turns::tests::half_turns(&truth).iter().map(readings).collect();
+            let found = consensus(&captures).unwrap();
+            assert!(found.agrees.iter().all(|a| *a));
+            assert_same(found.hand_eye.mount_from_camera, truth.mount_from_camera, "X");
         }
     }
 

@@ -53,14 +53,19 @@ fn about_one_axis(all: &[motions::Motion]) -> Option<Pose<crate::Mount, crate::C
     let solution = least_norm(&h, &g);
     let angle = solution[4].atan2(solution[3]);
     let rotation = UnitQuaternion::new(a * angle) * turn;
+    let rotation = rotation.to_rotation_matrix().into_inner();
+    Some(Pose::from_parts(&rotation, position(all, &rotation)))
+}
+
+/// Least squares of `(R_A - I) t_X = R_X t_B - t_A` for a given `R_X`; of all solutions the shortest.
+pub(super) fn position(all: &[motions::Motion], rotation: &Matrix3<f64>) -> Vector3<f64> {
     let (mut h, mut g) = (Matrix3::zeros(), Vector3::zeros());
     for m in all {
         let rows = less_identity(&m.a.rotation);
         h += rows.transpose() * rows;
         g += rows.transpose() * (rotation * m.b.translation.vector - m.a.translation.vector);
     }
-    let t = least_norm(&h, &g);
-    Some(Pose::from_parts(&rotation.to_rotation_matrix().into_inner(), t))
+    least_norm(&h, &g)
 }
 
 fn less_identity(rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {

@@ -12,6 +12,7 @@ mod daniilidis;
 mod dornaika_horaud;
 pub mod few_axes;
 mod graduated;
+mod half_turns;
 mod horaud_dornaika;
 mod jacobi;
 mod kronecker;

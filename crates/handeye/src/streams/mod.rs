@@ -2,7 +2,8 @@
 //!
 //! `stream` (poses between samples, gaps) → `offset` (which offsets make robot and camera turn
 //! alike) → `choose` (views spread over the motion) → a fit with the offset as one more unknown,
-//! linearised anew until it stays → [`crate::calibrate()`] with the offset free about that.
+//! linearised anew until it stays → `open` (is that motion, or noise?) → [`crate::calibrate()`] with
+//! the offset free about that.
 //!
 //! ```text
 //! camera time = robot time + offset
@@ -12,6 +13,7 @@
 
 mod choose;
 mod offset;
+mod open;
 mod stream;
 
 use std::collections::BTreeMap;
@@ -50,20 +52,27 @@ pub struct Streams {
 /// deviation; captures are named by camera time.
 ///
 /// # Errors
-/// [`Error::NotFinite`] on times and poses that are no numbers, [`Error::TooFewPoses`] where a stream
-/// has fewer than three samples.
+/// [`Error::NotFinite`] on times and poses that are no numbers, [`Error::TooFewSamples`] where a
+/// stream is empty. Fewer samples than needed end in a verdict.
 pub fn calibrate_streams(streams: &Streams, config: &Config) -> Result<Calibration, Error> {
     let both = both(streams)?;
     let mut warnings = cleaning(&both.robot, "robot");
     warnings.extend(cleaning(&both.camera, "camera"));
-    let mut result = match settle_streams(&both, streams.unknown_scale, config) {
+    let found = enough(&both).and_then(|()| settle_streams(&both, streams.unknown_scale, config));
+    let still = open::still(&both, found.as_ref().ok().map(|f| &f.0));
+    let mut result = match found {
+        Err(error @ Error::TooFewSamples { .. }) => nothing(&both, streams, &error),
+        _ if let Some(still) = still => nothing(&both, streams, &still),
         Ok((settled, chosen, rivals)) => {
             let likeness = choose::likeness(&settled, both.setup);
-            let mut result = finish(&both, &chosen, settled.stand, streams.unknown_scale, config)?;
+            let steady = open::clock_is_free(&both, &chosen, &settled);
+            let unknown = (streams.unknown_scale, steady);
+            let mut result = finish(&both, &chosen, settled.stand, unknown, config)?;
             warnings.extend(told(&result, chosen.len(), both.samples(), likeness));
-            warnings.extend(ambiguous(&rivals));
             if result.time_offset_s.is_none() {
                 unscaled::name(&mut result.undetermined, OFFSET);
+            } else {
+                warnings.extend(ambiguous(&rivals));
             }
             result
         }
@@ -82,24 +91,30 @@ fn both(streams: &Streams) -> Result<Both, Error> {
             return Err(Error::NotFinite { what: format!("pose of {name} sample {}", k + 1) });
         }
         let one = |s: &Stamped<Pose<A, B>>| Stamped { time_s: s.time_s, pose: *s.pose.iso() };
-        let stream = Stream::new(&all.iter().map(one).collect::<Vec<_>>(), name)?;
-        if stream.times.len() < FEWEST_POSES {
-            return Err(Error::TooFewPoses {
-                found: stream.times.len(),
-                needed: FEWEST_POSES,
-                advice: format!(
-                    "of the {name}, at different times; record both streams while the robot moves \
-                     and turns about two axes"
-                ),
-            });
+        match all.len() {
+            0 => Err(too_few(name, 0)),
+            _ => Stream::new(&all.iter().map(one).collect::<Vec<_>>(), name),
         }
-        Ok(stream)
     }
     Ok(Both {
         setup: streams.setup,
         robot: bare(&streams.robot, "robot")?,
         camera: bare(&streams.camera, "camera")?,
     })
+}
+
+fn too_few(stream: &str, found: usize) -> Error {
+    Error::TooFewSamples { stream: stream.into(), found, needed: FEWEST_POSES }
+}
+
+/// Refuses streams of fewer samples than captures are needed.
+fn enough(both: &Both) -> Result<(), Error> {
+    for (stream, name) in [(&both.robot, "robot"), (&both.camera, "camera")] {
+        if stream.times.len() < FEWEST_POSES {
+            return Err(too_few(name, stream.times.len()));
+        }
+    }
+    Ok(())
 }
 
 /// What had to be put right in a stream.
@@ -226,17 +241,18 @@ fn settle_from(
     }
 }
 
-/// The calibration at an offset, with everything free about it.
+/// The calibration at an offset, with everything free about it; of a steady motion with its mean
+/// velocity.
 fn finish(
     both: &Both,
     chosen: &[usize],
     stand: Stand,
-    unknown_scale: bool,
+    (unknown_scale, steady): (bool, bool),
     config: &Config,
 ) -> Result<Calibration, Error> {
     let Moving { session, velocities, times } = session(both, chosen, stand.offset);
     let mut config = config.clone();
-    config.unknown.velocities = velocities;
+    config.unknown.velocities = if steady { open::steadied(&velocities) } else { velocities };
     let mut result = if unknown_scale {
         unscaled::calibrate_at(&session, stand.scale, &times, &config)?
     } else {
@@ -283,10 +299,11 @@ fn without_offset(
     let start = starts(both).first().copied().unwrap_or(0.0);
     let chosen = choose::choose(both, start, choose::MOST_VIEWS);
     let session = session(both, &chosen, start).session;
-    let mut result = if session.observations.is_empty() {
-        return Err(error.clone());
-    } else if streams.unknown_scale {
-        unscaled::undetermined(&session, error)?
+    if session.observations.is_empty() {
+        return Ok(nothing(both, streams, error));
+    }
+    let mut result = if streams.unknown_scale {
+        unscaled::undetermined(&session, error)
     } else {
         let mut result = calibrate::calibrate(&session, config)?;
         result.reasons.retain(|r| *r != error.to_string());
@@ -296,6 +313,23 @@ fn without_offset(
     result.time_offset_s = None;
     unscaled::name(&mut result.undetermined, OFFSET);
     Ok(result)
+}
+
+/// The result of streams that say nothing, and why.
+fn nothing(both: &Both, streams: &Streams, error: &Error) -> Calibration {
+    let start = starts(both).first().copied().unwrap_or(0.0);
+    let chosen = choose::choose(both, start, choose::MOST_VIEWS);
+    let session = session(both, &chosen, start).session;
+    let mut result = calibrate::without_answer(&session);
+    if streams.unknown_scale {
+        result.scale = None;
+        unscaled::name(&mut result.undetermined, unscaled::SCALE);
+    }
+    result.reasons.push(error.to_string());
+    unscaled::name(&mut result.undetermined, &unscaled::camera(&session));
+    result.time_offset_s = None;
+    unscaled::name(&mut result.undetermined, OFFSET);
+    result
 }
 
 /// A warning where the motion repeats.

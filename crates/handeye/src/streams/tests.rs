@@ -183,6 +183,50 @@ fn a_robot_that_does_not_move_leaves_the_offset_open() {
     assert!(found.hand_eye.mount_from_camera.is_none());
 }
 
+/// What a robot reports that is noisy itself.
+fn noisy_robot(scene: &Scene, seed: u64) -> Streams {
+    let mut streams = scene.record(seed);
+    let mut random = Random::new(seed + 100);
+    for sample in &mut streams.robot {
+        let off = lie::tangent(&(random.normal3() * 1e-4), &(random.normal3() * 2e-5));
+        sample.pose = sample.pose.retract(&off);
+    }
+    streams
+}
+
+#[test]
+fn noise_of_the_robot_is_no_motion() {
+    let scene = Scene { motion: |_| wander(1.0), noise: (1e-4, 2e-5), ..Scene::new(0.3) };
+    for seed in 0..4 {
+        let found = solved(&noisy_robot(&scene, seed));
+        assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
+        assert_eq!((found.time_offset_s, found.hand_eye.mount_from_camera), (None, None));
+        assert_eq!(found.undetermined, ["the pose of the camera on the flange", OFFSET]);
+        assert!(found.reasons[0].contains("the robot does not move"), "{:?}", found.reasons);
+    }
+}
+
+#[test]
+fn noise_of_the_robot_is_no_change_of_speed() {
+    let about_z = |t: f64| {
+        let twist = Vector6::new(0.0, 0.0, 0.3, 0.0, 0.0, 0.0);
+        Pose::claim(*wander(0.0).iso() * lie::exp(&(twist * t)))
+    };
+    for setup in [Setup::EyeInHand, Setup::EyeToHand] {
+        let noise = (1e-4, 2e-5);
+        let scene = Scene { motion: about_z, noise, setup, seconds: 10.0, ..Scene::new(0.2) };
+        for seed in 0..3 {
+            let found = solved(&noisy_robot(&scene, seed));
+            assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
+            assert_eq!((found.time_offset_s, found.time_offset_sigma_s), (None, None));
+            let named = &found.undetermined;
+            assert!(named.iter().any(|u| u == OFFSET), "{named:?}");
+            assert!(named.iter().any(|u| u.starts_with("rotation about")), "{named:?}");
+            assert!(found.warnings.iter().all(|w| w.code != "time-offset-ambiguous"));
+        }
+    }
+}
+
 #[test]
 fn constant_speed_leaves_the_offset_open() {
     let screw = |t: f64| {
@@ -262,15 +306,35 @@ fn a_recording_of_half_an_hour_is_no_burden() {
 #[test]
 fn bad_streams_are_refused_in_words() {
     let good = Scene::new(0.0).record(1);
-    let mut short = good.clone();
-    short.camera.truncate(2);
-    let said = calibrate_streams(&short, &Config::default()).unwrap_err().to_string();
-    assert!(said.starts_with("2 usable captures") && said.contains("of the camera"), "{said}");
+    let mut none = good.clone();
+    none.camera.clear();
+    let said = calibrate_streams(&none, &Config::default()).unwrap_err().to_string();
+    assert!(said.starts_with("of the camera stream 0 samples"), "{said}");
     let mut broken = good.clone();
     broken.robot[7].time_s = f64::INFINITY;
     let said = calibrate_streams(&broken, &Config::default()).unwrap_err().to_string();
     assert_eq!(said, "time_s of robot sample 8 is not finite");
-    let mut same_time = good;
+}
+
+#[test]
+fn too_few_samples_end_with_a_verdict() {
+    let good = Scene::new(0.0).record(1);
+    let mut short = good.clone();
+    short.camera.truncate(2);
+    let mut same_time = good.clone();
     same_time.robot.iter_mut().for_each(|s| s.time_s = 1.0);
-    assert!(calibrate_streams(&same_time, &Config::default()).is_err());
+    // too short a time for any pose in between
+    let mut instant = good;
+    instant.robot.iter_mut().for_each(|s| s.time_s *= 1e-300);
+    for (streams, said) in [
+        (short, "of the camera stream 2 samples at different times can be used, at least 3 are"),
+        (same_time, "of the robot stream 0 samples at different times"),
+        (instant, "at no time offset do robot and camera turn alike"),
+    ] {
+        let found = solved(&streams);
+        assert_eq!(found.verdict, Verdict::Undetermined);
+        assert!(found.reasons[0].contains(said), "{:?}", found.reasons);
+        assert_eq!((found.time_offset_s, found.hand_eye.mount_from_camera), (None, None));
+        assert_eq!(found.undetermined, ["the pose of the camera on the flange", OFFSET]);
+    }
 }

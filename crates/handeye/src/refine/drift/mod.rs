@@ -218,7 +218,7 @@ fn starts(
         .map(|(kept, moved)| {
             let mut start = white.clone();
             for s in start.noise.sigmas.iter_mut().filter(|s| known.sigma(s.source).is_none()) {
-                s.sigma *= kept;
+                s.sigma = (s.sigma * kept).max(joint::LEAST_SIGMA);
             }
             // a walk that strays by the misfit over a third of the sequence
             let step = moved * (3.0 / n).sqrt();
