@@ -127,7 +127,12 @@ fn poor_pivots_are_refused_with_their_file() {
     folder.put("few.csv", &pivot(3, 0.6));
     folder.put("nan.csv", &pivot(6, 0.6).replacen("0.", "nan", 1));
     folder.put("empty.csv", "");
+    for (name, far) in [("far.csv", "1e200"), ("farther.csv", "1e308")] {
+        folder.put(name, &(pivot(3, 0.6) + far + ",0,0,0,0,0\n" + &pivot(8, 0.6)));
+    }
     for (file, code) in [
+        ("far.csv", "malformed"),
+        ("farther.csv", "malformed"),
         ("few.csv", "too-few-data"),
         ("nan.csv", "malformed"),
         ("empty.csv", "malformed"),
@@ -138,6 +143,9 @@ fn poor_pivots_are_refused_with_their_file() {
         assert_eq!((run.code, &error["code"]), (1, &code.into()), "{file}: {error}");
         assert!(error["message"].to_string().contains(file), "{error}");
     }
+    let far = tcp(&folder, "far.csv").json()["error"].clone();
+    assert_eq!(far["line"], 4, "{far}");
+    assert!(far["message"].to_string().contains("beyond any robot"), "{far}");
     folder.put("same.csv", &pivot(6, 0.0));
     let run = tcp(&folder, "same.csv");
     let found = run.json();

@@ -130,6 +130,8 @@ fn bad_files_are_refused_with_the_place_and_what_to_do() {
     turned["robot"][2]["base_from_flange"]["rotation_xyzw"] = json!([0, 0, 0, 2]);
     let mut no_time = streams(0.0);
     no_time["camera"][1].as_object_mut().unwrap().remove("time_s");
+    let mut far = pairs(1.0);
+    far["pairs"][3]["base_from_flange"]["translation_m"][0] = 1e300.into();
     let mut noise = pairs(1.0);
     noise["noise"] = json!({ "robot_position_mm": -1.0 });
     let comma = "{\"setup\": \"eye-in-hand\",\n \"pairs\": [\n ],\n}".to_owned();
@@ -145,6 +147,7 @@ fn bad_files_are_refused_with_the_place_and_what_to_do() {
         (text(json!({ "setup": "eye-in-hand" })), "p.json: neither `pairs` nor the streams"),
         (text(turned), ": robot sample 3 (time_s 0.02): rotation_xyzw has length 2, not 1"),
         (text(no_time), ": camera sample 2: missing field `time_s` (column "),
+        (text(far), ": pair 4: base_from_flange lies 1.0e300 m away, beyond any robot: correct"),
         (text(noise), "p.json: noise.robot_position_mm must be positive"),
     ] {
         folder.put("p.json", &content);
