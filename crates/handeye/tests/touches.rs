@@ -114,3 +114,17 @@ fn a_tip_that_is_known_makes_the_answer_better_and_surer() {
     }
     assert!(squares[1] < 0.7 * squares[0], "{squares:?}");
 }
+
+/// A line that was copied is no second measurement: it must not make the answer surer.
+#[test]
+fn a_touch_that_is_listed_several_times_counts_once() {
+    let (session, _) = session(Setup::EyeToHand, |column, row| column % 8 == 0 && row % 5 == 0);
+    let mut copied = session.clone();
+    copied.touches.extend(vec![session.touches[0].clone(); 3]);
+    let once = calibrate(&session, &Config::default()).unwrap();
+    let mut found = calibrate(&copied, &Config::default()).unwrap();
+    let repeated: Vec<_> = found.warnings.extract_if(.., |w| w.code == "touch-repeated").collect();
+    assert_eq!(repeated.len(), 1);
+    assert!(repeated[0].message.contains("listed 4 times"), "{}", repeated[0].message);
+    assert_eq!(once, found);
+}

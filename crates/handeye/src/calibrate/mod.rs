@@ -34,6 +34,7 @@ use crate::{
     refine::{KnownPosition, noise::KnownNoise},
     register::IcpConfig,
     solve::Method,
+    touches,
 };
 
 pub use captures::relabelling;
@@ -109,7 +110,8 @@ const FORMAT: &str = "handeye-calibration-1";
 /// # Errors
 /// [`Error::Invalid`] when the session holds nothing to calibrate from.
 pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Error> {
-    let session = in_order(session);
+    let mut session = in_order(session);
+    let repeated = touches::each_once(&mut session.touches);
     if session.observations.is_empty() && session.correspondences.is_empty() {
         return Err(Error::Invalid(
             "nothing to calibrate from: no captures with a robot pose and a picture of the target, \
@@ -123,12 +125,14 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
         verdict::conclude(config, &mut result);
         return Ok(result);
     }
-    Ok(sources::best_source(&session, |session| {
+    let mut result = sources::best_source(&session, |session| {
         let mut result = empty(session);
         from_views(session, (session, &Optics::default(), 0), config, &mut result);
         verdict::conclude(config, &mut result);
         result
-    }))
+    });
+    result.warnings.extend(repeated);
+    Ok(result)
 }
 
 /// Most looks at camera and depth; the second settles it.
