@@ -218,3 +218,60 @@ fn touches_pass_or_fail_for_the_tolerance_of_the_user() {
     }
     assert_eq!(verify(&folder, "near.csv", &["--tolerance-mm", "-1"]).code, 2);
 }
+
+#[test]
+fn bad_touches_are_named_with_their_line() {
+    let folder = calibrated();
+    for far in ["1e300", "-4e11"] {
+        let text =
+            touches(&folder, 0.1).replacen("\nt3,", &format!("\nt3,{far},0,1,0,0,0\nt3,"), 1);
+        folder.put("far.csv", &text);
+        let run = verify(&folder, "far.csv", &[]);
+        let error = run.json()["error"].clone();
+        assert_eq!((run.code, &error["line"]), (1, &5.into()), "{error}");
+        assert!(error["message"].to_string().contains("camera_x"), "{error}");
+    }
+}
+
+/// Copied lines would narrow the bounds.
+#[test]
+fn touches_that_repeat_one_another_count_once() {
+    let folder = calibrated();
+    let text = touches(&folder, 0.1);
+    folder.put("once.csv", &text);
+    let t3 = text.lines().nth(4).unwrap().to_owned();
+    folder.put("twice.csv", &format!("{text}{t3}\n{}\n", t3.replacen("t3,", "t9,", 1)));
+    let (once, twice) =
+        (verify(&folder, "once.csv", &[]).json(), verify(&folder, "twice.csv", &[]).json());
+    for key in ["touches", "residual", "agreement"] {
+        assert_eq!(once[key], twice[key], "{key}");
+    }
+    let warning =
+        |k: usize| (twice["warnings"][k]["code"].clone(), twice["warnings"][k].to_string());
+    assert_eq!((warning(0).0, warning(1).0), ("touch-repeated".into(), "touch-repeated".into()));
+    assert!(warning(1).1.contains("touch t9 repeats touch t3"), "{}", warning(1).1);
+    folder.put("names.csv", &text.replacen("t4,", "t3,", 1));
+    let names = verify(&folder, "names.csv", &[]).json();
+    assert_eq!(names["warnings"][0]["code"], "touch-name-repeated", "{names}");
+    assert_eq!(names["touches"].as_array().unwrap().len(), 8);
+}
+
+#[test]
+fn a_calibration_that_is_rejected_does_not_pass_by_its_touches() {
+    let folder = calibrated();
+    folder.put("near.csv", &touches(&folder, 0.0));
+    let text = folder.read("result/calibration.json");
+    let rejected = text.replacen("\"accepted\"", "\"rejected\"", 1);
+    assert_ne!(text, rejected);
+    folder.put("result/calibration.json", &rejected);
+    for more in [&["--out", "report"][..], &["--tolerance-mm", "5"]] {
+        let run = verify(&folder, "near.csv", more);
+        let found = run.json();
+        assert_eq!((run.code, &found["verdict"]), (3, &"undetermined".into()), "{found}");
+        let reason = found["reasons"][0].to_string();
+        assert!(reason.contains("own verdict is rejected"), "{found}");
+        assert_eq!(found["warnings"][0]["code"], "calibration-not-accepted", "{found}");
+    }
+    let page = folder.read("report/verify.html");
+    assert!(page.contains("own verdict is rejected"), "the report says so");
+}
