@@ -5,7 +5,7 @@
 mod folder;
 
 use folder::{Folder, handeye};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
 fn pose(rotation: [f64; 3], translation: [f64; 3]) -> Isometry3<f64> {
@@ -114,6 +114,62 @@ fn the_least_squares_fit_is_certified() {
     let plain = handeye(&folder, &["solve", "pairs.json", "--json"]).json();
     assert!(plain.get("certificate").is_none() && plain.get("scale_sigma").is_none());
     assert_eq!((&plain["scale"], &plain["time_offset_s"]), (&1.0.into(), &0.0.into()));
+}
+
+#[test]
+fn one_capture_in_another_unit_is_left_out_and_no_more() {
+    let folder = Folder::new();
+    let mut file = pairs(1.0);
+    for k in 0..3 {
+        let t = &mut file["pairs"][3]["base_from_flange"]["translation_m"][k];
+        *t = (1e3 * t.as_f64().unwrap()).into();
+    }
+    folder.put("pairs.json", &file.to_string());
+    let run = handeye(&folder, &["solve", "pairs.json", "--json", "--quiet"]);
+    let answer = run.json();
+    assert_eq!((run.code, &answer["rejected"]), (0, &json!(["4"])), "{answer}");
+    assert!(answer["warnings"][0].to_string().contains("millimetres read as metres"), "{answer}");
+    for pair in file["pairs"].as_array_mut().unwrap() {
+        for k in 0..3 {
+            let t = &mut pair["base_from_flange"]["translation_m"][k];
+            *t = (1e3 * t.as_f64().unwrap()).into();
+        }
+    }
+    folder.put("pairs.json", &file.to_string());
+    let all = handeye(&folder, &["solve", "pairs.json", "--json", "--quiet"]).json();
+    assert_eq!(all["verdict"], "rejected");
+    assert!(all["reasons"].to_string().contains("millimetres read as metres"), "{all}");
+}
+
+/// The board lay as ever, but its detector began at the other end: about the board's middle, which
+/// the target poses do not tell.
+#[test]
+fn target_poses_turned_by_half_a_turn_are_named() {
+    let folder = Folder::new();
+    for (which, about) in [(&[5][..], [0.2, 0.15]), (&[1, 4, 6, 9, 12], [0.0, 0.0])] {
+        let mut file = pairs(1.0);
+        let turn = pose([0.0, 0.0, std::f64::consts::PI], [about[0], about[1], 0.0]);
+        for &k in which {
+            let seen = &file["pairs"][k]["camera_from_target"];
+            let number = |key: &str, i: usize| seen[key][i].as_f64().unwrap();
+            let q = Quaternion::from(std::array::from_fn(|i| number("rotation_xyzw", i)));
+            let t = Vector3::from_fn(|i, _| number("translation_m", i));
+            let there = Isometry3::from_parts(t.into(), UnitQuaternion::from_quaternion(q));
+            let turned = there * turn;
+            file["pairs"][k]["camera_from_target"] = stored(&turned, 1.0);
+        }
+        folder.put("pairs.json", &file.to_string());
+        let run = handeye(&folder, &["solve", "pairs.json", "--json", "--quiet"]);
+        let answer = run.json();
+        assert_eq!(run.code, 0, "{answer}");
+        assert_eq!(answer["rejected"].as_array().unwrap().len(), which.len());
+        let warnings = answer["warnings"].as_array().unwrap();
+        let turned: Vec<_> = warnings.iter().filter(|w| w["code"] == "target-turned").collect();
+        assert_eq!(turned.len(), which.len(), "{answer}");
+        let centre = format!("({:.0}, {:.0}) mm", about[0] * 500.0, about[1] * 500.0);
+        let message = turned[0]["message"].to_string();
+        assert!(about[0] == 0.0 || message.contains(&centre), "{centre}: {message}");
+    }
 }
 
 #[test]
