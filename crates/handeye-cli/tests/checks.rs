@@ -77,6 +77,65 @@ fn of_explanations_that_fit_alike_none_is_applied_unasked() {
     assert_eq!(check(&folder, &[]).code, 0);
 }
 
+/// Rewrites the robot's poses, line by line.
+fn rewrite(folder: &Folder, change: impl Fn(&[Vec<String>], usize) -> Vec<String>) {
+    let text = folder.read("cell/robot.csv");
+    let (header, rest) = text.split_once('\n').unwrap();
+    let lines: Vec<Vec<String>> =
+        rest.lines().map(|l| l.split(',').map(String::from).collect()).collect();
+    let changed: Vec<String> = (0..lines.len()).map(|k| change(&lines, k).join(",")).collect();
+    folder.put("cell/robot.csv", &format!("{header}\n{}\n", changed.join("\n")));
+}
+
+#[test]
+fn a_notation_is_corrected_with_its_columns() {
+    let folder = cell("", "");
+    rewrite(&folder, |lines, k| {
+        let line = &lines[k];
+        [&line[..4], &line[7..], &line[4..7]].concat()
+    });
+    let found = check(&folder, &["--apply"]).json();
+    assert_eq!(found["applied"]["explanation"], 1, "{found}");
+    let manifest = folder.read("cell/handeye.toml");
+    assert!(manifest.contains("notation = \"quaternion-wxyz\""), "{manifest}");
+    assert!(manifest.contains("columns = [\"x\", \"y\", \"z\", \"qx\""), "{manifest}");
+    assert_eq!(check(&folder, &[]).code, 0);
+    assert_eq!(handeye(&folder, &["calibrate", "cell", "--quiet"]).code, 0);
+}
+
+#[test]
+fn captures_that_do_not_belong_are_left_out_by_the_manifest() {
+    let folder = cell("", "");
+    rewrite(&folder, |lines, k| {
+        let from = if (5..8).contains(&k) { 5 } else { k };
+        [&lines[k][..1], &lines[from][1..]].concat()
+    });
+    let found = check(&folder, &["--apply"]).json();
+    assert_eq!(found["explanations"][0]["code"], "robot-pose-frozen", "{found}");
+    let manifest = folder.read("cell/handeye.toml");
+    assert!(manifest.contains("[captures]\nexclude = [\"006\", \"007\", \"008\"]"), "{manifest}");
+    assert_eq!(check(&folder, &[]).code, 0);
+    let folder = cell("", "");
+    rewrite(&folder, |lines, k| [&lines[k][..1], &lines[3][1..]].concat());
+    let found = check(&folder, &["--apply"]).json();
+    assert!(found["applied"].is_null(), "none would be left: {found}");
+    let by_hand = found["explanations"][0]["by_hand"].to_string();
+    assert!(by_hand.contains("only 0 captures would be left"), "{found}");
+}
+
+#[test]
+fn what_no_manifest_corrects_is_said_with_what_to_do() {
+    let folder = cell("", "");
+    rewrite(&folder, |lines, k| [&lines[k][..1], &lines[(k + 1) % lines.len()][1..]].concat());
+    let before = folder.read("cell/handeye.toml");
+    let run = handeye(&folder, &["check", "cell", "--apply", "--quiet"]);
+    let text = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(run.code, 3, "{text}");
+    assert!(text.contains("1 capture back") && !text.contains("14 captures"), "{text}");
+    assert!(text.contains("nothing applied: a manifest cannot shift one list"), "{text}");
+    assert_eq!(folder.read("cell/handeye.toml"), before);
+}
+
 #[test]
 fn what_cannot_be_checked_is_refused() {
     let folder = cell("setup = \"eye-in-hand\"", "setup = 7");

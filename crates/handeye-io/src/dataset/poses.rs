@@ -171,18 +171,17 @@ fn read(
     Ok((poses, warnings))
 }
 
-/// The numbers of the robot's poses as they stand in their files, and how they are read.
-pub(super) fn numbers_of_robot(
+/// The robot's poses as they stand in their files, and how they are read.
+pub(super) fn records_of_robot(
     spec: &RobotSpec,
     source: &Source,
     root: &Path,
-) -> Result<(Reading, Vec<Vec<f64>>), Error> {
+) -> Result<(Reading, Vec<Record>), Error> {
     let table = PoseTable { dh: spec.dh.clone(), ..spec.table() };
     let reading = Reading::of(&table, "robot", source, root)?;
     let layout = table.layout(reading.is_matrix(), "robot", source)?;
     let records = records(&table.poses, &layout, root, &source.place("robot.poses"))?;
-    let numbers = records.iter().map(|r| reading.numbers(r)).collect::<Result<_, _>>()?;
-    Ok((reading, numbers))
+    Ok((reading, records))
 }
 
 /// What the robot reported, one per record.
