@@ -128,3 +128,26 @@ fn a_touch_that_is_listed_several_times_counts_once() {
     assert!(repeated[0].message.contains("listed 4 times"), "{}", repeated[0].message);
     assert_eq!(once, found);
 }
+
+/// Millimetres in one column that is read as metres: the touches are to blame, not the poses.
+#[test]
+fn touches_that_lie_metres_from_the_views_are_blamed_themselves() {
+    for setup in SETUPS {
+        let (mut session, truth) = session(setup, |column, row| column % 8 == 0 && row % 5 == 0);
+        for touch in &mut session.touches {
+            let mut at = touch.in_base.vector();
+            at.x *= 1e3;
+            touch.in_base = handeye::Point::from_vector(at);
+        }
+        let found = calibrate(&session, &Config::default()).unwrap();
+        assert_eq!(found.verdict, Verdict::Rejected);
+        assert_eq!(found.reasons.len(), 1, "{:?}", found.reasons);
+        assert!(found.reasons[0].contains("length unit of [touches]"), "{:?}", found.reasons);
+        assert!(found.touches.len() == session.touches.len() && !found.touches[0].used);
+        let x = found.hand_eye.mount_from_camera.unwrap();
+        assert!(
+            x.distance_to(&truth.hand_eye.mount_from_camera) < 3e-3,
+            "the views' answer stands"
+        );
+    }
+}

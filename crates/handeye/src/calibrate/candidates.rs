@@ -5,7 +5,9 @@ use nalgebra::Matrix6;
 use super::{
     Config,
     agreement::Views,
-    arm, boards, budget, captures,
+    arm, astray,
+    boards::{self, Boards},
+    budget, captures,
     joint::{self, Joint, held_out_views},
     optics::{self, Optics},
     reach::Reach,
@@ -35,7 +37,11 @@ pub(super) fn estimate<'a>(
     let (problem, fit) = fit_views(&mut views, found, optics, config, result)?;
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
-    let boards = boards::boards(&views, &fit, optics);
+    let astray = astray::astray(&views, &fit, &paired, result);
+    let boards = match astray {
+        true => Boards { boards: vec![], touches: vec![] },
+        false => boards::boards(&views, &fit, optics),
+    };
     let joint = joint::fit(&views, &boards, &problem.extras, &fit, &config.known);
     if let Some(joint) = &joint {
         joint.warn(&views, result);
@@ -62,8 +68,9 @@ pub(super) fn estimate<'a>(
     }
     result.error_budget = budget::budget(whole, best, &workpiece);
     result.advice = budget::advice(whole, best, &workpiece);
+    let fitting = if astray { &[][..] } else { &paired };
     let judge =
-        Judge { views: &views, paired: &paired, known: config.known, workpiece: &workpiece };
+        Judge { views: &views, paired: fitting, known: config.known, workpiece: &workpiece };
     let mut candidates = judge.view_candidates(&fit, joint.is_some(), config);
     candidates.extend(judge.touch_candidates(&fit, config, result));
     if config.method.is_none() {

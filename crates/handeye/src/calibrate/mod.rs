@@ -3,11 +3,12 @@
 //! `agreement` (which captures agree, and on which reading: `gate`; why the others do not:
 //! `rejected`; whether that is a clear majority: `doubt`) → `candidates` (closed forms, least
 //! squares, maximum likelihood, registration of touches, each judged on what it has not seen; the
-//! choice by predicted error) → `captures` (misfit of every capture and touch) → `verdict`.
-//! Point pairs alone take the short way through `points`.
+//! choice by predicted error; `astray`: touches in a wrong unit) → `captures` (misfit of every
+//! capture and touch) → `verdict`. Point pairs alone take the short way through `points`.
 
 mod agreement;
 mod arm;
+mod astray;
 mod boards;
 mod budget;
 mod candidates;
