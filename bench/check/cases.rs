@@ -405,7 +405,7 @@ impl Case {
     fn is_truth_with(&self, e: &Explanation, folder: &Path) -> bool {
         let manifest = folder.join("corrected.toml");
         fs::copy(folder.join(MANIFEST), &manifest).expect("a file of a case");
-        if checkup::apply(&manifest, e).is_err() {
+        if checkup::apply(&manifest, folder, e).is_err() {
             return false;
         }
         let read = Dataset::open(&manifest);

@@ -44,20 +44,25 @@ pub fn run(args: &CheckArgs, manners: &Manners) -> Result<u8, Failure> {
     drop(progress);
     output::warn(&found.warnings, manners);
     let applied = match args.apply {
-        Some(which) => apply(&manifest, &found, which)?,
+        Some(which) => apply(&manifest, &root, &found, which)?,
         None => None,
     };
     let answer = Answer { found, applied };
     if manners.json {
         output::json(&answer);
     } else {
-        output::print(&text(&answer, args.apply.is_some()));
+        output::print(&text(&answer, args.apply));
     }
     Ok(if answer.found.ok { 0 } else { 3 })
 }
 
 /// Applies the explanation that the data single out, or the one that the user chose (from 1).
-fn apply(manifest: &Path, found: &Checkup, which: usize) -> Result<Option<Applied>, Failure> {
+fn apply(
+    manifest: &Path,
+    root: &Path,
+    found: &Checkup,
+    which: usize,
+) -> Result<Option<Applied>, Failure> {
     let chosen: Option<&Explanation> = match which {
         0 => found.decided(),
         k => found.explanations.get(k - 1),
@@ -69,7 +74,7 @@ fn apply(manifest: &Path, found: &Checkup, which: usize) -> Result<Option<Applie
         )));
     }
     let Some(chosen) = chosen.filter(|e| !e.changes.is_empty()) else { return Ok(None) };
-    let old_manifest = checkup::apply(manifest, chosen)?;
+    let old_manifest = checkup::apply(manifest, root, chosen)?;
     Ok(Some(Applied { explanation: which.max(1), old_manifest }))
 }
 
@@ -94,7 +99,7 @@ fn evidence(declared: Option<&Score>, e: &Explanation) -> String {
 }
 
 /// For people, in 80 columns.
-fn text(answer: &Answer, apply: bool) -> String {
+fn text(answer: &Answer, apply: Option<usize>) -> String {
     let a = &answer.found;
     let mut text = String::from("\n");
     text += &match (a.ok, a.explanations.is_empty()) {
@@ -134,8 +139,9 @@ fn text(answer: &Answer, apply: bool) -> String {
     text + &applied(answer, apply)
 }
 
-fn applied(answer: &Answer, apply: bool) -> String {
+fn applied(answer: &Answer, apply: Option<usize>) -> String {
     let a = &answer.found;
+    let Some(which) = apply else { return String::new() };
     match &answer.applied {
         Some(done) => {
             let changed: Vec<String> = a.explanations[done.explanation - 1]
@@ -149,11 +155,15 @@ fn applied(answer: &Answer, apply: bool) -> String {
                 done.old_manifest.display()
             )
         }
-        None if apply && a.ok => "\nnothing applied: nothing is wrong\n".into(),
-        None if apply && a.alike > 1 => {
+        None if a.ok => "\nnothing applied: nothing is wrong\n".into(),
+        None if which == 0 && a.alike > 1 => {
             "\nnothing applied: choose one of them, for example --apply=1\n".into()
         }
-        None if apply => "\nnothing applied: a manifest cannot express the correction\n".into(),
-        None => String::new(),
+        None => {
+            let chosen = a.explanations.get(which.max(1) - 1);
+            let by_hand = chosen.and_then(|e| e.by_hand.as_deref());
+            let why = by_hand.unwrap_or("no mistake was found that a manifest could correct");
+            format!("\n{}", output::wrapped("", &format!("nothing applied: {why}")))
+        }
     }
 }

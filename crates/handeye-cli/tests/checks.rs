@@ -77,6 +77,65 @@ fn of_explanations_that_fit_alike_none_is_applied_unasked() {
     assert_eq!(check(&folder, &[]).code, 0);
 }
 
+/// Rewrites the robot's poses, line by line.
+fn rewrite(folder: &Folder, change: impl Fn(&[Vec<String>], usize) -> Vec<String>) {
+    let text = folder.read("cell/robot.csv");
+    let (header, rest) = text.split_once('\n').unwrap();
+    let lines: Vec<Vec<String>> =
+        rest.lines().map(|l| l.split(',').map(String::from).collect()).collect();
+    let changed: Vec<String> = (0..lines.len()).map(|k| change(&lines, k).join(",")).collect();
+    folder.put("cell/robot.csv", &format!("{header}\n{}\n", changed.join("\n")));
+}
+
+#[test]
+fn a_notation_is_corrected_with_its_columns() {
+    let folder = cell("", "");
+    rewrite(&folder, |lines, k| {
+        let line = &lines[k];
+        [&line[..4], &line[7..], &line[4..7]].concat()
+    });
+    let found = check(&folder, &["--apply"]).json();
+    assert_eq!(found["applied"]["explanation"], 1, "{found}");
+    let manifest = folder.read("cell/handeye.toml");
+    assert!(manifest.contains("notation = \"quaternion-wxyz\""), "{manifest}");
+    assert!(manifest.contains("columns = [\"x\", \"y\", \"z\", \"qx\""), "{manifest}");
+    assert_eq!(check(&folder, &[]).code, 0);
+    assert_eq!(handeye(&folder, &["calibrate", "cell", "--quiet"]).code, 0);
+}
+
+#[test]
+fn captures_that_do_not_belong_are_left_out_by_the_manifest() {
+    let folder = cell("", "");
+    rewrite(&folder, |lines, k| {
+        let from = if (5..8).contains(&k) { 5 } else { k };
+        [&lines[k][..1], &lines[from][1..]].concat()
+    });
+    let found = check(&folder, &["--apply"]).json();
+    assert_eq!(found["explanations"][0]["code"], "robot-pose-frozen", "{found}");
+    let manifest = folder.read("cell/handeye.toml");
+    assert!(manifest.contains("[captures]\nexclude = [\"006\", \"007\", \"008\"]"), "{manifest}");
+    assert_eq!(check(&folder, &[]).code, 0);
+    let folder = cell("", "");
+    rewrite(&folder, |lines, k| [&lines[k][..1], &lines[3][1..]].concat());
+    let found = check(&folder, &["--apply"]).json();
+    assert!(found["applied"].is_null(), "none would be left: {found}");
+    let by_hand = found["explanations"][0]["by_hand"].to_string();
+    assert!(by_hand.contains("only 0 captures would be left"), "{found}");
+}
+
+#[test]
+fn what_no_manifest_corrects_is_said_with_what_to_do() {
+    let folder = cell("", "");
+    rewrite(&folder, |lines, k| [&lines[k][..1], &lines[(k + 1) % lines.len()][1..]].concat());
+    let before = folder.read("cell/handeye.toml");
+    let run = handeye(&folder, &["check", "cell", "--apply", "--quiet"]);
+    let text = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(run.code, 3, "{text}");
+    assert!(text.contains("1 capture back") && !text.contains("14 captures"), "{text}");
+    assert!(text.contains("nothing applied: a manifest cannot shift one list"), "{text}");
+    assert_eq!(folder.read("cell/handeye.toml"), before);
+}
+
 #[test]
 fn what_cannot_be_checked_is_refused() {
     let folder = cell("setup = \"eye-in-hand\"", "setup = 7");
@@ -127,7 +186,12 @@ fn poor_pivots_are_refused_with_their_file() {
     folder.put("few.csv", &pivot(3, 0.6));
     folder.put("nan.csv", &pivot(6, 0.6).replacen("0.", "nan", 1));
     folder.put("empty.csv", "");
+    for (name, far) in [("far.csv", "1e200"), ("farther.csv", "1e308")] {
+        folder.put(name, &(pivot(3, 0.6) + far + ",0,0,0,0,0\n" + &pivot(8, 0.6)));
+    }
     for (file, code) in [
+        ("far.csv", "malformed"),
+        ("farther.csv", "malformed"),
         ("few.csv", "too-few-data"),
         ("nan.csv", "malformed"),
         ("empty.csv", "malformed"),
@@ -138,6 +202,9 @@ fn poor_pivots_are_refused_with_their_file() {
         assert_eq!((run.code, &error["code"]), (1, &code.into()), "{file}: {error}");
         assert!(error["message"].to_string().contains(file), "{error}");
     }
+    let far = tcp(&folder, "far.csv").json()["error"].clone();
+    assert_eq!(far["line"], 4, "{far}");
+    assert!(far["message"].to_string().contains("beyond any robot"), "{far}");
     folder.put("same.csv", &pivot(6, 0.0));
     let run = tcp(&folder, "same.csv");
     let found = run.json();
@@ -209,4 +276,61 @@ fn touches_pass_or_fail_for_the_tolerance_of_the_user() {
         assert!(run.json()["error"]["message"].to_string().contains(file));
     }
     assert_eq!(verify(&folder, "near.csv", &["--tolerance-mm", "-1"]).code, 2);
+}
+
+#[test]
+fn bad_touches_are_named_with_their_line() {
+    let folder = calibrated();
+    for far in ["1e300", "-4e11"] {
+        let text =
+            touches(&folder, 0.1).replacen("\nt3,", &format!("\nt3,{far},0,1,0,0,0\nt3,"), 1);
+        folder.put("far.csv", &text);
+        let run = verify(&folder, "far.csv", &[]);
+        let error = run.json()["error"].clone();
+        assert_eq!((run.code, &error["line"]), (1, &5.into()), "{error}");
+        assert!(error["message"].to_string().contains("camera_x"), "{error}");
+    }
+}
+
+/// Copied lines would narrow the bounds.
+#[test]
+fn touches_that_repeat_one_another_count_once() {
+    let folder = calibrated();
+    let text = touches(&folder, 0.1);
+    folder.put("once.csv", &text);
+    let t3 = text.lines().nth(4).unwrap().to_owned();
+    folder.put("twice.csv", &format!("{text}{t3}\n{}\n", t3.replacen("t3,", "t9,", 1)));
+    let (once, twice) =
+        (verify(&folder, "once.csv", &[]).json(), verify(&folder, "twice.csv", &[]).json());
+    for key in ["touches", "residual", "agreement"] {
+        assert_eq!(once[key], twice[key], "{key}");
+    }
+    let warning =
+        |k: usize| (twice["warnings"][k]["code"].clone(), twice["warnings"][k].to_string());
+    assert_eq!((warning(0).0, warning(1).0), ("touch-repeated".into(), "touch-repeated".into()));
+    assert!(warning(1).1.contains("touch t9 repeats touch t3"), "{}", warning(1).1);
+    folder.put("names.csv", &text.replacen("t4,", "t3,", 1));
+    let names = verify(&folder, "names.csv", &[]).json();
+    assert_eq!(names["warnings"][0]["code"], "touch-name-repeated", "{names}");
+    assert_eq!(names["touches"].as_array().unwrap().len(), 8);
+}
+
+#[test]
+fn a_calibration_that_is_rejected_does_not_pass_by_its_touches() {
+    let folder = calibrated();
+    folder.put("near.csv", &touches(&folder, 0.0));
+    let text = folder.read("result/calibration.json");
+    let rejected = text.replacen("\"accepted\"", "\"rejected\"", 1);
+    assert_ne!(text, rejected);
+    folder.put("result/calibration.json", &rejected);
+    for more in [&["--out", "report"][..], &["--tolerance-mm", "5"]] {
+        let run = verify(&folder, "near.csv", more);
+        let found = run.json();
+        assert_eq!((run.code, &found["verdict"]), (3, &"undetermined".into()), "{found}");
+        let reason = found["reasons"][0].to_string();
+        assert!(reason.contains("own verdict is rejected"), "{found}");
+        assert_eq!(found["warnings"][0]["code"], "calibration-not-accepted", "{found}");
+    }
+    let page = folder.read("report/verify.html");
+    assert!(page.contains("own verdict is rejected"), "the report says so");
 }

@@ -5,7 +5,7 @@
 mod folder;
 
 use folder::{Folder, handeye};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
 fn pose(rotation: [f64; 3], translation: [f64; 3]) -> Isometry3<f64> {
@@ -155,6 +155,62 @@ fn a_byte_order_mark_does_not_matter() {
 }
 
 #[test]
+fn one_capture_in_another_unit_is_left_out_and_no_more() {
+    let folder = Folder::new();
+    let mut file = pairs(1.0);
+    for k in 0..3 {
+        let t = &mut file["pairs"][3]["base_from_flange"]["translation_m"][k];
+        *t = (1e3 * t.as_f64().unwrap()).into();
+    }
+    folder.put("pairs.json", &file.to_string());
+    let run = handeye(&folder, &["solve", "pairs.json", "--json", "--quiet"]);
+    let answer = run.json();
+    assert_eq!((run.code, &answer["rejected"]), (0, &json!(["4"])), "{answer}");
+    assert!(answer["warnings"][0].to_string().contains("millimetres read as metres"), "{answer}");
+    for pair in file["pairs"].as_array_mut().unwrap() {
+        for k in 0..3 {
+            let t = &mut pair["base_from_flange"]["translation_m"][k];
+            *t = (1e3 * t.as_f64().unwrap()).into();
+        }
+    }
+    folder.put("pairs.json", &file.to_string());
+    let all = handeye(&folder, &["solve", "pairs.json", "--json", "--quiet"]).json();
+    assert_eq!(all["verdict"], "rejected");
+    assert!(all["reasons"].to_string().contains("millimetres read as metres"), "{all}");
+}
+
+/// The board lay as ever, but its detector began at the other end: about the board's middle, which
+/// the target poses do not tell.
+#[test]
+fn target_poses_turned_by_half_a_turn_are_named() {
+    let folder = Folder::new();
+    for (which, about) in [(&[5][..], [0.2, 0.15]), (&[1, 4, 6, 9, 12], [0.0, 0.0])] {
+        let mut file = pairs(1.0);
+        let turn = pose([0.0, 0.0, std::f64::consts::PI], [about[0], about[1], 0.0]);
+        for &k in which {
+            let seen = &file["pairs"][k]["camera_from_target"];
+            let number = |key: &str, i: usize| seen[key][i].as_f64().unwrap();
+            let q = Quaternion::from(std::array::from_fn(|i| number("rotation_xyzw", i)));
+            let t = Vector3::from_fn(|i, _| number("translation_m", i));
+            let there = Isometry3::from_parts(t.into(), UnitQuaternion::from_quaternion(q));
+            let turned = there * turn;
+            file["pairs"][k]["camera_from_target"] = stored(&turned, 1.0);
+        }
+        folder.put("pairs.json", &file.to_string());
+        let run = handeye(&folder, &["solve", "pairs.json", "--json", "--quiet"]);
+        let answer = run.json();
+        assert_eq!(run.code, 0, "{answer}");
+        assert_eq!(answer["rejected"].as_array().unwrap().len(), which.len());
+        let warnings = answer["warnings"].as_array().unwrap();
+        let turned: Vec<_> = warnings.iter().filter(|w| w["code"] == "target-turned").collect();
+        assert_eq!(turned.len(), which.len(), "{answer}");
+        let centre = format!("({:.0}, {:.0}) mm", about[0] * 500.0, about[1] * 500.0);
+        let message = turned[0]["message"].to_string();
+        assert!(about[0] == 0.0 || message.contains(&centre), "{centre}: {message}");
+    }
+}
+
+#[test]
 fn bad_files_are_refused_with_the_place_and_what_to_do() {
     let folder = Folder::new();
     let text = |value: Value| serde_json::to_string_pretty(&value).unwrap();
@@ -168,6 +224,8 @@ fn bad_files_are_refused_with_the_place_and_what_to_do() {
     turned["robot"][2]["base_from_flange"]["rotation_xyzw"] = json!([0, 0, 0, 2]);
     let mut no_time = streams(0.0);
     no_time["camera"][1].as_object_mut().unwrap().remove("time_s");
+    let mut far = pairs(1.0);
+    far["pairs"][3]["base_from_flange"]["translation_m"][0] = 1e300.into();
     let mut noise = pairs(1.0);
     noise["noise"] = json!({ "robot_position_mm": -1.0 });
     let comma = "{\"setup\": \"eye-in-hand\",\n \"pairs\": [\n ],\n}".to_owned();
@@ -196,6 +254,7 @@ fn bad_files_are_refused_with_the_place_and_what_to_do() {
         (text(json!({ "setup": "eye-in-hand" })), "p.json: neither `pairs` nor the streams"),
         (text(turned), ": robot sample 3 (time_s 0.02): rotation_xyzw has length 2, not 1"),
         (text(no_time), ": camera sample 2: missing field `time_s` (column "),
+        (text(far), ": pair 4: base_from_flange lies 1.0e300 m away, beyond any robot: correct"),
         (text(noise), "p.json: noise.robot_position_mm must be positive"),
     ] {
         folder.put("p.json", &content);

@@ -10,6 +10,7 @@ use crate::{
     error::{Error, Place, malformed},
     files,
     table::{self, Layout, Record},
+    units::{farthest, too_far},
 };
 
 /// A point that the camera measured and the tip touched.
@@ -65,13 +66,22 @@ fn from_json(path: &Path) -> Result<Vec<TouchedPoint>, Error> {
         let what = what.split(" at line ").next().unwrap_or(&what).to_owned();
         malformed(place, what, "see the section on testing in CONVENTIONS.md")
     })?;
-    let point = |(k, t): (usize, JsonTouch)| TouchedPoint {
-        id: t.id.unwrap_or((k + 1).to_string()),
-        in_camera: Point::from_vector(t.in_camera_m.into()),
-        in_base: Point::from_vector(t.touched_in_base_m.into()),
-        base_from_flange: t.base_from_flange,
+    let point = |(k, t): (usize, JsonTouch)| {
+        let id = t.id.unwrap_or((k + 1).to_string());
+        let flange = t.base_from_flange.map_or([0.0; 3], |p| p.translation().into());
+        if let Some(far) = farthest(&[t.in_camera_m, t.touched_in_base_m, flange].concat()) {
+            let what = format!("touch {id}: {}", too_far(far));
+            let advice = "correct the number, or leave the touch out";
+            return Err(malformed(Place::file(path), what, advice));
+        }
+        Ok(TouchedPoint {
+            id,
+            in_camera: Point::from_vector(t.in_camera_m.into()),
+            in_base: Point::from_vector(t.touched_in_base_m.into()),
+            base_from_flange: t.base_from_flange,
+        })
     };
-    Ok(read.touches.into_iter().enumerate().map(point).collect())
+    read.touches.into_iter().enumerate().map(point).collect()
 }
 
 fn from_record(k: usize, record: &Record) -> Result<TouchedPoint, Error> {
@@ -118,10 +128,14 @@ fn length(record: &Record, name: &str) -> Result<f64, Error> {
         Some(table::Cell::Number(x)) if x.is_finite() => Some(*x),
         _ => None,
     };
-    if let Some(mm) = number(column("_mm")) {
-        return Ok(mm / 1000.0);
+    let found = number(column("_mm")).map(|mm| mm / 1000.0).or_else(|| number(column("_m")));
+    if let Some(far) = found.and_then(|metres| farthest(&[metres])) {
+        return Err(record.refuse(
+            format!("{name}: {}", too_far(far)),
+            "correct the number, or leave the touch out",
+        ));
     }
-    number(column("_m")).ok_or_else(|| {
+    found.ok_or_else(|| {
         let advice = match column("") {
             Some(_) => format!("say the unit in the header: {name}_mm or {name}_m"),
             None => "the columns are camera_x_mm camera_y_mm camera_z_mm touched_x_mm \
@@ -158,6 +172,18 @@ mod tests {
         let csv = "camera_x,camera_y,camera_z,touched_x,touched_y,touched_z\n1,2,3,4,5,6\n";
         let message = read("b.csv", csv).unwrap_err();
         assert!(message.contains("say the unit in the header: camera_x_mm"), "{message}");
+    }
+
+    #[test]
+    fn a_number_beyond_any_robot_is_named_with_its_line() {
+        let csv = "camera_x_mm,camera_y_mm,camera_z_mm,touched_x_mm,touched_y_mm,touched_z_mm\n\
+                   1,2,3,4,5,6\n1e300,2,3,4,5,6\n";
+        let message = read("e.csv", csv).unwrap_err();
+        assert!(message.contains("e.csv:3") && message.contains("camera_x"), "{message}");
+        let json = r#"{"touches": [{"id": "a", "in_camera_m": [0.01, 0.02, 0.9],
+                       "touched_in_base_m": [0.5, -1e200, 0.125]}]}"#;
+        let message = read("e.json", json).unwrap_err();
+        assert!(message.contains("touch a: a position 1.0e200 m"), "{message}");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Units outside; inside all is metres and radians.
 
+use handeye::frame::FARTHEST_M;
 use serde::Deserialize;
 
 /// A unit of length that files use.
@@ -49,6 +50,16 @@ impl LengthUnit {
             Self::Inch => "inch",
         }
     }
+}
+
+/// The largest of some coordinates (m), where it is too large for any robot and camera.
+pub(crate) fn farthest(coordinates: &[f64]) -> Option<f64> {
+    coordinates.iter().map(|x| x.abs()).filter(|x| *x > FARTHEST_M).reduce(f64::max)
+}
+
+/// What is wrong with it.
+pub(crate) fn too_far(metres: f64) -> String {
+    format!("a position {metres:.1e} m from the origin is beyond any robot and camera")
 }
 
 /// A unit of angle that files use.

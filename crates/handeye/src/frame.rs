@@ -59,6 +59,10 @@ frames! {
     Target = "target";
 }
 
+/// Positions beyond this, m, are no robot's and no camera's: the number is wrong. Their squares would
+/// leave no digits to the others.
+pub const FARTHEST_M: f64 = 1e6;
+
 /// `a_from_b`: takes a point in `B` to the same point in `A`. Metres and radians.
 pub struct Pose<A, B> {
     iso: Isometry3<f64>,
@@ -134,6 +138,10 @@ impl<A, B> Pose<A, B> {
             .iter()
             .chain(self.iso.translation.vector.iter())
             .all(|x| x.is_finite())
+    }
+    /// The position is beyond [`FARTHEST_M`].
+    pub fn is_too_far(&self) -> bool {
+        self.iso.translation.vector.amax() > FARTHEST_M
     }
     /// From a rotation matrix and a translation (m): see [`Pose::claim`].
     pub fn from_parts(rotation: &Matrix3<f64>, translation: Vector3<f64>) -> Self {

@@ -4,6 +4,7 @@ pub mod calibrate;
 pub mod calibration;
 pub mod camera;
 pub mod certify;
+mod chance;
 pub mod detect;
 pub mod diagnose;
 pub mod error;

@@ -17,9 +17,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 use serde::Serialize;
-use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use crate::{Base, Error, Flange, Point, Pose, Verdict, diagnose::axis_name, linalg};
+use crate::{Base, Error, Flange, Point, Pose, Verdict, chance, diagnose::axis_name, linalg};
 
 /// Fewest poses: with three a wrong one cannot be told from the others.
 pub const FEWEST_POSES: usize = 4;
@@ -108,8 +107,8 @@ impl Pivot {
 /// beyond which the answer is rejected.
 ///
 /// # Errors
-/// [`Error::TooFewPoses`] below four, [`Error::NotFinite`] on NaN, [`Error::NotDetermined`] when the
-/// flange does not turn at all.
+/// [`Error::TooFewPoses`] below four, [`Error::NotFinite`] on NaN, [`Error::Invalid`] when a pose is
+/// farther away than any robot reaches, [`Error::NotDetermined`] when the flange does not turn at all.
 pub fn pivot(poses: &[Pose<Base, Flange>], most_spread: f64) -> Result<Pivot, Error> {
     check(poses)?;
     let all: Vec<usize> = (0..poses.len()).collect();
@@ -137,10 +136,16 @@ fn check(poses: &[Pose<Base, Flange>]) -> Result<(), Error> {
                     .into(),
         });
     }
-    match poses.iter().position(|p| !p.is_finite()) {
-        Some(i) => Err(Error::NotFinite { what: format!("pose {}", i + 1) }),
-        None => Ok(()),
+    for (i, pose) in poses.iter().enumerate() {
+        if !pose.is_finite() {
+            return Err(Error::NotFinite { what: format!("pose {}", i + 1) });
+        }
+        if pose.is_too_far() {
+            let what = format!("pose {} lies farther from the base than any robot reaches", i + 1);
+            return Err(Error::Invalid(what));
+        }
     }
+    Ok(())
 }
 
 type Row = SMatrix<f64, 3, 6>;
@@ -222,7 +227,7 @@ impl Fit {
         let spread = Matrix3::identity() + j * self.inverse * j.transpose();
         let square = linalg::invert_spd(&spread).map_or(0.0, |w| e.dot(&(w * e)));
         let f = square / 3.0 / self.least_variance();
-        FisherSnedecor::new(3.0, self.degrees_of_freedom).map_or(1.0, |d| d.sf(f))
+        chance::of_f(f, (3.0, self.degrees_of_freedom))
     }
 }
 
@@ -254,8 +259,8 @@ fn excludes(core: &[usize], whole: &[usize], poses: &[Pose<Base, Flange>]) -> bo
     let (few, all) = (Fit::of(core, poses), Fit::of(whole, poses));
     let more = all.degrees_of_freedom - few.degrees_of_freedom;
     let added = (all.sum_of_squares - few.sum_of_squares).max(0.0) / more.max(1.0);
-    let law = FisherSnedecor::new(more.max(1.0), few.degrees_of_freedom.max(1.0));
-    let chance = law.map_or(1.0, |d| d.sf(added / few.least_variance()));
+    let degrees = (more.max(1.0), few.degrees_of_freedom.max(1.0));
+    let chance = chance::of_f(added / few.least_variance(), degrees);
     chance * choices(whole.len(), core.len()) < FALSE_ALARM
 }
 
@@ -433,6 +438,7 @@ mod tests {
     use super::*;
     use crate::simulate::Random;
     use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+    use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
     const TIP: [f64; 3] = [0.004, -0.007, 0.182];
     const POINT: [f64; 3] = [0.6, -0.2, 0.05];
@@ -465,6 +471,16 @@ mod tests {
     }
 
     #[test]
+    fn a_position_beyond_any_robot_is_refused() {
+        for far in [1e7, 1e160, 1e200] {
+            let mut all = poses(8, [0.4; 3], 3e-4, &mut Random::new(1));
+            all[3] = Pose::claim(Isometry3::translation(far, 0.0, 0.0));
+            let error = pivot(&all, 1e-2).unwrap_err().to_string();
+            assert!(error.starts_with("pose 4 lies farther"), "{error}");
+        }
+    }
+
+    #[test]
     fn moving_the_base_moves_only_the_point() {
         let all = poses(6, [0.4; 3], 3e-4, &mut Random::new(2));
         let moved: Pose<Base, Base> =
@@ -490,7 +506,8 @@ mod tests {
         for count in [5, 8, 20] {
             let mut random = Random::new(count as u64);
             let dof = 3.0 * count as f64 - 6.0;
-            let limit = 3.0 / few(dof) * FisherSnedecor::new(3.0, dof).unwrap().inverse_cdf(0.95);
+            let law = FisherSnedecor::new(3.0, dof);
+            let limit = 3.0 / few(dof) * law.unwrap().inverse_cdf(0.95);
             let mut inside = |_: &i32| {
                 let found = pivot(&poses(count, [0.6; 3], 4e-4, &mut random), 1e-2).unwrap();
                 let e = found.tip_in_flange.vector() - Vector3::from(TIP);

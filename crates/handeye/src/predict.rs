@@ -10,9 +10,8 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ContinuousCDF, Gamma};
 
-use crate::{Camera, Mount, Pose, register::rigid_fit::point_jacobian};
+use crate::{Camera, Mount, Pose, chance, register::rigid_fit::point_jacobian};
 
 /// Predicted error over a volume, in millimetres.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -196,8 +195,7 @@ fn quantile95(moments: &[(f64, f64)]) -> f64 {
             if variance <= 1e-12 * mean * mean {
                 return f64::from(mean <= length * length);
             }
-            Gamma::new(mean * mean / variance, mean / variance)
-                .map_or(f64::from(mean <= length * length), |g| g.cdf(length * length))
+            chance::gamma_at_most(length * length, mean, variance)
         };
         moments.iter().map(share).sum::<f64>() / moments.len().max(1) as f64
     };

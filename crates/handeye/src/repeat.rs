@@ -10,9 +10,8 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::Serialize;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::{Camera, Error, Mount, Pose, lie, linalg::invert_spd};
+use crate::{Camera, Error, Mount, Pose, chance, lie, linalg::invert_spd};
 
 /// One result: the camera's pose, with its covariance if it has one (rotation first, in the camera
 /// frame).
@@ -131,7 +130,7 @@ fn agreement(
     };
     let chi_square = results.iter().zip(weights).map(one).sum();
     let degrees_of_freedom = 6 * (results.len() - 1);
-    let p_value = ChiSquared::new(degrees_of_freedom as f64).map_or(0.0, |d| d.sf(chi_square));
+    let p_value = chance::of_chi_square(chi_square, degrees_of_freedom);
     Agreement { chi_square, degrees_of_freedom, p_value }
 }
 

@@ -14,7 +14,7 @@ use nalgebra::{Matrix6, Vector3};
 
 use crate::{
     Camera, Correspondence, Error, Mount, Observation, Placement, Point, Pose, Setup, TargetModel,
-    Touch, linalg, predict,
+    Touch, Warning, linalg, predict,
     register::{self, IcpConfig, Stop},
 };
 
@@ -33,6 +33,29 @@ pub struct TouchPairs {
     pub views: Vec<usize>,
     /// The touched corner, about the point at which misfits are stated.
     pub corner: Vector3<f64>,
+}
+
+/// Takes out touches that repeat another one number by number: a line that was copied is no second
+/// measurement. Returns a warning for each touch that was listed several times.
+pub fn each_once(touches: &mut Vec<Touch>) -> Vec<Warning> {
+    let mut kept: Vec<(Touch, usize)> = Vec::new();
+    for touch in touches.drain(..) {
+        match kept.iter_mut().find(|(t, _)| *t == touch) {
+            Some((_, count)) => *count += 1,
+            None => kept.push((touch, 1)),
+        }
+    }
+    let repeated = |(touch, count): &(Touch, usize)| {
+        let message = format!(
+            "the touch of corner {} of {:?} is listed {count} times with the same numbers and \
+             counts once: touch the corner anew for a second measurement",
+            touch.corner, touch.placement
+        );
+        (*count > 1).then(|| Warning::new("touch-repeated", message))
+    };
+    let warnings = kept.iter().filter_map(repeated).collect();
+    touches.extend(kept.into_iter().map(|(touch, _)| touch));
+    warnings
 }
 
 /// Pairs every touch with what the camera measured. Touches whose corner no view shows are left

@@ -18,10 +18,11 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SMatrix, Vector3};
 use serde::Serialize;
-use statrs::distribution::{Beta, ChiSquared, ContinuousCDF, Gamma};
+use statrs::distribution::{Beta, ContinuousCDF, Gamma};
 
 use crate::{
-    Base, Camera, Error, Mount, Point, Pose, Target, linalg, register::rigid_fit::point_jacobian,
+    Base, Camera, Error, Mount, Point, Pose, Target, chance, linalg,
+    register::rigid_fit::point_jacobian,
 };
 
 /// How confident the bounds are.
@@ -100,8 +101,7 @@ pub struct ChiSquare {
 
 impl ChiSquare {
     fn of(chi_square: f64, degrees_of_freedom: usize) -> Self {
-        let law = ChiSquared::new(degrees_of_freedom.max(1) as f64);
-        let p_value = law.map_or(f64::NAN, |d| d.sf(chi_square.max(0.0)));
+        let p_value = chance::of_chi_square(chi_square.max(0.0), degrees_of_freedom);
         Self { chi_square, degrees_of_freedom, p_value }
     }
 }

@@ -164,3 +164,40 @@ fn touches_under_other_ids_contradict_the_views_and_the_way_of_counting_is_named
         }
     }
 }
+
+/// A line that was copied is no second measurement: it must not make the answer surer.
+#[test]
+fn a_touch_that_is_listed_several_times_counts_once() {
+    let (session, _) = session(Setup::EyeToHand, |column, row| column % 8 == 0 && row % 5 == 0);
+    let mut copied = session.clone();
+    copied.touches.extend(vec![session.touches[0].clone(); 3]);
+    let once = calibrate(&session, &Config::default()).unwrap();
+    let mut found = calibrate(&copied, &Config::default()).unwrap();
+    let repeated: Vec<_> = found.warnings.extract_if(.., |w| w.code == "touch-repeated").collect();
+    assert_eq!(repeated.len(), 1);
+    assert!(repeated[0].message.contains("listed 4 times"), "{}", repeated[0].message);
+    assert_eq!(once, found);
+}
+
+/// Millimetres in one column that is read as metres: the touches are to blame, not the poses.
+#[test]
+fn touches_that_lie_metres_from_the_views_are_blamed_themselves() {
+    for setup in SETUPS {
+        let (mut session, truth) = session(setup, |column, row| column % 8 == 0 && row % 5 == 0);
+        for touch in &mut session.touches {
+            let mut at = touch.in_base.vector();
+            at.x *= 1e3;
+            touch.in_base = handeye::Point::from_vector(at);
+        }
+        let found = calibrate(&session, &Config::default()).unwrap();
+        assert_eq!(found.verdict, Verdict::Rejected);
+        assert_eq!(found.reasons.len(), 1, "{:?}", found.reasons);
+        assert!(found.reasons[0].contains("the length unit of [touches]"), "{:?}", found.reasons);
+        assert!(found.touches.len() == session.touches.len() && !found.touches[0].used);
+        let x = found.hand_eye.mount_from_camera.unwrap();
+        assert!(
+            x.distance_to(&truth.hand_eye.mount_from_camera) < 3e-3,
+            "the views' answer stands"
+        );
+    }
+}

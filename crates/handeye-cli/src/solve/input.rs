@@ -3,10 +3,13 @@
 use std::{collections::HashSet, fs, path::Path};
 
 use handeye::{
-    Base, Camera, Flange, Observation, Pose, Session, Setup, Stamped, Streams, Target,
+    Base, Camera, Flange, Frame, Observation, Pose, Session, Setup, Stamped, Streams, Target,
     refine::KnownNoise, solve::FEWEST_POSES,
 };
-use serde::{Deserialize, de::DeserializeOwned};
+use serde::{
+    Deserialize, Deserializer,
+    de::{self, DeserializeOwned},
+};
 use serde_json::Value;
 
 use crate::failure::Failure;
@@ -48,7 +51,9 @@ struct Document {
 struct Pair {
     #[serde(default)]
     id: Option<String>,
+    #[serde(deserialize_with = "of_robot")]
     base_from_flange: Pose<Base, Flange>,
+    #[serde(deserialize_with = "of_target")]
     camera_from_target: Pose<Camera, Target>,
 }
 
@@ -56,6 +61,7 @@ struct Pair {
 #[serde(deny_unknown_fields, expecting = "an object with `time_s` and `base_from_flange`")]
 struct RobotSample {
     time_s: f64,
+    #[serde(deserialize_with = "of_robot")]
     base_from_flange: Pose<Base, Flange>,
 }
 
@@ -63,7 +69,37 @@ struct RobotSample {
 #[serde(deny_unknown_fields, expecting = "an object with `time_s` and `camera_from_target`")]
 struct CameraSample {
     time_s: f64,
+    #[serde(deserialize_with = "of_target")]
     camera_from_target: Pose<Camera, Target>,
+}
+
+/// Targets whose distances are known up to one factor may be so many times farther than others.
+const MOST_SCALE: f64 = 1e6;
+
+fn of_robot<'de, D: Deserializer<'de>>(d: D) -> Result<Pose<Base, Flange>, D::Error> {
+    within(d, 1.0, "robot")
+}
+
+fn of_target<'de, D: Deserializer<'de>>(d: D) -> Result<Pose<Camera, Target>, D::Error> {
+    within(d, MOST_SCALE, "camera")
+}
+
+/// A pose that is not beyond any robot or camera.
+fn within<'de, D: Deserializer<'de>, A: Frame, B: Frame>(
+    d: D,
+    scale: f64,
+    whose: &str,
+) -> Result<Pose<A, B>, D::Error> {
+    let pose = Pose::<A, B>::deserialize(d)?;
+    if !pose.farther(1.0 / scale).is_too_far() {
+        return Ok(pose);
+    }
+    Err(de::Error::custom(format!(
+        "{}_from_{} lies {:.1e} m away, beyond any {whose}: correct the number, or leave it out",
+        A::NAME,
+        B::NAME,
+        pose.translation().amax()
+    )))
 }
 
 #[derive(Deserialize, Default, Clone, Copy)]

@@ -3,12 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{Change, Explanation};
-use crate::{
-    Error, Place,
-    dataset::{Manifest, Source},
-    error::malformed,
-    files,
-};
+use crate::{Dataset, Error, Place, dataset::Source, error::malformed, files};
 
 /// Sizes that a manifest may declare.
 const SIZES: [&str; 6] = ["square_mm", "marker_mm", "tag_mm", "pitch_mm", "size_mm", "diameter_mm"];
@@ -16,16 +11,16 @@ const SIZES: [&str; 6] = ["square_mm", "marker_mm", "tag_mm", "pitch_mm", "size_
 const MOST_BACKUPS: usize = 100;
 
 /// Writes a manifest with an explanation's changes, and keeps the old one beside it; returns the
-/// old one's name. Measured files are not touched.
+/// old one's name. Measured files are not touched. Names in the manifest are relative to `root`.
 ///
 /// # Errors
-/// A manifest in which the changes have no place of their own (inline tables, dotted keys), and
-/// what cannot be written.
-pub fn apply(manifest: &Path, explanation: &Explanation) -> Result<PathBuf, Error> {
+/// A manifest in which the changes have no place of their own (inline tables, dotted keys), one
+/// that could not be read with them, and what cannot be written.
+pub fn apply(manifest: &Path, root: &Path, explanation: &Explanation) -> Result<PathBuf, Error> {
     let text = files::text(manifest)?;
     let corrected = explanation.changes.iter().fold(text.clone(), |text, c| amended(&text, c));
     let source = Source { path: manifest.to_path_buf(), text: corrected.clone() };
-    if let Err(e) = Manifest::parse(&source) {
+    if let Err(e) = Dataset::of_source(source, root) {
         let lines: Vec<String> = explanation
             .changes
             .iter()
@@ -96,6 +91,17 @@ fn amended(text: &str, change: &Change) -> String {
     lines.join(ending) + ending
 }
 
+/// Captures that are left out, beside those that are already.
+pub(super) fn excluding(text: &str, captures: &[String]) -> Vec<Change> {
+    let declared = value(text, "captures", "exclude").unwrap_or("[]".into());
+    let parsed: Option<toml::Table> = toml::from_str(&format!("all = {declared}")).ok();
+    let mut all =
+        parsed.and_then(|table| table.get("all")?.as_array().cloned()).unwrap_or_default();
+    all.extend(captures.iter().map(|id| toml::Value::String(id.clone())));
+    let value = toml::Value::Array(all).to_string();
+    vec![Change { table: "captures", key: "exclude".into(), value }]
+}
+
 /// Every size of the target, times `scale`.
 pub(super) fn resized(text: &str, scale: f64) -> Vec<Change> {
     let size = |key: &&str| {
@@ -124,6 +130,17 @@ mod tests {
         let setup = with(&added, "", "setup", "\"eye-to-hand\"");
         assert!(setup.starts_with("setup = \"eye-to-hand\"\n"), "{setup}");
         assert!(with("a = 1\r\n", "robot", "b", "2").ends_with("\r\n[robot]\r\nb = 2\r\n"));
+    }
+
+    #[test]
+    fn captures_are_left_out_beside_others() {
+        let ids = ["006".to_owned(), "a \"b\"".to_owned()];
+        for (text, count) in [("", 2), ("[captures]\nexclude = [\"001\"] # dark\n", 3)] {
+            let changed = amended(text, &excluding(text, &ids)[0]);
+            let read: toml::Table = toml::from_str(&changed).unwrap();
+            let all = read["captures"]["exclude"].as_array().unwrap();
+            assert_eq!((all.len(), all[count - 1].as_str()), (count, Some("a \"b\"")), "{changed}");
+        }
     }
 
     #[test]

@@ -18,7 +18,7 @@ pub use amend::apply;
 
 use crate::{
     Dataset, Error, Place,
-    dataset::{Rereading, rereadings},
+    dataset::{self, Rereading, rereadings},
     error::malformed,
     files, measure,
 };
@@ -49,6 +49,8 @@ pub struct Explanation {
     pub captures: Vec<String>,
     /// Changes of the manifest that correct it; empty where none can.
     pub changes: Vec<Change>,
+    /// What the user has to do where no value of the manifest corrects it.
+    pub by_hand: Option<String>,
 }
 
 /// The best reading that does not explain the captures.
@@ -218,6 +220,15 @@ const MOST_ROBOT_SCALE: f64 = 0.05;
 
 /// A finding, and what amounts to the same in the data.
 fn explained(case: &Case, finding: &Finding) -> Vec<Explanation> {
+    let mut all = candidates(case, finding);
+    for e in all.iter_mut().filter(|e| e.changes.is_empty()) {
+        let left = case.names.len() - e.captures.len();
+        e.by_hand = Some(words::by_hand(&finding.fault, &e.captures, left));
+    }
+    all
+}
+
+fn candidates(case: &Case, finding: &Finding) -> Vec<Explanation> {
     let fault = &finding.fault;
     let own = Explanation {
         code: words::code(fault),
@@ -226,12 +237,18 @@ fn explained(case: &Case, finding: &Finding) -> Vec<Explanation> {
         p_value: None,
         captures: words::captures(case, fault),
         changes: vec![],
+        by_hand: None,
     };
     match fault {
         Fault::Reading(k) => {
             let robot = &case.robot[*k];
-            let changes = robot.changes.iter().map(|(key, value)| change("robot", key, value));
-            let own = Explanation { changes: changes.collect(), ..own };
+            let mut changes: Vec<Change> =
+                robot.changes.iter().map(|(key, value)| change("robot", key, value)).collect();
+            if !robot.columns.is_empty() {
+                let value = dataset::columns(&robot.columns).to_string();
+                changes.push(Change { table: "robot", key: "columns".into(), value });
+            }
+            let own = Explanation { changes, ..own };
             let turned = own.changes.iter().any(|c| c.key == "direction");
             if turned { directions(case, own, *k) } else { vec![own] }
         }
@@ -251,6 +268,12 @@ fn explained(case: &Case, finding: &Finding) -> Vec<Explanation> {
                 ..target.clone()
             };
             vec![target, robot]
+        }
+        Fault::TargetMoved(..) | Fault::CameraMoved(..) | Fault::RobotStill(_)
+            if own.captures.len() + explain::FEWEST <= case.names.len() =>
+        {
+            let changes = amend::excluding(&case.text, &own.captures);
+            vec![Explanation { changes, ..own }]
         }
         _ => vec![own],
     }

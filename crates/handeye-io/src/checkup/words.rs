@@ -54,10 +54,8 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
         Fault::Reading(k) => case.robot[*k].words.clone(),
         Fault::Order(Order::Shifted(k)) => format!(
             "pictures and robot poses are in different orders: each picture belongs to the robot \
-             pose {k} further on, counted round (picture {} to robot pose {}); correct the order \
-             of the files",
-            case.names[0],
-            k + 1
+             pose {}; correct the order of the files",
+            shift(&case.names, *k)
         ),
         Fault::Order(Order::Reversed) => "pictures and robot poses are in opposite orders: the \
              first picture belongs to the last robot pose; correct the order of the files"
@@ -101,6 +99,58 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
     }
 }
 
+/// Where the robot pose of a picture stands when it is `k` captures further on, counted round; said
+/// the shorter way.
+fn shift(names: &[String], k: usize) -> String {
+    let (n, places) = (names.len(), |k: usize| if k == 1 { "capture" } else { "captures" });
+    if 2 * k > n {
+        let back = n - k;
+        let (picture, pose) = (&names[back], &names[0]);
+        let example = format!("the picture of capture {picture} to the robot pose of {pose}");
+        return format!("{back} {} back, counted round ({example})", places(back));
+    }
+    let (picture, pose) = (&names[0], &names[k]);
+    let example = format!("the picture of capture {picture} to the robot pose of {pose}");
+    format!("{k} {} further on, counted round ({example})", places(k))
+}
+
+/// What to do about a mistake that no value of a manifest corrects.
+/// Without the captures concerned, `left` remain.
+pub(super) fn by_hand(fault: &Fault, captures: &[String], left: usize) -> String {
+    let names = captures.iter().map(|c| format!("{c:?}")).collect::<Vec<_>>().join(", ");
+    let leaving_out = format!("[captures] exclude = [{names}]");
+    match fault {
+        Fault::Order(_) => "a manifest cannot shift one list against the other: put the files, or \
+                            the lines of the robot's poses, into the right order, and check again"
+            .into(),
+        Fault::Exchanged(_) => format!(
+            "a manifest cannot exchange pictures: exchange the files of each pair, or leave the \
+             captures out with {leaving_out}"
+        ),
+        Fault::CameraStill(_) => {
+            format!("take these captures again, or leave them out with {leaving_out}")
+        }
+        Fault::Repeated(_) => "nothing needs correcting; of captures that repeat one another, all \
+                               but one can be left out with [captures] exclude = [..]"
+            .into(),
+        Fault::Disagreeing(_) => format!(
+            "which of these captures are wrong is for you to say: look at their pictures and robot \
+             poses first; {leaving_out} leaves all of them out"
+        ),
+        Fault::Reading(_) => {
+            "no key of a manifest says so: correct the numbers in the file of the \
+                              robot's poses"
+                .into()
+        }
+        Fault::Scale(_) => "no value of the manifest stands for it alone: measure the target, and \
+                            have the robot's own scale checked if the size is right"
+            .into(),
+        Fault::TargetMoved(..) | Fault::CameraMoved(..) | Fault::RobotStill(_) => {
+            format!("only {left} captures would be left without these: take them again")
+        }
+    }
+}
+
 /// The other way to see a wrong size.
 pub(super) fn robot_scale(s: &TargetScale) -> String {
     format!(
@@ -137,4 +187,20 @@ pub(super) fn besides(robot: &Rereading) -> String {
 
 fn declared_size(case: &Case) -> Option<f64> {
     case.target.as_ref().map(TargetModel::pitch_m).map(|m| (m * 1e6).round() / 1e3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shift_is_said_the_shorter_way() {
+        let names: Vec<String> = (1..=15).map(|k| format!("{k:03}")).collect();
+        let back = shift(&names, 14);
+        assert!(back.starts_with("1 capture back"), "{back}");
+        assert!(back.contains("the picture of capture 002 to the robot pose of 001"), "{back}");
+        let on = shift(&names, 2);
+        assert!(on.starts_with("2 captures further on"), "{on}");
+        assert!(on.contains("the picture of capture 001 to the robot pose of 003"), "{on}");
+    }
 }

@@ -164,6 +164,11 @@ impl Dataset {
     /// As [`Dataset::open`].
     pub fn open_with_root(manifest: &Path, root: &Path) -> Result<Dataset, Error> {
         let source = Source { path: manifest.to_path_buf(), text: files::text(manifest)? };
+        Self::of_source(source, root)
+    }
+
+    /// Opens the text of a manifest, wherever it stands.
+    pub(crate) fn of_source(source: Source, root: &Path) -> Result<Dataset, Error> {
         Opening { manifest: Manifest::parse(&source)?, source, root: root.to_path_buf() }.dataset()
     }
 

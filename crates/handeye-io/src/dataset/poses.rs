@@ -13,7 +13,7 @@ use crate::{
     files,
     robot::{DhModel, Notation, Rotation, Units, suspicious_values},
     table::{self, Layout, Record},
-    units::AngleUnit,
+    units::{AngleUnit, farthest, too_far},
 };
 
 /// A pose and the name and place it has in its file.
@@ -98,12 +98,16 @@ impl Reading {
 
     /// The pose of raw numbers; `a_from_b` is what the table's direction says.
     pub(super) fn pose(&self, numbers: &[f64], place: &Place) -> Result<Isometry3<f64>, Error> {
-        match self {
-            Reading::Notation(notation, units) => notation.pose(numbers, *units).map_err(|what| {
-                let advice = "correct the file, the notation or its column order";
-                malformed(place.clone(), what, advice)
-            }),
-            Reading::Joints(model, unit) => Ok(*model.base_from_flange(numbers, *unit).iso()),
+        let advice = "correct the file, the notation or its column order";
+        let iso = match self {
+            Reading::Notation(notation, units) => notation
+                .pose(numbers, *units)
+                .map_err(|what| malformed(place.clone(), what, advice))?,
+            Reading::Joints(model, unit) => *model.base_from_flange(numbers, *unit).iso(),
+        };
+        match farthest(iso.translation.vector.as_slice()) {
+            Some(far) => Err(malformed(place.clone(), too_far(far), advice)),
+            None => Ok(iso),
         }
     }
 }
@@ -167,18 +171,17 @@ fn read(
     Ok((poses, warnings))
 }
 
-/// The numbers of the robot's poses as they stand in their files, and how they are read.
-pub(super) fn numbers_of_robot(
+/// The robot's poses as they stand in their files, and how they are read.
+pub(super) fn records_of_robot(
     spec: &RobotSpec,
     source: &Source,
     root: &Path,
-) -> Result<(Reading, Vec<Vec<f64>>), Error> {
+) -> Result<(Reading, Vec<Record>), Error> {
     let table = PoseTable { dh: spec.dh.clone(), ..spec.table() };
     let reading = Reading::of(&table, "robot", source, root)?;
     let layout = table.layout(reading.is_matrix(), "robot", source)?;
     let records = records(&table.poses, &layout, root, &source.place("robot.poses"))?;
-    let numbers = records.iter().map(|r| reading.numbers(r)).collect::<Result<_, _>>()?;
-    Ok((reading, numbers))
+    Ok((reading, records))
 }
 
 /// What the robot reported, one per record.

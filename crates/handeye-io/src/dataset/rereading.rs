@@ -14,6 +14,7 @@ use crate::{
     error::{Error, Place},
     files,
     robot::{Notation, Rotation, Units},
+    table::Record,
     units::{AngleUnit, LengthUnit},
 };
 
@@ -26,6 +27,9 @@ pub struct Rereading {
     pub words_without_direction: String,
     /// Keys of `[robot]` and their values that say so; none where a manifest cannot.
     pub changes: Vec<(&'static str, String)>,
+    /// Names of the file's columns in the order in which they are read, where the new notation
+    /// would not find them, or others, by their names; otherwise empty.
+    pub columns: Vec<String>,
     /// Where the flange was in each capture.
     pub base_from_flange: Vec<Pose<Base, Flange>>,
 }
@@ -53,7 +57,9 @@ pub fn rereadings(
     let source = Source { path: manifest.to_path_buf(), text: files::text(manifest)? };
     let parsed = Manifest::parse(&source)?;
     let Some(spec) = &parsed.robot else { return Ok(vec![]) };
-    let (reading, numbers) = poses::numbers_of_robot(spec, &source, root)?;
+    let (reading, records) = poses::records_of_robot(spec, &source, root)?;
+    let numbers: Vec<Vec<f64>> =
+        records.iter().map(|r| reading.numbers(r)).collect::<Result<_, _>>()?;
     let flange_from_tool = poses::tool(spec, &source)?;
     let chosen: Option<Vec<&[f64]>> =
         dataset.captures.iter().map(|c| Some(numbers.get(c.robot_record)?.as_slice())).collect();
@@ -62,7 +68,7 @@ pub fn rereadings(
     let mut all = match &reading {
         Reading::Notation(notation, units) => {
             let declared = Way { notation: notation.clone(), units: *units, inverted };
-            notations(&declared, &chosen, flange_from_tool)
+            notations(&declared, &chosen, records.first(), flange_from_tool)
         }
         Reading::Joints(..) => joints(spec, &reading, &chosen, flange_from_tool)?,
     };
@@ -73,6 +79,7 @@ pub fn rereadings(
 fn notations(
     declared: &Way,
     numbers: &[&[f64]],
+    record: Option<&Record>,
     flange_from_tool: Pose<Flange, Tool>,
 ) -> Vec<Rereading> {
     let ways = ways(declared);
@@ -85,6 +92,7 @@ fn notations(
             words: words(declared, way),
             words_without_direction: words(declared, &as_turned),
             changes: changes(declared, way),
+            columns: record.map_or_else(Vec::new, |r| columns(declared, way, r)),
             base_from_flange,
         })
     };
@@ -185,6 +193,12 @@ fn changes(declared: &Way, way: &Way) -> Vec<(&'static str, String)> {
     all
 }
 
+/// The columns as the declared notation reads them, where the other one would read them otherwise.
+fn columns(declared: &Way, way: &Way, record: &Record) -> Vec<String> {
+    let own = declared.notation.names_in(record);
+    if way.notation.names_in(record) == own { vec![] } else { own.unwrap_or_default() }
+}
+
 fn words(declared: &Way, way: &Way) -> String {
     let mut parts = Vec::new();
     if declared.notation.rotation != way.notation.rotation {
@@ -240,7 +254,14 @@ fn joints(
                 changes.push(("direction", direction(inverted).to_owned()));
             }
             let words = words.join(", and ");
-            all.push(Rereading { words, words_without_direction, changes, base_from_flange });
+            let columns = vec![];
+            all.push(Rereading {
+                words,
+                words_without_direction,
+                changes,
+                columns,
+                base_from_flange,
+            });
         }
     }
     Ok(all)
@@ -253,6 +274,7 @@ fn mirrored(dataset: &Dataset) -> Vec<Rereading> {
         words: words.into(),
         words_without_direction: words.into(),
         changes: vec![],
+        columns: vec![],
         base_from_flange: dataset
             .captures
             .iter()
@@ -286,6 +308,29 @@ fn mirrored(dataset: &Dataset) -> Vec<Rereading> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_are_named_where_another_notation_would_look_for_others() {
+        let record = |names: &[&str]| Record {
+            names: names.iter().map(|n| (*n).to_owned()).collect(),
+            cells: vec![],
+            id: None,
+            place: Place::default(),
+        };
+        let way = |name: &str| {
+            let notation = Notation::named(name).unwrap();
+            Way { units: notation.own_units(), notation, inverted: false }
+        };
+        let of =
+            |from: &str, to: &str, names: &[&str]| columns(&way(from), &way(to), &record(names));
+        let angles = ["capture", "X", "Y", "Z", "A", "B", "C"];
+        assert_eq!(of("kuka", "rotation-vector", &angles), angles[1..]);
+        assert!(of("kuka", "kuka", &angles).is_empty());
+        // found by their names in either order, so the names must not decide
+        let parts = ["x", "y", "z", "qx", "qy", "qz", "qw"];
+        assert_eq!(of("quaternion-xyzw", "quaternion-wxyz", &parts), parts);
+        assert!(of("quaternion-xyzw", "quaternion-wxyz", &[]).is_empty());
+    }
 
     #[test]
     fn six_numbers_are_read_as_a_vector_or_as_any_angles() {

@@ -14,7 +14,7 @@ use crate::{
     error::{Error, Place, malformed},
     files,
     table::{Cell, Layout, Record},
-    units::LengthUnit,
+    units::{LengthUnit, farthest, too_far},
 };
 
 /// Name of the one board of the views, where touches name no placement.
@@ -141,7 +141,13 @@ fn touch(record: &Record, position: &Position, context: &TouchContext) -> Result
 
 fn tip<F>(record: &Record, unit: LengthUnit) -> Result<Point<F>, Error> {
     let n = record.numbers(&[&["x", "x_mm"], &["y", "y_mm"], &["z", "z_mm"]], "a point")?;
-    Ok(Point::new(unit.to_metres(n[0]), unit.to_metres(n[1]), unit.to_metres(n[2])))
+    let [x, y, z] = [0, 1, 2].map(|k| unit.to_metres(n[k]));
+    match farthest(&[x, y, z]) {
+        Some(far) => {
+            Err(record.refuse(too_far(far), "correct the number, or leave the record out"))
+        }
+        None => Ok(Point::new(x, y, z)),
+    }
 }
 
 fn placement(record: &Record, context: &TouchContext) -> Result<String, Error> {

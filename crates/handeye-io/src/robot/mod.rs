@@ -147,6 +147,12 @@ impl Notation {
         let names: Vec<_> = self.columns.iter().map(|c| c.names).collect();
         record.numbers(&names, &self.name)
     }
+
+    /// What a file calls these numbers, in the notation's order; `None` where it does not name them.
+    pub(crate) fn names_in(&self, record: &Record) -> Option<Vec<String>> {
+        let names: Vec<_> = self.columns.iter().map(|c| c.names).collect();
+        record.names_of(&names)
+    }
 }
 
 fn unknown(name: &str) -> String {

@@ -199,6 +199,15 @@ impl Record {
         cells.into_iter().map(number).collect()
     }
 
+    /// What the file calls the values of `columns`; `None` where it names none of them, or not all.
+    pub(crate) fn names_of(&self, columns: &[&[&str]]) -> Option<Vec<String>> {
+        let name = |wanted: &&[&str]| {
+            let called = |have: &&String| wanted.iter().any(|n| plain(n) == plain(have));
+            self.names.iter().find(called).cloned()
+        };
+        columns.iter().map(name).collect()
+    }
+
     fn in_order(&self, columns: &[&[&str]], what: &str) -> Result<Vec<&Cell>, Error> {
         let leading_name = matches!(self.cells.first(), Some(Cell::Text(_)));
         let cells: Vec<&Cell> = self.cells.iter().skip(usize::from(leading_name)).collect();

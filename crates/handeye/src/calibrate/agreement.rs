@@ -189,10 +189,10 @@ pub(super) fn agree<'a>(
     let readings: Vec<Readings> =
         session.observations.iter().map(|o| readings(session, o, &target_from_corner)).collect();
     result.captures = session.observations.iter().map(first_report).collect();
-    suspect_units(session, result);
     let found = match consensus::consensus(&readings) {
         Ok(found) => found,
         Err(error) => {
+            suspect_units(&session.observations.iter().collect::<Vec<_>>(), result);
             no_consensus(session, &readings, &error, result);
             doubt::suspect_order(&readings, None, result);
             return None;
@@ -200,16 +200,18 @@ pub(super) fn agree<'a>(
     };
     let captures = Captures { session, readings: &readings, target_from_corner };
     let (found, fit) = gate::gate(&captures, found, config);
+    let indices: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();
+    let used: Vec<&Observation> = indices.iter().map(|&i| &session.observations[i]).collect();
+    suspect_units(&used, result);
     rejected::name(&captures, &found, fit.as_ref(), result);
     if !doubt::suspect_order(&readings, Some(&found), result) {
         suspect_conventions(&readings, bare(session), Some(&found), result);
     }
-    let indices: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();
     let of = |&i: &usize| captures.view(i, found.reading[i]);
     warn_few(indices.len(), result);
     let views = Views {
         session,
-        used: indices.iter().map(|&i| &session.observations[i]).collect(),
+        used,
         views: indices.iter().map(of).collect(),
         target_from_corner,
         indices,
@@ -233,12 +235,13 @@ fn warn_few(used: usize, result: &mut Calibration) {
 }
 
 /// Robot positions beyond this, m, are no robot's.
-const FARTHEST: f64 = 20.0;
+pub(super) const FARTHEST: f64 = 20.0;
 
-/// Millimetres read as metres put the flange beyond any robot's reach.
-fn suspect_units(session: &Session, result: &mut Calibration) {
-    let reach = |o: &Observation| o.base_from_flange.translation().norm();
-    let far = session.observations.iter().map(reach).fold(0.0, f64::max);
+/// Millimetres read as metres put the flange beyond any robot's reach. Captures that do not belong
+/// have no say.
+fn suspect_units(used: &[&Observation], result: &mut Calibration) {
+    let reach = |o: &&Observation| o.base_from_flange.translation().norm();
+    let far = used.iter().map(reach).fold(0.0, f64::max);
     if far > FARTHEST {
         let message = format!(
             "the robot poses lie up to {far:.0} m from the base: were millimetres read as metres? \

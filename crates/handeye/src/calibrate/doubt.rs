@@ -91,8 +91,8 @@ pub(super) fn suspect_order(
     let Some((order, after)) = order else { return false };
     let how = match order {
         Order::Reversed => "in the opposite order of".to_owned(),
-        Order::Shifted(k) if 2 * k > n => format!("{} places before", n - k),
-        Order::Shifted(k) => format!("{k} places after"),
+        Order::Shifted(k) if 2 * k > n => format!("{} before", places(n - k)),
+        Order::Shifted(k) => format!("{} after", places(k)),
     };
     let message = format!(
         "the robot poses look listed {how} their pictures: paired so, {} of {n} captures agree, \
@@ -103,6 +103,10 @@ pub(super) fn suspect_order(
     result.warnings.insert(0, Warning::new("order-shifted", message));
     result.verdict = Verdict::Rejected;
     true
+}
+
+fn places(count: usize) -> String {
+    if count == 1 { "one place".into() } else { format!("{count} places") }
 }
 
 /// Whether most captures agree, within what robots and cameras in order do.

@@ -3,8 +3,8 @@
 //! `agreement` (which captures agree, and on which reading: `gate`; why the others do not:
 //! `rejected`; whether that is a clear majority: `doubt`) → `candidates` (closed forms, least
 //! squares, maximum likelihood, registration of touches, each judged on what it has not seen; the
-//! choice by predicted error) → `captures` (misfit of every capture and touch) → `verdict`.
-//! Point pairs alone take the short way through `points`.
+//! choice by predicted error; `wrong_touches`: touches of other corners) → `captures` (misfit of every
+//! capture and touch) → `verdict`. Point pairs alone take the short way through `points`.
 
 mod agreement;
 mod arm;
@@ -37,6 +37,7 @@ use crate::{
     refine::{KnownPosition, noise::KnownNoise},
     register::IcpConfig,
     solve::Method,
+    touches,
 };
 
 pub use captures::relabelling;
@@ -113,19 +114,22 @@ const FORMAT: &str = "handeye-calibration-1";
 /// [`Error::Invalid`] when the session holds nothing to calibrate from.
 pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Error> {
     check(session)?;
-    let session = in_order(session);
+    let mut session = in_order(session);
+    let repeated = touches::each_once(&mut session.touches);
     if session.observations.is_empty() {
         let mut result = empty(&session);
         points::from_points(&session, &mut result);
         verdict::conclude(config, &mut result);
         return Ok(result);
     }
-    Ok(sources::best_source(&session, |session| {
+    let mut result = sources::best_source(&session, |session| {
         let mut result = empty(session);
         from_views(session, (session, &Optics::default(), 0), config, &mut result);
         verdict::conclude(config, &mut result);
         result
-    }))
+    });
+    result.warnings.extend(repeated);
+    Ok(result)
 }
 
 /// Refuses a session that holds nothing.

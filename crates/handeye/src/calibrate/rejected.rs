@@ -5,7 +5,12 @@
 //! its misfit is as small as that of the captures that agree. It is named only
 //! where no other one does.
 
-use super::{agreement::Captures, doubt};
+use nalgebra::{Rotation3, Vector2, Vector3};
+
+use super::{
+    agreement::{Captures, FARTHEST},
+    doubt,
+};
 use crate::{
     Pose, Target, TargetModel, Warning,
     calibration::Calibration,
@@ -28,8 +33,8 @@ const MOST_WARNINGS: usize = 8;
 
 /// What happened to a capture.
 enum Reason {
-    /// The board was read turned by so many degrees.
-    Turned(u32),
+    /// The board was read turned by so many degrees, about its middle or about a point of it (m).
+    Turned(u32, Option<Vector2<f64>>),
     /// Its picture and that of the other one were exchanged.
     Exchanged(usize),
     /// Its picture fits the robot pose of the other one.
@@ -54,7 +59,9 @@ pub(super) fn name(
     let few = wrong.len() as f64 <= MOST_EXPLAINED * n as f64;
     let test = fit.filter(|_| few).map(|fit| {
         let typical = typical(captures, found);
-        Test { captures, found, fit, typical }
+        let mut test = Test { captures, found, fit, typical, half_turn: None };
+        test.half_turn = test.common_half_turn(&wrong);
+        test
     });
     for &i in &wrong {
         let (code, reason) = match test.as_ref().map_or(Reason::Unknown, |t| t.reason(i)) {
@@ -91,13 +98,19 @@ fn in_words(captures: &Captures, i: usize, reason: &Reason) -> (&'static str, St
     };
     let neighbour = |j: usize| j.abs_diff(i) == 1;
     match *reason {
-        Reason::Turned(degrees) => (
-            "target-turned",
-            format!(
-                "it fits with the board turned by {degrees} degrees: its corners are numbered from \
-                 another end than in the other pictures; detect it again, or number them anew"
-            ),
-        ),
+        Reason::Turned(degrees, about) => {
+            let about = about.map_or(String::new(), |m| {
+                format!(" about ({:.0}, {:.0}) mm of its own plane", m.x * 1e3, m.y * 1e3)
+            });
+            (
+                "target-turned",
+                format!(
+                    "it fits with the board turned by {degrees} degrees{about}: its corners are \
+                     numbered from another end than in the other pictures; detect it again, or \
+                     number them anew"
+                ),
+            )
+        }
         Reason::Exchanged(j) => (
             "captures-exchanged",
             format!(
@@ -136,9 +149,15 @@ fn in_words(captures: &Captures, i: usize, reason: &Reason) -> (&'static str, St
 fn disagreement(captures: &Captures, found: &Consensus, i: usize) -> String {
     let (angle, distance) =
         evaluate::loop_misfit(&found.hand_eye, &captures.pair(i, found.reading[i]));
+    let reach = captures.session.observations[i].base_from_flange.translation().norm();
+    let why = match reach > FARTHEST {
+        true => format!(
+            "its robot pose lies {reach:.0} m from the base: were millimetres read as metres?"
+        ),
+        false => "a robot pose of another moment, a moved target, or a wrong detection".into(),
+    };
     format!(
-        "it disagrees with the others by {:.1} mm and {:.2} degrees: a robot pose of another \
-         moment, a moved target, or a wrong detection",
+        "it disagrees with the others by {:.1} mm and {:.2} degrees: {why}",
         distance * 1e3,
         angle.to_degrees()
     )
@@ -151,6 +170,9 @@ struct Test<'a> {
     fit: &'a JointFit,
     /// Misfit of a capture that is as good as those that agree, rad and m.
     typical: (f64, f64),
+    /// The half turn of the board that restores most captures whose target poses came from
+    /// elsewhere: nobody knows where on the board their origin is.
+    half_turn: Option<Pose<Target, Target>>,
 }
 
 /// Three times the median misfit of those that agree: real noise has heavier tails than the
@@ -177,7 +199,7 @@ impl Test<'_> {
             return Reason::Exchanged(j);
         }
         match (turned, elsewhere.as_slice()) {
-            (Some(degrees), []) => Reason::Turned(degrees),
+            (Some((degrees, about)), []) => Reason::Turned(degrees, about),
             (None, &[j]) => Reason::Elsewhere(j),
             (None, []) => self.whose_robot_pose(i).map_or(Reason::Unknown, Reason::Stale),
             _ => Reason::Unknown,
@@ -232,23 +254,71 @@ impl Test<'_> {
                     .is_some_and(|d2| d2 < RESTORED))
     }
 
-    /// By how many degrees the board must be turned, if one turn restores the capture.
-    fn turned(&self, i: usize) -> Option<u32> {
+    /// By how many degrees the board must be turned, if one turn restores the capture, and about
+    /// which point where that is not the middle of its corners.
+    fn turned(&self, i: usize) -> Option<(u32, Option<Vector2<f64>>)> {
+        self.turned_about_centre(i).map(|degrees| (degrees, None)).or_else(|| {
+            let turn =
+                self.half_turn.filter(|turn| self.is_bare(i) && self.fits_turned(i, turn))?;
+            // the point that stays where it is, in the target's own frame
+            let corner = self.captures.target_from_corner.translation().xy();
+            Some((180, Some(0.5 * turn.translation().xy() + corner)))
+        })
+    }
+
+    fn turned_about_centre(&self, i: usize) -> Option<u32> {
         let target = self.captures.session.target.as_ref()?;
         let corner = self.captures.target_from_corner;
         let fits = |degrees: &u32| {
-            let turn = corner.inverse() * turn_about_centre(target, *degrees) * corner;
-            let carry = lie::adjoint(turn.inverse().iso());
-            (0..self.captures.readings[i].camera_from_target.len()).any(|k| {
-                let mut view = self.captures.view(i, k);
-                view.pair.camera_from_target = view.pair.camera_from_target * turn;
-                view.covariance = view.covariance.map(|c| carry * c * carry.transpose());
-                self.restored(&view)
-            })
+            self.fits_turned(i, &(corner.inverse() * turn_about_centre(target, *degrees) * corner))
         };
         let (columns, rows) = target.grid();
         let turns: &[u32] = if columns == rows { &[180, 90, 270] } else { &[180] };
         turns.iter().copied().find(fits)
+    }
+
+    fn fits_turned(&self, i: usize, turn: &Pose<Target, Target>) -> bool {
+        let carry = lie::adjoint(turn.inverse().iso());
+        (0..self.captures.readings[i].camera_from_target.len()).any(|k| {
+            let mut view = self.captures.view(i, k);
+            view.pair.camera_from_target = view.pair.camera_from_target * *turn;
+            view.covariance = view.covariance.map(|c| carry * c * carry.transpose());
+            self.restored(&view)
+        })
+    }
+
+    /// Whether the target poses of a capture came from elsewhere.
+    fn is_bare(&self, i: usize) -> bool {
+        let o = &self.captures.session.observations[i];
+        o.corners.is_empty() && o.surface.is_empty()
+    }
+
+    /// A half turn in the board's plane, about a point that is the same for all: each capture
+    /// outside proposes its own, and the one that restores most is taken.
+    fn common_half_turn(&self, wrong: &[usize]) -> Option<Pose<Target, Target>> {
+        let bare: Vec<usize> = wrong.iter().copied().filter(|&i| self.is_bare(i)).collect();
+        let restores = |turn: &Pose<Target, Target>| {
+            bare.iter().filter(|&&i| self.fits_turned(i, turn)).count()
+        };
+        bare.iter()
+            .filter_map(|&i| self.half_turn_of(i))
+            .map(|turn| (restores(&turn), turn))
+            .filter(|(count, _)| *count > 0)
+            .reduce(|best, next| if next.0 > best.0 { next } else { best })
+            .map(|(_, turn)| turn)
+    }
+
+    /// The half turn in the board's plane that lies nearest to a capture's misfit. It may be about
+    /// any point that the camera could have in view.
+    fn half_turn_of(&self, i: usize) -> Option<Pose<Target, Target>> {
+        (0..self.captures.readings[i].camera_from_target.len()).find_map(|k| {
+            let pair = self.captures.pair(i, k);
+            let misfit = self.fit.hand_eye.loop_error(&pair);
+            let t = misfit.translation();
+            let turn = Pose::from_parts(half_turn().matrix(), Vector3::new(t.x, t.y, 0.0));
+            let in_view = t.norm() < 2.0 * pair.camera_from_target.translation().norm();
+            (in_view && misfit.angle_to(&turn) < BELIEVABLE.0).then_some(turn)
+        })
     }
 
     /// The capture whose picture fits the robot pose of `i`: the one before rather than another.
@@ -267,14 +337,15 @@ impl Test<'_> {
 /// Robot poses this close are one place: a robot that holds still reports it so. rad and m.
 const SAME_ROBOT: (f64, f64) = (1e-4, 1e-4);
 
+fn half_turn() -> Rotation3<f64> {
+    Rotation3::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI)
+}
+
 /// The target turned in its plane about the middle of its corners: `target_from_turned`.
 fn turn_about_centre(target: &TargetModel, degrees: u32) -> Pose<Target, Target> {
     let corners = target.corners();
-    let centre = corners.iter().map(crate::Point::vector).sum::<nalgebra::Vector3<f64>>()
+    let centre = corners.iter().map(crate::Point::vector).sum::<Vector3<f64>>()
         / corners.len().max(1) as f64;
-    let turn = nalgebra::Rotation3::from_axis_angle(
-        &nalgebra::Vector3::z_axis(),
-        f64::from(degrees).to_radians(),
-    );
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), f64::from(degrees).to_radians());
     Pose::from_parts(turn.matrix(), centre - turn * centre)
 }

@@ -23,6 +23,9 @@ const SLACK: f64 = 2e-3;
 /// Squared distance, three axes, beyond which a touch does not agree.
 const AGREES: f64 = 25.0;
 
+/// Median distance (m) between touches and views that no wrong corner makes.
+const OTHER_UNIT: f64 = 1.0;
+
 /// One touch against what the views expect.
 struct Expected {
     /// Its place in the session.
@@ -91,12 +94,18 @@ pub(super) fn find(
         return found;
     }
     let off = median(all.iter().map(|e| e.misfit.norm()).collect());
+    let check = if off > OTHER_UNIT {
+        "check the length unit of [touches], the same for every column, and that they are in the \
+         robot's base"
+    } else {
+        "check corner ids and frame of the touches, and which placement each belongs to"
+    };
     let hint = renamed(boards, target, problem, fit, all.len())
         .map_or(String::new(), |how| format!("; with {how} they would agree"));
     found.contradiction = Some(format!(
         "views and touches contradict each other: only {agreeing} of {} touches agree with any one \
          tool tip, half of them are more than {:.0} mm from where the views put their corners: \
-         check corner ids, unit and frame of the touches, and which placement each belongs to{hint}",
+         {check}{hint}",
         all.len(),
         off * 1e3
     ));

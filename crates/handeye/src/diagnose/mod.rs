@@ -7,7 +7,7 @@ mod strays;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use crate::{
-    HandEye, Pose, PosePair, Setup, Target,
+    HandEye, Pose, PosePair, Setup, Target, chance,
     detect::sight::{CAMERA, Sight, TARGET_SCALE},
     predict,
     refine::{self, Extra, ExtraKind, JointFit, Problem, View, noise::KnownNoise},
@@ -110,7 +110,6 @@ pub fn target_scale(
     known: &KnownNoise,
     setup: Setup,
 ) -> Option<TargetScale> {
-    use statrs::distribution::{ContinuousCDF, FisherSnedecor};
     let size = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), 1.0);
     let fit_scale = |views: &[View], start: &HandEye| {
         let views = views.iter().map(of_any_size).collect();
@@ -126,7 +125,7 @@ pub fn target_scale(
     let (more, sigma, fit) = fit_scale(&rescaled(views, first), &coarse.hand_eye)?;
     let (value, sigma) = (first * more, first * sigma);
     let dof = fit.degrees_of_freedom - 1.0;
-    let p_value = FisherSnedecor::new(1.0, dof).ok()?.sf(((value - 1.0) / sigma).powi(2));
+    let p_value = chance::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
     Some(TargetScale { value, sigma, p_value })
 }
 

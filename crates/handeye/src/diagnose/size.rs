@@ -1,7 +1,6 @@
 //! The size of the target as the robot's motions see it.
 
 use nalgebra::{DMatrix, DVector, Matrix3};
-use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::{
     TargetScale,
@@ -9,7 +8,7 @@ use super::{
     strays::same_robot,
 };
 use crate::{
-    HandEye, PosePair, linalg,
+    HandEye, PosePair, chance, linalg,
     solve::{
         self, Method,
         consensus::{self, Consensus, Readings},
@@ -91,7 +90,7 @@ pub fn size(captures: &[Readings]) -> Option<TargetScale> {
     let (sigma, count) = last?;
     let dof = 3.0 * count as f64 - 7.0;
     let f = ((at - 1.0) / sigma).powi(2);
-    let p_value = FisherSnedecor::new(1.0, dof).ok()?.sf(f);
+    let p_value = chance::of_f(f, (1.0, dof));
     Some(TargetScale { value: at, sigma, p_value })
 }
 

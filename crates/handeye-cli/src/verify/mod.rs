@@ -1,19 +1,18 @@
 //! `handeye verify`: does the robot find what the camera measures? The touch test.
 
+mod test;
+
 use std::{fs, path::Path};
 
 use handeye::{
-    Calibration, Flange, Mount, Pose, Session, Setup, TargetPose, Verdict, Warning, calibration,
-    verify::{
-        self, ByPose, ChiSquare, LEAST_CHANCE, SHARE, Sighting, Test, Touched, Verification, Within,
-    },
+    Calibration, Verdict, Warning,
+    verify::{self, ChiSquare, LEAST_CHANCE, SHARE, Test, Touched, Verification, Within},
 };
 use handeye_io::{
-    Dataset, MANIFEST, measure, read_touched_points,
     report::{TouchTest, touch_test_html},
     write_atomically,
 };
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::{
@@ -21,7 +20,6 @@ use crate::{
     export::read_calibration,
     failure::Failure,
     output,
-    progress::Progress,
 };
 
 #[derive(Serialize)]
@@ -80,9 +78,11 @@ pub fn run(args: &VerifyArgs, manners: &Manners) -> Result<u8, Failure> {
         false => args.calibration.clone(),
     };
     let calibration = read_calibration(&path)?;
-    let test = test(args, &calibration, &path, manners)?;
+    let (test, mut warnings) = test::test(args, &calibration, &path, manners)?;
     let found = verify::verify(&test)?;
-    let answer = answer(args, &calibration, &test, &found);
+    warnings.splice(..0, of_its_own(&calibration));
+    let mut answer = answer(args, &calibration, &test, &found);
+    answer.warnings.splice(..0, warnings);
     if let Some(out) = &args.out {
         write(out, args, &answer, &found, manners)?;
     }
@@ -93,207 +93,6 @@ pub fn run(args: &VerifyArgs, manners: &Manners) -> Result<u8, Failure> {
         output::print(&text(&answer));
     }
     Ok(if answer.verdict == Verdict::Accepted { 0 } else { 3 })
-}
-
-/// What the robot's own error adds, as the calibration found it: rad and m, each axis.
-fn robot_sigma(calibration: &Calibration) -> (f64, f64) {
-    let of = |name: &str| calibration.error_budget.iter().find(|b| b.source == name);
-    let rotation = of("robot rotation").and_then(|b| b.sigma_deg).unwrap_or(0.0).to_radians();
-    (rotation, of("robot position").and_then(|b| b.sigma_mm).unwrap_or(0.0) * 1e-3)
-}
-
-fn test(
-    args: &VerifyArgs,
-    calibration: &Calibration,
-    path: &Path,
-    manners: &Manners,
-) -> Result<Test, Failure> {
-    let Some(mount_from_camera) = calibration.hand_eye.mount_from_camera else {
-        let what = "holds no transform (the data did not determine it): there is nothing to test";
-        return Err(Failure::input(path, what));
-    };
-    let (_, robot) = robot_sigma(calibration);
-    let mut test = Test {
-        mount_from_camera,
-        covariance: calibration
-            .hand_eye
-            .covariance
-            .mount_from_camera
-            .as_ref()
-            .map(calibration::matrix),
-        poses: vec![],
-        touch_sigma: (args.touch_noise_mm * 1e-3).hypot(robot),
-        touches: vec![],
-    };
-    let is_dataset = args.touches.is_dir() || args.touches.extension().is_some_and(|e| e == "toml");
-    if is_dataset {
-        from_dataset(&args.touches, calibration, &mut test, manners)?;
-    } else {
-        from_file(&args.touches, args.camera_noise_mm * 1e-3, calibration, &mut test)?;
-    }
-    Ok(test)
-}
-
-fn from_file(
-    path: &Path,
-    sigma: f64,
-    calibration: &Calibration,
-    test: &mut Test,
-) -> Result<(), Failure> {
-    for point in read_touched_points(path)? {
-        let base_from_mount = match (calibration.setup, point.base_from_flange) {
-            (Setup::EyeToHand, _) => Pose::identity(),
-            (Setup::EyeInHand, Some(flange)) => flange.rename(),
-            (Setup::EyeInHand, None) => {
-                let what = format!(
-                    "touch {}: the camera is on the flange: say where the flange was when it \
-                     measured (flange_x_mm ... flange_qw)",
-                    point.id
-                );
-                return Err(Failure::input(path, what));
-            }
-        };
-        let mut sighting = Sighting {
-            base_from_mount,
-            in_camera: point.in_camera,
-            covariance: Matrix3::identity() * sigma.powi(2),
-            shared: vec![],
-        };
-        if calibration.setup == Setup::EyeInHand {
-            let flange = shared_flange(test, base_from_mount.rename(), calibration);
-            let in_mount = test.mount_from_camera * point.in_camera;
-            sighting.shared.push((flange, verify::by_mount(&base_from_mount, &in_mount)));
-        }
-        test.touches.push(Touched {
-            id: point.id,
-            in_base: point.in_base,
-            sightings: vec![sighting],
-        });
-    }
-    Ok(())
-}
-
-/// The error of a flange pose, one for all that was seen from it.
-fn shared_flange(
-    test: &mut Test,
-    flange: Pose<handeye::Base, Flange>,
-    calibration: &Calibration,
-) -> usize {
-    let same = |t: &Touched| {
-        let s = t.sightings.iter().find(|s| s.base_from_mount.rename::<_, Flange>() == flange)?;
-        s.shared.first().map(|(number, _)| *number)
-    };
-    test.touches.iter().find_map(same).unwrap_or_else(|| {
-        test.poses.push(robot_covariance(calibration));
-        test.poses.len() - 1
-    })
-}
-
-fn robot_covariance(calibration: &Calibration) -> Matrix6<f64> {
-    let (r, t) = robot_sigma(calibration);
-    let (r, t) = (r * r, t * t);
-    Matrix6::from_diagonal(&Vector6::new(r, r, r, t, t, t))
-}
-
-fn from_dataset(
-    path: &Path,
-    calibration: &Calibration,
-    test: &mut Test,
-    manners: &Manners,
-) -> Result<(), Failure> {
-    let dataset = Dataset::open(path)?;
-    let manifest = if path.is_dir() { path.join(MANIFEST) } else { path.into() };
-    if dataset.setup != calibration.setup {
-        return Err(Failure::input(manifest, "is of another setup than the calibration"));
-    }
-    if dataset.touches.is_empty() || dataset.target.is_none() {
-        let what = "has no touches of a [target]: add [touches], or give a file of touched points";
-        return Err(Failure::input(manifest, what));
-    }
-    let progress = Progress::new("reading captures", manners);
-    let session = measure::measure(&dataset, &|done, all| progress.tell(done, all))?.session;
-    drop(progress);
-    if let Some(sigma) = dataset.noise.touch {
-        test.touch_sigma = sigma.hypot(robot_sigma(calibration).1);
-    }
-    test.touches = session
-        .touches
-        .iter()
-        .map(|t| Touched {
-            id: format!("{} {}", t.placement, t.corner),
-            in_base: t.in_base,
-            sightings: vec![],
-        })
-        .collect();
-    for (name, base_from_mount, candidates) in views(&session) {
-        see(test, &session, &name, base_from_mount, &candidates, calibration);
-    }
-    Ok(())
-}
-
-/// Where a board was seen: its name, the mount, and the board's possible poses.
-type BoardView = (String, Pose<handeye::Base, Mount>, Vec<TargetPose>);
-
-fn views(session: &Session) -> Vec<BoardView> {
-    let placed = session.placements.iter();
-    match session.setup {
-        Setup::EyeToHand => {
-            placed.map(|p| (p.id.clone(), Pose::identity(), p.candidates.clone())).collect()
-        }
-        Setup::EyeInHand => {
-            let name = session.touches.first().map(|t| t.placement.clone()).unwrap_or_default();
-            let view = |o: &handeye::Observation| {
-                (name.clone(), o.base_from_flange.rename(), o.candidates.clone())
-            };
-            session.observations.iter().map(view).collect()
-        }
-    }
-}
-
-/// Adds one view of a board to the touches of it, in the reading that fits them best.
-fn see(
-    test: &mut Test,
-    session: &Session,
-    name: &str,
-    base_from_mount: Pose<handeye::Base, Mount>,
-    candidates: &[TargetPose],
-    calibration: &Calibration,
-) {
-    let Some(target) = &session.target else { return };
-    let base_from_camera = base_from_mount * test.mount_from_camera;
-    let touched: Vec<usize> =
-        (0..session.touches.len()).filter(|&k| session.touches[k].placement == name).collect();
-    let corner = |k: usize| target.corner(session.touches[k].corner);
-    let misfit = |pose: &TargetPose| -> f64 {
-        let of = |&k: &usize| {
-            let there = base_from_camera * pose.camera_from_target * corner(k)?;
-            Some((there.vector() - session.touches[k].in_base.vector()).norm())
-        };
-        touched.iter().filter_map(of).sum()
-    };
-    let best = candidates.iter().min_by(|a, b| misfit(a).total_cmp(&misfit(b)));
-    let Some(pose) = best else { return };
-    let board = test.poses.len();
-    test.poses.push(pose.covariance.unwrap_or_else(Matrix6::zeros));
-    let flange = (session.setup == Setup::EyeInHand).then(|| {
-        test.poses.push(robot_covariance(calibration));
-        board + 1
-    });
-    for k in touched {
-        let Some(on_board) = corner(k) else { continue };
-        let in_camera = pose.camera_from_target * on_board;
-        let by_board: ByPose =
-            verify::by_board(&base_from_camera, &pose.camera_from_target, &on_board);
-        let in_mount = test.mount_from_camera * in_camera;
-        let by_flange = flange.map(|f| (f, verify::by_mount(&base_from_mount, &in_mount)));
-        let shared = [(board, by_board)].into_iter().chain(by_flange).collect();
-        test.touches[k].sightings.push(Sighting {
-            base_from_mount,
-            in_camera,
-            covariance: Matrix3::zeros(),
-            shared,
-        });
-    }
 }
 
 fn answer(args: &VerifyArgs, c: &Calibration, test: &Test, found: &Verification) -> Answer {
@@ -307,7 +106,7 @@ fn answer(args: &VerifyArgs, c: &Calibration, test: &Test, found: &Verification)
         expected_mm: d.expected.map(|e| e * 1e3),
         within: args.tolerance_mm.map(|t| d.difference.norm() * 1e3 <= t),
     };
-    let (verdict, reasons) = conclude(args, found, within);
+    let (verdict, reasons) = with_its_own(c, conclude(args, found, within));
     Answer {
         verdict,
         reasons,
@@ -369,6 +168,38 @@ fn conclude(
             vec!["the touches lie where they were predicted, within the stated uncertainty".into()],
         ),
     }
+}
+
+/// The calibration's own verdict, in words, where it is not accepted.
+fn own_verdict(c: &Calibration) -> Option<String> {
+    let word = match c.verdict {
+        Verdict::Accepted => return None,
+        Verdict::Rejected => "rejected",
+        Verdict::Undetermined => "undetermined",
+    };
+    let why = c.reasons.first().map_or(String::new(), |reason| format!(" ({reason})"));
+    Some(format!("the calibration's own verdict is {word}{why}"))
+}
+
+/// The verdict with the calibration's own: touches in one place do not outweigh data that
+/// contradict themselves.
+fn with_its_own(
+    c: &Calibration,
+    (verdict, mut reasons): (Verdict, Vec<String>),
+) -> (Verdict, Vec<String>) {
+    match own_verdict(c) {
+        Some(own) if verdict == Verdict::Accepted => {
+            reasons.insert(0, format!("{own}: touches that agree with it do not pass it"));
+            (Verdict::Undetermined, reasons)
+        }
+        _ => (verdict, reasons),
+    }
+}
+
+fn of_its_own(c: &Calibration) -> Option<Warning> {
+    let message =
+        format!("{}: correct that first, calibrate anew, and test again", own_verdict(c)?);
+    Some(Warning::new("calibration-not-accepted", message))
 }
 
 /// Differences (mm) this close are of the same touch.
