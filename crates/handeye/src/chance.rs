@@ -5,7 +5,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Gamma};
 
 /// Chance that an F-distributed statistic is as large or larger. What is no number tells nothing: 1.
 pub(crate) fn of_f(value: f64, degrees: (f64, f64)) -> f64 {
-    if value.is_nan() {
+    if value.is_nan() || !(degrees.0 + degrees.1).is_finite() {
         return 1.0;
     }
     // the sum that the distribution forms must be a number as well
