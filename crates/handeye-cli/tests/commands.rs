@@ -83,7 +83,7 @@ fn broken_pairs_are_refused() {
         (file(&[&good]).replace("in-hand", "on-hand"), "p.json:1: unknown variant `eye-on-hand`"),
         (file(&[&good]).replace("1]", "NaN]"), "p.json:1: expected value"),
         ("{".into(), "p.json:1: EOF while parsing"),
-        ("[]".into(), "p.json:1: invalid length 0"),
+        ("[]".into(), "p.json: the file must hold one JSON object"),
     ] {
         folder.put("p.json", &content);
         let run = handeye(&folder, &["solve", "p.json", "--json"]);

@@ -4,7 +4,7 @@ use std::{collections::HashSet, fs, path::Path};
 
 use handeye::{
     Base, Camera, Flange, Observation, Pose, Session, Setup, Stamped, Streams, Target,
-    refine::KnownNoise,
+    refine::KnownNoise, solve::FEWEST_POSES,
 };
 use serde::{Deserialize, de::DeserializeOwned};
 use serde_json::Value;
@@ -41,7 +41,10 @@ struct Document {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with `base_from_flange`, `camera_from_target` and perhaps `id`"
+)]
 struct Pair {
     #[serde(default)]
     id: Option<String>,
@@ -50,14 +53,14 @@ struct Pair {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object with `time_s` and `base_from_flange`")]
 struct RobotSample {
     time_s: f64,
     base_from_flange: Pose<Base, Flange>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object with `time_s` and `camera_from_target`")]
 struct CameraSample {
     time_s: f64,
     camera_from_target: Pose<Camera, Target>,
@@ -76,12 +79,24 @@ struct Noise {
 /// Files that cannot be read or used, with the line and the pair or sample.
 pub fn read(path: &Path) -> Result<Input, Failure> {
     let text = fs::read_to_string(path).map_err(|e| Failure::unreadable(path, &e))?;
-    let document: Document = serde_json::from_str(&text).map_err(|e| broken(path, &text, &e))?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text); // a byte order mark
+    let document: Document = serde_json::from_str(text).map_err(|e| broken(path, text, &e))?;
     let noise = noise(document.noise, path)?;
     let (unknown_scale, setup) = (document.unknown_scale, document.setup);
     let measured = match (document.pairs, document.robot, document.camera) {
+        (Some(pairs), None, None) if pairs.is_empty() => {
+            let what = format!("`pairs` is empty: at least {FEWEST_POSES} are needed, {MORE}");
+            return Err(Failure::input(path, what));
+        }
         (Some(pairs), None, None) => Measured::Pairs(Box::new(session(setup, pairs, path)?)),
         (None, Some(robot), Some(camera)) => {
+            if let Some(empty) = empty_stream(&robot, &camera) {
+                let what = format!(
+                    "the stream `{empty}` is empty: record both while the robot moves and turns \
+                     about two axes"
+                );
+                return Err(Failure::input(path, what));
+            }
             Measured::Streams(streams(setup, robot, camera, unknown_scale))
         }
         (None, None, None) => {
@@ -103,6 +118,17 @@ pub fn read(path: &Path) -> Result<Input, Failure> {
         }
     };
     Ok(Input { measured, unknown_scale, noise })
+}
+
+/// What to take beyond the fewest.
+const MORE: &str = "better 10 to 15, the board tilted by 30 degrees and more about two axes";
+
+fn empty_stream(robot: &[RobotSample], camera: &[CameraSample]) -> Option<&'static str> {
+    match (robot.is_empty(), camera.is_empty()) {
+        (true, _) => Some("robot"),
+        (_, true) => Some("camera"),
+        _ => None,
+    }
 }
 
 fn noise(noise: Noise, path: &Path) -> Result<KnownNoise, Failure> {
@@ -128,6 +154,9 @@ fn broken(path: &Path, text: &str, error: &serde_json::Error) -> Failure {
     let Ok(whole) = serde_json::from_str::<Value>(text) else {
         return Failure::in_json(path, error, "").advised(advice(error));
     };
+    if !whole.is_object() {
+        return Failure::input(path, NO_OBJECT);
+    }
     let Some(element) = broken_element(&whole, error) else {
         return Failure::in_json(path, error, "");
     };
@@ -136,6 +165,10 @@ fn broken(path: &Path, text: &str, error: &serde_json::Error) -> Failure {
     let capture = element.id.map_or(element.number.to_string(), |id| id.replace('"', ""));
     Failure::in_json(path, error, &format!("{called}{named}: ")).with_capture(&capture)
 }
+
+/// What is wrong with a file that holds a list, a number or the like.
+const NO_OBJECT: &str = "the file must hold one JSON object, with `setup` and either `pairs`, or \
+                         `robot` and `camera`; `handeye solve --help` shows both";
 
 /// What to do about text that is no JSON.
 fn advice(error: &serde_json::Error) -> &'static str {
