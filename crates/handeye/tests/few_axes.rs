@@ -3,9 +3,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+use std::collections::BTreeMap;
+
 use handeye::{
     Base, Calibration, Camera, Config, Flange, Method, Observation, Point, Pose, Session, Setup,
-    Target, TargetModel, Touch, Verdict, calibrate,
+    Target, TargetModel, Touch, Verdict, calibrate, calibrate_sequence,
     refine::{KnownNoise, KnownPosition},
     simulate::Random,
 };
@@ -110,6 +112,48 @@ fn rounding_does_not_pass_for_information() {
         let t = flange_from_camera().translation();
         let across = t - axis * axis.dot(&t);
         assert!((Vector3::from(known.translation_across_m.unwrap()) - across).norm() < 1e-6);
+    }
+}
+
+/// Exact views of a robot at these places.
+fn seen_from(places: impl IntoIterator<Item = Isometry3<f64>>) -> Session {
+    let view = |(k, place): (usize, Isometry3<f64>)| {
+        let base_from_flange: Pose<Base, Flange> = Pose::claim(place);
+        let seen = (base_from_flange * flange_from_camera()).inverse() * base_from_target();
+        Observation::bare(format!("{k:02}"), base_from_flange, seen)
+    };
+    let all = places.into_iter().enumerate().map(view).collect();
+    Session::of_captures(Setup::EyeInHand, all)
+}
+
+#[test]
+fn two_places_over_and_over_are_not_called_inverted() {
+    let first = Isometry3::new(Vector3::new(0.6, 0.0, 0.5), Vector3::new(3.0, 0.1, 0.2));
+    for turn in [Vector3::new(0.5, 0.1, 0.0), Vector3::new(-0.2, 0.3, 0.4)] {
+        let second = first * Isometry3::new(Vector3::new(0.1, -0.05, 0.02), turn);
+        let session = seen_from((0..10).map(|k| if k % 2 == 0 { first } else { second }));
+        let found = calibrate(&session, &Config::default()).unwrap();
+        assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
+        assert!(!found.undetermined.is_empty() && found.warnings.is_empty());
+    }
+}
+
+#[test]
+fn rounding_is_no_drift() {
+    let truth = flange_from_camera().translation();
+    for size in [0.002, 0.02, 0.5] {
+        let place = |k: u32| {
+            let s = f64::from(k);
+            let turn = Vector3::new((2.3 * s).sin(), (1.7 * s).cos(), (3.1 * s).sin()) * size;
+            let first = Isometry3::new(Vector3::new(0.6, 0.0, 0.5), Vector3::new(3.0, 0.1, 0.2));
+            first * UnitQuaternion::from_scaled_axis(turn)
+        };
+        let session = seen_from((0..15).map(place));
+        let found = calibrate_sequence(&session, &BTreeMap::new(), &Config::default()).unwrap();
+        assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
+        assert!(found.warnings.is_empty(), "{:?}", found.warnings);
+        let x = found.hand_eye.mount_from_camera.unwrap();
+        assert!((x.translation() - truth).norm() < 1e-6);
     }
 }
 
