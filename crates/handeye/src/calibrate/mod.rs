@@ -1,10 +1,12 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
-//! `agreement` (which captures agree, and on which reading: `gate`; why the others do not:
-//! `rejected`; whether that is a clear majority: `doubt`) → `candidates` (closed forms, least
-//! squares, maximum likelihood, registration of touches, each judged on what it has not seen; the
-//! choice by predicted error; `wrong_touches`: touches of other corners) → `captures` (misfit of every
-//! capture and touch) → `verdict`. Point pairs alone take the short way through `points`.
+//! `agreement` (which captures agree, and on which reading: `gate`, and `masked` for those that hide
+//! one another; why the others do not: `rejected`; whether that is a clear majority: `doubt`) →
+//! `candidates` (touches of other corners taken out: `wrong_touches`; closed forms, least squares,
+//! maximum likelihood, registration of touches, each judged on what it has not seen; the choice by
+//! predicted error; methods by name: `named`; what rests on a given position: `known_position`) →
+//! `captures` (misfit of every capture and touch) → `verdict`. Point pairs alone take the short way
+//! through `points`.
 
 mod agreement;
 mod arm;

@@ -76,8 +76,8 @@ const WRONG: f64 = 50.0;
 /// Fewer captures in common tell nothing.
 const FEWEST: usize = 6;
 
-/// Whether the fit finds an offset although the clocks may be moved against each other at no cost, the motion being steady: the
-/// standard deviation of the offset then comes from noise in the velocities.
+/// Whether the clocks may be moved against each other at no cost although the fit finds an offset,
+/// the motion being steady: its standard deviation then comes from noise in the velocities.
 pub(super) fn clock_is_free(both: &Both, chosen: &[usize], settled: &Settled) -> bool {
     let Some((_, sigma)) = unknown::clock(&settled.fit) else { return false };
     let Stand { offset, scale } = settled.stand;
