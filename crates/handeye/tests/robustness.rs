@@ -41,6 +41,16 @@ fn spoilt_captures_cost_nothing_and_no_answer_is_silently_wrong() {
     }
 }
 
+/// Three captures of a moving robot, a few millimetres each, make the noise look large enough for all.
+#[test]
+fn captures_that_hide_one_another_are_found() {
+    let outcome = trial(442).unwrap();
+    let moving = outcome.of(Mistake::Moving).count();
+    assert!(moving >= 3, "{:?}", outcome.spoilt);
+    assert_eq!(outcome.missed(Mistake::Moving), 0, "{:?}", outcome.spoilt);
+    assert_eq!(outcome.wronged(), 0);
+}
+
 #[test]
 fn a_file_in_a_wrong_order_is_rejected_and_the_order_is_named() {
     for seed in 0..6 {

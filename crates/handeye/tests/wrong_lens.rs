@@ -14,8 +14,9 @@ use nalgebra::SVector;
 const WRONG: f64 = 2e-3;
 
 /// Pictures as rendered ones are measured: 0.05 px.
-fn session(setup: Setup, seed: u64, captures: usize) -> (Session, Truth) {
-    let noise = CellNoise { corner_px: 0.05, ..CellNoise::NONE };
+const EXACT: CellNoise = CellNoise { corner_px: 0.05, ..CellNoise::NONE };
+
+fn session(setup: Setup, seed: u64, captures: usize, noise: CellNoise) -> (Session, Truth) {
     let cell = Cell { noise, captures, placements: 0, touches: 0, ..Cell::new(setup, seed) };
     let (mut session, truth) = cell.session(seed).unwrap();
     let mut longer = SVector::<f64, PARAMETERS>::zeros();
@@ -42,7 +43,7 @@ fn of(found: &Calibration, candidate: &str) -> Pose<handeye::Mount, handeye::Cam
 fn an_exact_robot_shows_that_the_focal_length_is_wrong() {
     for setup in [Setup::EyeInHand, Setup::EyeToHand] {
         for (seed, captures) in [(1, 15), (2, 19), (3, 30)] {
-            let (session, truth) = session(setup, seed, captures);
+            let (session, truth) = session(setup, seed, captures, EXACT);
             let found = calibrate(&session, &Config::default()).unwrap();
             assert_eq!(found.verdict, Verdict::Accepted, "{setup:?} {:?}", found.reasons);
             let camera = found.camera.expect("a camera that was found wrong").intrinsics;
@@ -57,4 +58,19 @@ fn an_exact_robot_shows_that_the_focal_length_is_wrong() {
             assert!(off < 0.25, "{setup:?} {captures}: {off}");
         }
     }
+}
+
+/// Beside a usual robot the same error drowns more often than not; still, it must not take certainty
+/// to be found.
+#[test]
+fn a_usual_robot_shows_it_at_times() {
+    let noise =
+        CellNoise { robot_absolute_m: 0.6e-3, robot_absolute_rad: 6e-4, ..CellNoise::default() };
+    let finds = |seed: &u64| {
+        let (session, _) = session(Setup::EyeToHand, *seed, 15, noise);
+        calibrate(&session, &Config::default()).unwrap().camera.is_some()
+    };
+    let found = (40..60).filter(finds).count();
+    println!("{found} of 20 are found");
+    assert!(found >= 5, "{found}");
 }

@@ -5,7 +5,9 @@ use nalgebra::Matrix6;
 use super::{
     Config,
     agreement::Views,
-    arm, boards, budget, captures,
+    arm,
+    boards::{self, Boards},
+    budget, captures,
     joint::{self, Joint, held_out_views},
     known_position, named,
     optics::{self, Optics},
@@ -37,25 +39,17 @@ pub(super) fn estimate<'a>(
     let (problem, fit) = fit_views(&mut views, found, optics, config, result)?;
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
-    let mut boards = boards::boards(&views, &fit, optics);
-    let wrong = wrong_touches::find(&views, &boards, &problem, &fit);
-    wrong.left_out_of(&mut boards);
-    let right = |p: &TouchPairs| !wrong.which.contains(&p.touch);
-    let trusted: Vec<TouchPairs> = paired.iter().filter(|p| right(p)).cloned().collect();
-    wrong.report(result);
+    let (boards, trusted) = right_touches(&views, &paired, optics, (&problem, &fit), result);
     let joint = joint::fit(&views, &boards, &problem.extras, &fit, &config.known);
     if let Some(joint) = &joint {
         joint.warn(&views, result);
     }
     let used = joint.as_ref().map_or(&[][..], |j| &j.used);
     let (best, whole) = joint.as_ref().map_or((&fit, &problem), |j| (&j.fit, &j.problem));
-    let arm = match arm::look(&views, whole, best, used, config) {
-        Ok(arm) => arm,
-        Err(warning) => {
-            result.warnings.push(warning);
-            None
-        }
-    };
+    let arm = arm::look(&views, whole, best, used, config).unwrap_or_else(|warning| {
+        result.warnings.push(warning);
+        None
+    });
     name_free(&views, &fit, best, result);
     known_position::judge(whole, best, &views, &config.known, result);
     let reach = arm.as_ref().and_then(|a| Reach::new(&views, a, &volume));
@@ -126,6 +120,23 @@ fn fit_views(
     config.unknown.report(&fit, result);
     verdict::judge_scale(views, &fit, config, result);
     Some((joint::views_problem(views.session, &views.views, &extras), fit))
+}
+
+/// The touches that can be of the corners they name, by board and by pair; the others are reported.
+fn right_touches(
+    views: &Views,
+    paired: &[TouchPairs],
+    optics: &Optics,
+    (problem, fit): (&Problem, &JointFit),
+    result: &mut Calibration,
+) -> (Boards, Vec<TouchPairs>) {
+    let mut boards = boards::boards(views, fit, optics);
+    let wrong = wrong_touches::find(views, &boards, problem, fit);
+    wrong.left_out_of(&mut boards);
+    let right = |p: &&TouchPairs| !wrong.which.contains(&p.touch);
+    let trusted = paired.iter().filter(right).cloned().collect();
+    wrong.report(result);
+    (boards, trusted)
 }
 
 /// Names what the best answer leaves free, and what views alone would have.

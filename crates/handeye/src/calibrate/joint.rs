@@ -2,13 +2,12 @@
 //! difference between the two where the data show one.
 
 use nalgebra::{DMatrix, DVector, Vector3};
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::{Session, agreement::Views, boards::Boards};
 use crate::{
     Warning,
     calibration::{Calibration, TipResult},
-    evaluate,
+    chance, evaluate,
     refine::{
         self, Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, View,
         extra::{SYSTEMATIC, TIP_PRIOR, systematic, tip},
@@ -100,7 +99,7 @@ fn free_wrong_tip(
     let fixed = joint::refit(&without, fit, known);
     let (h, g) = score(&without, &fixed, &tip(TIP_PRIOR))?;
     let (d2, rank) = significance(&h, &g);
-    let p_value = ChiSquared::new(f64::from(rank)).ok()?.sf(d2);
+    let p_value = chance::of_chi_square(d2, rank);
     let (h_systematic, g_systematic) = score(&without, &fixed, &systematic(1.0))?;
     let as_systematic = most_gain(&h_systematic, &g_systematic, &STRENGTHS);
     if p_value > WRONG_TIP || most_gain(&h, &g, &TIP_SIZES) < as_systematic {
@@ -115,7 +114,7 @@ fn free_wrong_tip(
 }
 
 /// `gᵀ H⁺ g` and the rank of `H`.
-fn significance(h: &DMatrix<f64>, g: &DVector<f64>) -> (f64, u32) {
+fn significance(h: &DMatrix<f64>, g: &DVector<f64>) -> (f64, usize) {
     let eigen = h.clone().symmetric_eigen();
     let most = eigen.eigenvalues.max();
     let (mut d2, mut rank) = (0.0, 0);
@@ -152,7 +151,7 @@ fn leave_out_wrong(
         let refitted = joint::refit(&without, fit, known);
         let Some(d2) = refitted.surprise_of_touch(&without, &alone) else { return left_out };
         let dof = 3.0 * (count as f64 - 1.0);
-        let p = FisherSnedecor::new(3.0, dof).map_or(1.0, |f| f.sf(d2 / 3.0));
+        let p = chance::of_f(d2 / 3.0, (3.0, dof));
         if p * count as f64 > IMPROBABLE_TOUCH {
             return left_out;
         }
@@ -198,7 +197,7 @@ fn most_gain(h: &DMatrix<f64>, g: &DVector<f64>, sizes: &[f64]) -> f64 {
 fn conflict(problem: &Problem, fit: &JointFit, explained: bool) -> Option<Conflict> {
     let (h, g) = score(problem, fit, &systematic(1.0))?;
     let (d2, rank) = significance(&h, &g);
-    let p_value = ChiSquared::new(f64::from(rank)).ok()?.sf(d2);
+    let p_value = chance::of_chi_square(d2, rank);
     let gains = STRENGTHS.map(|s| gain(&h, &g, s));
     let best = (0..gains.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b]))?;
     // a tip that had to be found leaves little that could tell a second difference from noise

@@ -359,9 +359,7 @@ impl JointFit {
         problem: &Problem,
         board: &TouchedBoard,
     ) -> Option<Vec<(nalgebra::Vector3<f64>, nalgebra::Matrix3<f64>)>> {
-        let rows = self.touch_rows(problem, board);
-        let spread = &rows.jacobian * self.covariance.as_ref()? * rows.jacobian.transpose();
-        let all = rows.covariance + spread;
+        let (rows, all) = self.unseen_touches(problem, board)?;
         let one = |k: usize| {
             (
                 rows.residual.fixed_rows::<3>(3 * k).into(),
@@ -380,10 +378,22 @@ impl JointFit {
 
     /// Squared Mahalanobis distance of touches that the fit has not seen, as [`Self::surprise`].
     pub(crate) fn surprise_of_touch(&self, problem: &Problem, board: &TouchedBoard) -> Option<f64> {
+        let (rows, all) = self.unseen_touches(problem, board)?;
+        let cholesky = Cholesky::new(all)?;
+        Some(rows.residual.dot(&cholesky.solve(&rows.residual)))
+    }
+
+    /// Touches as the fit expects them, and the covariance of their misfits when it has not seen
+    /// them.
+    fn unseen_touches(
+        &self,
+        problem: &Problem,
+        board: &TouchedBoard,
+    ) -> Option<(TouchRows, nalgebra::DMatrix<f64>)> {
         let rows = self.touch_rows(problem, board);
         let spread = &rows.jacobian * self.covariance.as_ref()? * rows.jacobian.transpose();
-        let cholesky = Cholesky::new(rows.covariance + spread)?;
-        Some(rows.residual.dot(&cholesky.solve(&rows.residual)))
+        let all = &rows.covariance + spread;
+        Some((rows, all))
     }
 
     /// The value and standard deviation of an extra, if it was free.
