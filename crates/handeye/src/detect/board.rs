@@ -10,11 +10,12 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
+use super::grid::Grid;
 use super::homography;
-use super::labelling::{Chess, FindGrids, Grid};
 use super::markers::{self, Dictionary, bilinear};
-use super::pyramid::{Scaled, smoothed, stretched};
-use super::subpixel::{self, Erf, FittedCorner, RoughCorner};
+use super::mesh;
+use super::pyramid::{Scaled, smoothed};
+use super::subpixel::{self, FittedCorner, NearCorner, RoughCorner};
 use super::tag;
 use crate::{GrayImage, ImageCorner, TargetModel};
 
@@ -109,92 +110,54 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     }
     let family = Family::of(target)?;
     let mut best = Err(NotFound::NoCorners);
-    for attempt in ATTEMPTS {
-        if matches!(attempt.scale, Scale::Double) && width * height > MOST_TO_DOUBLE {
-            continue;
-        }
-        let found = attempt_to_detect(image, &family, &attempt);
+    let mut since = 0;
+    for level in levels(image) {
+        let found: Vec<Grid> = mesh::grids(&smoothed(&level.image));
+        let grids: Vec<Grid> = found.iter().map(|g| g.map(|p| level.original(p))).collect();
+        let found = family.label(image, &grids);
+        since = if worth(&found) > worth(&best) { 0 } else { since + 1 };
         best = better(best, found);
-        if best.as_ref().is_ok_and(|corners| corners.len() == target.len()) {
+        let complete = best.as_ref().is_ok_and(|corners| corners.len() == target.len());
+        if complete || (best.is_ok() && since > 0) {
             break;
         }
     }
     best
 }
 
-/// Ways to look at a picture, the usual one first.
-#[derive(Clone, Copy)]
-struct Attempt {
-    scale: Scale,
-    smooth: bool,
-    stretch: bool,
-    weakest: f32,
-    loose: bool,
-}
-
-#[derive(Clone, Copy)]
-enum Scale {
-    Half,
-    Same,
-    Double,
-}
-
-/// Response of a clear corner, as recommended for the detector.
-const CLEAR: f32 = 33.0;
-/// Response of a faint one.
-const FAINT: f32 = 8.0;
-
+/// Longest side of the smallest level, px, at most.
+const COARSEST: usize = 900;
 /// Larger pictures (px) are not doubled: their squares are large enough, and memory is finite.
 const MOST_TO_DOUBLE: usize = 4_000_000;
 
-const ATTEMPTS: [Attempt; 6] = [
-    Attempt { scale: Scale::Same, smooth: false, stretch: false, weakest: CLEAR, loose: false },
-    Attempt { scale: Scale::Half, smooth: false, stretch: true, weakest: FAINT, loose: false },
-    Attempt { scale: Scale::Same, smooth: true, stretch: true, weakest: FAINT, loose: true },
-    Attempt { scale: Scale::Same, smooth: false, stretch: true, weakest: FAINT, loose: true },
-    Attempt { scale: Scale::Double, smooth: false, stretch: true, weakest: FAINT, loose: true },
-    Attempt { scale: Scale::Half, smooth: true, stretch: true, weakest: FAINT, loose: true },
-];
-
-fn attempt_to_detect(
-    image: &GrayImage,
-    family: &Family,
-    attempt: &Attempt,
-) -> Result<Vec<ImageCorner>, NotFound> {
-    let scaled = prepare(image, attempt);
-    let finder = Chess { weakest: attempt.weakest, loose: attempt.loose };
-    let found = finder.grids(&scaled.image);
-    let grids: Vec<Grid> = found.iter().map(|g| g.map(|p| scaled.original(p))).collect();
-    family.label(image, &grids)
-}
-
-fn prepare(image: &GrayImage, attempt: &Attempt) -> Scaled {
-    let mut scaled = match attempt.scale {
-        Scale::Half => Scaled::halved(image),
-        Scale::Same => Scaled::same(image.clone()),
-        Scale::Double => Scaled::doubled(image),
-    };
-    if attempt.smooth {
-        scaled.image = smoothed(&scaled.image);
+/// The picture at half sizes, the smallest first, and last doubled.
+fn levels(image: &GrayImage) -> impl Iterator<Item = Scaled<'_>> {
+    let mut all = vec![Scaled::same(image)];
+    while let Some(last) = all.last()
+        && last.image.width().max(last.image.height()) > COARSEST
+    {
+        all.push(last.halved());
     }
-    if attempt.stretch {
-        scaled.image = stretched(&scaled.image);
-    }
-    scaled
+    let small = image.width() * image.height() <= MOST_TO_DOUBLE;
+    let doubled = small.then_some(image).into_iter().map(Scaled::doubled);
+    all.into_iter().rev().chain(doubled)
 }
 
 type Outcome = Result<Vec<ImageCorner>, NotFound>;
 
 /// The outcome with more corners; of two failures the one that says more.
 fn better(a: Outcome, b: Outcome) -> Outcome {
-    let worth = |outcome: &Outcome| match outcome {
+    if worth(&b) > worth(&a) { b } else { a }
+}
+
+fn worth(outcome: &Outcome) -> (u32, usize) {
+    match outcome {
         Ok(corners) => (2, corners.len()),
         Err(NotFound::TooFew { found, .. }) => (1, *found),
         Err(NotFound::NoMarkers { corners, .. }) => (1, *corners),
         Err(NotFound::OtherSize { columns, rows, .. }) => (1, (columns * rows) as usize),
         Err(_) => (0, 0),
-    };
-    if worth(&b) > worth(&a) { b } else { a }
+    }
 }
 
 /// The targets that are found by their grid of corners.
@@ -271,7 +234,7 @@ fn marker_squares(squares_x: usize, squares_y: usize, white_first: bool) -> Vec<
 const FITTED_SHARE: f64 = 0.8;
 
 fn checkerboard(image: &GrayImage, grid: &Grid, columns: i32, rows: i32) -> Outcome {
-    let fits = Fits { image, clean: 1.0, erf: Erf::new() };
+    let fits = Fits { image, clean: 1.0 };
     let grown = grow(grid, &fits, (columns, rows));
     let fitted = fits.all(&grown);
     let known = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };
@@ -379,30 +342,40 @@ fn first_square_brightness(image: &GrayImage, grid: &Grid) -> f64 {
 struct Fits<'a> {
     image: &'a GrayImage,
     clean: f64,
-    erf: Erf,
 }
 
 impl Fits<'_> {
-    fn at(&self, grid: &Grid, label: (i32, i32)) -> Option<FittedCorner> {
+    /// The corner of a label, and the steps to its neighbours.
+    fn rough(&self, grid: &Grid, label: (i32, i32)) -> Option<RoughCorner> {
         let step = |d| grid.step(label, d).or_else(|| grid.mean_step(d));
-        let rough = RoughCorner {
+        Some(RoughCorner {
             pixel: *grid.corners.get(&label)?,
             along_x: step((1, 0))?,
             along_y: step((0, 1))?,
             clean: self.clean,
-        };
-        subpixel::fit(self.image, &rough, &self.erf).ok()
+        })
     }
 
+    /// All corners. First every one is approached; then the steps between them are known well enough
+    /// to measure each with a disc that does not depend on where the search began.
     fn all(&self, grid: &Grid) -> BTreeMap<(i32, i32), FittedCorner> {
-        grid.corners.keys().filter_map(|&k| Some((k, self.at(grid, k)?))).collect()
+        let near = |&k: &(i32, i32)| {
+            Some((k, subpixel::approach(self.image, &self.rough(grid, k)?).ok()?))
+        };
+        let near: BTreeMap<(i32, i32), NearCorner> = grid.corners.keys().filter_map(near).collect();
+        let grid = Grid { corners: near.iter().map(|(k, n)| (*k, n.pixel)).collect() };
+        let measured = |(k, near): (&(i32, i32), &NearCorner)| {
+            let rough = self.rough(&grid, *k)?;
+            Some((*k, subpixel::measure(self.image, &rough, near).ok()?))
+        };
+        near.iter().filter_map(measured).collect()
     }
 
     /// The corner that the neighbours predict, if the picture has one there.
     fn predicted(&self, grid: &Grid, label: (i32, i32)) -> Option<Vector2<f64>> {
         let mut with = grid.clone();
         with.corners.insert(label, grid.predict(label)?);
-        self.at(&with, label).map(|fitted| fitted.pixel)
+        subpixel::fit(self.image, &self.rough(&with, label)?).ok().map(|fitted| fitted.pixel)
     }
 }
 
@@ -465,7 +438,7 @@ fn turned_back((i, j): (i32, i32), turns: usize) -> (i32, i32) {
 
 impl Charuco {
     fn label(&self, image: &GrayImage, grids: &[Grid]) -> Outcome {
-        let fits = Fits { image, clean: 0.5 * (1.0 - self.share), erf: Erf::new() };
+        let fits = Fits { image, clean: 0.5 * (1.0 - self.share) };
         let mut board = Grid::default();
         for grid in grids {
             if let Some(placing) = self.placing(image, grid) {

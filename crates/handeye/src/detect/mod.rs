@@ -1,13 +1,16 @@
 //! What the camera saw of the target.
 //!
-//! A picture goes through three steps: `labelling` finds grids of corners, [`board`] decides
+//! A picture goes through three steps: `crossings` and `mesh` find grids of corners, [`board`] decides
 //! which corner of the target each one is, and [`subpixel`] measures where exactly they are. From
 //! the corners, [`planar_pose`] has the target's pose, and [`surface`] their places on a scan.
 
 pub mod board;
+mod crossings;
+mod erf;
+mod grid;
 pub mod homography;
-mod labelling;
 pub mod markers;
+mod mesh;
 pub mod planar_pose;
 mod pyramid;
 pub mod sight;

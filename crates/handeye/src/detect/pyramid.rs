@@ -1,30 +1,40 @@
 //! Pictures made easier to read: halved, doubled, smoothed, stretched.
 
+use std::borrow::Cow;
+
 use nalgebra::Vector2;
 
 use crate::GrayImage;
 
 /// A picture and how its pixels map back: `original = (at + 0.5) * factor - 0.5`.
-pub struct Scaled {
+pub struct Scaled<'a> {
     /// The new picture.
-    pub image: GrayImage,
+    pub image: Cow<'a, GrayImage>,
     factor: f64,
 }
 
-impl Scaled {
+impl<'a> Scaled<'a> {
     /// The picture itself.
-    pub fn same(image: GrayImage) -> Self {
-        Self { image, factor: 1.0 }
+    pub fn same(image: &'a GrayImage) -> Self {
+        Self { image: Cow::Borrowed(image), factor: 1.0 }
     }
 
     /// Half as large, each pixel the mean of four.
-    pub fn halved(image: &GrayImage) -> Self {
-        let (width, height) = (image.width() / 2, image.height() / 2);
-        let mean = |(x, y): (usize, usize)| {
-            let row = |y| image.at(2 * x, y) + image.at(2 * x + 1, y);
-            0.25 * (row(2 * y) + row(2 * y + 1))
-        };
-        Self { image: draw(width, height, mean), factor: 2.0 }
+    pub fn halved(&self) -> Self {
+        let (width, height) = (self.image.width() / 2, self.image.height() / 2);
+        let full = self.image.width();
+        let mut values = vec![0.0; width * height];
+        for (row, pair) in
+            values.chunks_exact_mut(width.max(1)).zip(self.image.values().chunks_exact(2 * full))
+        {
+            let (upper, lower) = pair.split_at(full);
+            let (upper, lower) = (upper.chunks_exact(2), lower.chunks_exact(2));
+            for (out, (u, l)) in row.iter_mut().zip(upper.zip(lower)) {
+                *out = 0.25 * ((u[0] + u[1]) + (l[0] + l[1]));
+            }
+        }
+        let image = GrayImage::new(width, height, values).expect("as many values as pixels");
+        Self { image: Cow::Owned(image), factor: 2.0 * self.factor }
     }
 
     /// Twice as large, linear between pixels.
@@ -40,7 +50,7 @@ impl Scaled {
             let row = |y| 0.75 * image.at(a, y) + 0.25 * image.at(b, y);
             0.75 * row(c) + 0.25 * row(d)
         };
-        Self { image: draw(2 * width, 2 * height, linear), factor: 0.5 }
+        Self { image: Cow::Owned(draw(2 * width, 2 * height, linear)), factor: 0.5 }
     }
 
     /// A pixel of this picture, in the original.
@@ -52,15 +62,31 @@ impl Scaled {
 /// Smoothed with the binomial kernel 1 4 6 4 1 in both directions (standard deviation 1 px).
 pub fn smoothed(image: &GrayImage) -> GrayImage {
     let (width, height) = (image.width(), image.height());
-    const KERNEL: [(isize, f32); 5] =
-        [(-2, 1.0 / 16.0), (-1, 0.25), (0, 0.375), (1, 0.25), (2, 1.0 / 16.0)];
-    let clamp = |k: usize, d: isize, n: usize| k.saturating_add_signed(d).min(n - 1);
-    let rows = draw(width, height, |(x, y)| {
-        KERNEL.iter().map(|&(d, w)| w * image.at(clamp(x, d, width), y)).sum()
-    });
-    draw(width, height, |(x, y)| {
-        KERNEL.iter().map(|&(d, w)| w * rows.at(x, clamp(y, d, height))).sum()
-    })
+    let mut rows = vec![0.0; width * height];
+    let mut padded = vec![0.0; width + 4];
+    for (out, row) in
+        rows.chunks_exact_mut(width.max(1)).zip(image.values().chunks_exact(width.max(1)))
+    {
+        padded[2..width + 2].copy_from_slice(row);
+        padded[..2].fill(row[0]);
+        padded[width + 2..].fill(row[width - 1]);
+        let at = |k: usize| &padded[k..][..width];
+        binomial(out, [at(0), at(1), at(2), at(3), at(4)]);
+    }
+    let mut values = vec![0.0; width * height];
+    for (y, out) in values.chunks_exact_mut(width.max(1)).enumerate() {
+        let at = |d: usize| &rows[(y + d).saturating_sub(2).min(height - 1) * width..][..width];
+        binomial(out, [at(0), at(1), at(2), at(3), at(4)]);
+    }
+    GrayImage::new(width, height, values).expect("as many values as pixels")
+}
+
+fn binomial(out: &mut [f32], [a, b, c, d, e]: [&[f32]; 5]) {
+    let n = out.len();
+    let (a, b, c, d, e) = (&a[..n], &b[..n], &c[..n], &d[..n], &e[..n]);
+    for k in 0..n {
+        out[k] = (1.0 / 16.0) * ((a[k] + e[k]) + 4.0 * (b[k] + d[k]) + 6.0 * c[k]);
+    }
 }
 
 /// Share of the pixels that may become black, and white, in `stretched`.
@@ -91,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_ramp_keeps_its_place_when_scaled() {
-        for scaled in [Scaled::halved(&ramp()), Scaled::doubled(&ramp())] {
+        for scaled in [Scaled::same(&ramp()).halved(), Scaled::doubled(&ramp())] {
             let at = Vector2::new(5.0, 4.0);
             let original = scaled.original(&at);
             let expected = 5.0 * original.x + 3.0 * original.y;

@@ -15,10 +15,10 @@
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 use super::board::NotFound;
+use super::erf::erf;
 use super::homography;
 use super::markers::{self, Dictionary};
 use super::pyramid::{smoothed, stretched};
-use super::subpixel::Erf;
 use crate::{GrayImage, ImageCorner};
 
 /// A quadrilateral, clockwise in the picture.
@@ -299,14 +299,12 @@ struct Wobble {
 
 /// Corners from the edges of all sides.
 fn refined(image: &GrayImage, start: Quad, cells: usize) -> Option<Vec<ImageCorner>> {
-    let erf = Erf::new();
     let mut quad = start;
     let mut corners = vec![];
     let mut blur_px = USUAL_BLUR_PX;
     for _ in 0..ROUNDS {
-        let sides: Option<Vec<Line>> = (0..4)
-            .map(|k| side(image, [&quad[k], &quad[(k + 1) % 4]], cells, blur_px, &erf))
-            .collect();
+        let sides: Option<Vec<Line>> =
+            (0..4).map(|k| side(image, [&quad[k], &quad[(k + 1) % 4]], cells, blur_px)).collect();
         let mut sides = sides?;
         let wobble = wobble(&sides);
         sides.iter_mut().for_each(|side| side.covariance *= wobble);
@@ -352,17 +350,11 @@ struct Band {
 }
 
 /// The edge from corner `a` to corner `b`; the tag is on the right of that way.
-fn side(
-    image: &GrayImage,
-    [a, b]: [&Vector2<f64>; 2],
-    cells: usize,
-    blur_px: f64,
-    erf: &Erf,
-) -> Option<Line> {
+fn side(image: &GrayImage, [a, b]: [&Vector2<f64>; 2], cells: usize, blur_px: f64) -> Option<Line> {
     let (middle, along) = ((a + b) * 0.5, (b - a).normalize());
     let outwards = Vector2::new(along.y, -along.x);
     let band = gather(image, &middle, &outwards, (b - a).norm(), cells, blur_px)?;
-    let (at, normal, cost) = band.descend(band.start(), erf)?;
+    let (at, normal, cost) = band.descend(band.start())?;
     let freedom = band.pixels.len() as f64 - 6.0;
     let variance = (cost / freedom).max(ROUNDING_VARIANCE);
     let inverse = normal.cholesky()?.inverse() * variance;
@@ -372,7 +364,7 @@ fn side(
         angle: outwards.y.atan2(outwards.x) + at[1],
         rho: at[0],
         covariance: inverse.fixed_view::<2, 2>(0, 0).into_owned(),
-        wobble: band.wobble(&at, variance, erf),
+        wobble: band.wobble(&at, variance),
         blur_px: at[4].exp(),
     })
 }
@@ -419,9 +411,9 @@ impl Band {
         Parameters::from([0.0, 0.0, 0.5 * (inner + outer), 0.6 * (outer - inner), 0.0, 0.0])
     }
 
-    fn descend(&self, start: Parameters, erf: &Erf) -> Option<(Parameters, Normal, f64)> {
+    fn descend(&self, start: Parameters) -> Option<(Parameters, Normal, f64)> {
         let mut at = start;
-        let (mut normal, mut gradient, mut cost) = self.linearise(&at, erf);
+        let (mut normal, mut gradient, mut cost) = self.linearise(&at);
         let mut damping = 1e-3;
         for _ in 0..MOST_STEPS {
             let mut damped = normal;
@@ -429,7 +421,7 @@ impl Band {
             let step = damped.cholesky()?.solve(&gradient);
             let mut next = at + step;
             next[4] = next[4].clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln());
-            let (n, g, c) = self.linearise(&next, erf);
+            let (n, g, c) = self.linearise(&next);
             if c.is_finite() && c <= cost {
                 (at, normal, gradient, cost) = (next, n, g, c);
                 damping *= 0.1;
@@ -447,11 +439,11 @@ impl Band {
 
     /// Each piece's own offset `Σ jr / Σ j²` from the fitted line, squared, over its variance
     /// `σ² / Σ j²`, with `j = ∂I/∂ρ`. The line has taken two of them.
-    fn wobble(&self, at: &Parameters, variance: f64, erf: &Erf) -> Wobble {
+    fn wobble(&self, at: &Parameters, variance: f64) -> Wobble {
         let half = self.pixels.iter().map(|p| p.0.abs()).fold(f64::MIN_POSITIVE, f64::max);
         let mut sums = [(0.0, 0.0); PIECES];
         for &(u, v, grey) in &self.pixels {
-            let (value, j) = model(at, u, v, erf);
+            let (value, j) = model(at, u, v);
             let piece = (PIECES as f64 * 0.5 * (1.0 + u / half)) as usize;
             let (jr, jj) = &mut sums[piece.min(PIECES - 1)];
             *jr += j[0] * (grey - value);
@@ -465,10 +457,10 @@ impl Band {
     }
 
     /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
-    fn linearise(&self, at: &Parameters, erf: &Erf) -> (Normal, Parameters, f64) {
+    fn linearise(&self, at: &Parameters) -> (Normal, Parameters, f64) {
         let (mut normal, mut gradient, mut cost) = (Normal::zeros(), Parameters::zeros(), 0.0);
         for &(u, v, grey) in &self.pixels {
-            let (value, j) = model(at, u, v, erf);
+            let (value, j) = model(at, u, v);
             let r = grey - value;
             normal.ger(1.0, &j, &j, 1.0);
             gradient += j * r;
@@ -479,12 +471,13 @@ impl Band {
 }
 
 /// Grey value and its derivatives; `u` along the side, `v` outwards, `d = v cos θ + u sin θ - ρ`.
-fn model(at: &Parameters, u: f64, v: f64, erf: &Erf) -> (f64, Parameters) {
+fn model(at: &Parameters, u: f64, v: f64) -> (f64, Parameters) {
     let [rho, theta, a, b, ln_s, g] = (*at).into();
     let (sine, cosine) = theta.sin_cos();
     let scale = (-ln_s).exp() * std::f64::consts::FRAC_1_SQRT_2;
     let d = v * cosine + u * sine - rho;
-    let (value, slope) = erf.at(d * scale);
+    let (value, slope) = erf((d * scale) as f32);
+    let (value, slope) = (f64::from(value), f64::from(slope));
     let by_d = b * slope * scale;
     let by_theta = by_d * (u * cosine - v * sine);
     let j = Parameters::from([-by_d, by_theta, 1.0, value, -by_d * d, u]);
@@ -590,16 +583,15 @@ mod tests {
 
     #[test]
     fn the_edge_model_has_the_right_derivatives() {
-        let erf = Erf::new();
         let at = Parameters::from([0.2, 0.03, 100.0, 60.0, 0.1, 0.2]);
         for (u, v) in [(3.0, 0.5), (-7.0, -1.2), (0.4, 0.1)] {
-            let (_, j) = model(&at, u, v, &erf);
+            let (_, j) = model(&at, u, v);
             for k in 0..6 {
                 let mut step = Parameters::zeros();
-                step[k] = 1e-4;
-                let ahead = model(&(at + step), u, v, &erf).0;
-                let numeric = (ahead - model(&(at - step), u, v, &erf).0) / 2e-4;
-                assert!((numeric - j[k]).abs() < 1e-3 * (1.0 + numeric.abs()), "{k}");
+                step[k] = 1e-2;
+                let ahead = model(&(at + step), u, v).0;
+                let numeric = (ahead - model(&(at - step), u, v).0) / 2e-2;
+                assert!((numeric - j[k]).abs() < 3e-3 * (3.0 + numeric.abs()), "{k}");
             }
         }
     }

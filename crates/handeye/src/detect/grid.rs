@@ -1,81 +1,18 @@
 //! Grids of checkerboard corners in a picture: rough positions with integer labels.
 //!
-//! The corners come from a ChESS detector and are joined into grids by topology (S. Bennett and
-//! J. Lasenby, *ChESS*, CVIU 118, 2014; W. Shu et al., *Topological approach for grid finding*,
-//! 2009). Labels start anywhere and may be turned: what they mean on the board is decided later.
+//! Labels start anywhere and may be turned: what they mean on the board is decided later.
 
 use std::collections::BTreeMap;
 
-use calib_targets_chessboard::{
-    ChessboardAdvancedTuning, ChessboardDetector, ChessboardParams, GrayImageView,
-    default_chess_config, detect_corners,
-};
 use nalgebra::Vector2;
 
 use super::homography;
-use crate::GrayImage;
 
 /// Corners of one grid by (column, row); columns to rows turn clockwise in the picture.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Grid {
     /// Where each labelled corner is, px.
     pub corners: BTreeMap<(i32, i32), Vector2<f64>>,
-}
-
-/// Finds grids in a picture.
-pub trait FindGrids {
-    /// All grids, the largest first.
-    fn grids(&self, image: &GrayImage) -> Vec<Grid>;
-}
-
-/// ChESS corners joined by topology.
-pub struct Chess {
-    /// Weakest response of a corner.
-    pub weakest: f32,
-    /// Widened tolerances, for strong distortion.
-    pub loose: bool,
-}
-
-impl FindGrids for Chess {
-    fn grids(&self, image: &GrayImage) -> Vec<Grid> {
-        let data = image.to_u8();
-        let view = GrayImageView { width: image.width(), height: image.height(), data: &data };
-        let config = default_chess_config().with_threshold(self.weakest.min(15.0));
-        let corners = detect_corners(&view, &config);
-        let Ok(detector) = ChessboardDetector::new(self.parameters()) else {
-            return vec![];
-        };
-        let mut grids: Vec<Grid> = detector
-            .detect_all(&corners)
-            .iter()
-            .map(|found| {
-                let corners = found.corners.iter().map(|c| {
-                    let at = Vector2::new(f64::from(c.position.x), f64::from(c.position.y));
-                    ((c.grid.u, c.grid.v), at)
-                });
-                Grid { corners: corners.collect() }.clockwise()
-            })
-            .collect();
-        grids.sort_by_key(|grid| std::cmp::Reverse(grid.corners.len()));
-        grids
-    }
-}
-
-impl Chess {
-    fn parameters(&self) -> ChessboardParams {
-        let mut parameters = ChessboardParams::default();
-        parameters.min_corner_strength = self.weakest;
-        parameters.min_labeled_corners = 4;
-        parameters.max_components = 16;
-        if !self.loose {
-            return parameters;
-        }
-        let mut tuning = ChessboardAdvancedTuning::default();
-        tuning.cluster_tol_deg = 18.0;
-        tuning.weak_cluster_tol_deg = 24.0;
-        tuning.attach_axis_tol_deg = 20.0;
-        parameters.with_advanced(tuning)
-    }
 }
 
 /// Neighbours this many cells away predict a corner.
@@ -136,13 +73,5 @@ impl Grid {
     /// Every label changed.
     pub fn relabel(&self, f: impl Fn((i32, i32)) -> (i32, i32)) -> Self {
         Self { corners: self.corners.iter().map(|(k, p)| (f(*k), *p)).collect() }
-    }
-
-    /// Rows and columns swapped if they turn the wrong way in the picture.
-    fn clockwise(self) -> Self {
-        match (self.mean_step((1, 0)), self.mean_step((0, 1))) {
-            (Some(x), Some(y)) if x.perp(&y) < 0.0 => self.relabel(|(i, j)| (j, i)),
-            _ => self,
-        }
     }
 }
