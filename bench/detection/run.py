@@ -38,11 +38,11 @@ STOP = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 100, 1e-4)
 CLASSIC = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE
 THOROUGH = cv2.CALIB_CB_EXHAUSTIVE | cv2.CALIB_CB_ACCURACY
 SUB_PIX = ", cornerSubPix "
-SETTING = """Rendered pictures with exactly known corners: scene integrated over half pixels, point spread,
-pixels, noise, 8 bits; a lens with distortion. handeye and the others get the same PNG files in this one run,
-each on one thread, timed by its own process's processor time; reading files is not counted. Corners of the
-others are matched to the nearest true one, whatever their order; handeye's must have the right id."""
-
+SETTING = """Rendered pictures with exactly known corners: scene integrated over quarters of pixels, point spread,
+pixels, noise of 2 grey values at a contrast of 170 unless told, 8 bits; a lens with distortion; tilts up to 60
+degrees. handeye and the others get the same PNG files in one run, each on one thread, timed by its own
+process's processor time; reading files is not counted. Corners of the others are matched to the nearest
+true one, whatever their order; handeye's must have the right id."""
 
 # --- the others ---------------------------------------------------------------------------------
 
@@ -135,7 +135,10 @@ def answer(kind, name, file, target, timed):
 def serve(pipe):
     cv2.setNumThreads(1)
     while True:
-        request = pipe.recv()
+        try:
+            request = pipe.recv()
+        except EOFError:
+            return
         try:
             pipe.send(answer(*request))
         except cv2.error as error:
