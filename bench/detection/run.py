@@ -6,7 +6,7 @@
     python bench/detection/run.py --full              2000 hard and 1000 empty pictures: hours
     python bench/detection/run.py --folder DIR        keeps the pictures there, and uses those that are there
 
-Cargo builds handeye. Without --full it takes a quarter of an hour on one core and 1 GB of disk.
+Cargo builds handeye. Without --full it takes ten minutes of processor time.
 """
 
 import argparse
@@ -485,11 +485,11 @@ def run(folder, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--accuracy", type=int, default=6, help="pictures for each spread and size")
-    parser.add_argument("--hard", type=int, default=8, help="pictures for each hard case and target")
-    parser.add_argument("--empty", type=int, default=20, help="pictures without a board")
+    parser.add_argument("--accuracy", type=int, default=2, help="pictures for each spread and size")
+    parser.add_argument("--hard", type=int, default=4, help="pictures for each hard case and target")
+    parser.add_argument("--empty", type=int, default=10, help="pictures without a board")
     parser.add_argument("--full", action="store_true", help="2000 hard and 1000 empty pictures")
-    parser.add_argument("--timeout", type=float, default=30.0, help="seconds that a call may take")
+    parser.add_argument("--timeout", type=float, default=15.0, help="seconds that a call may take")
     parser.add_argument("--folder", type=pathlib.Path, help="keep the pictures there; use those that are there")
     parser.add_argument("--dry", action="store_true", help="print only")
     options = parser.parse_args()
