@@ -1,17 +1,25 @@
 //! Measurements with known truth: for tests, benchmarks and the demo.
 
 pub mod arm;
+mod canvas;
 pub mod cell;
+pub mod clutter;
+pub mod conditions;
 mod mistakes;
+mod psf;
 pub mod random;
 pub mod recording;
 pub mod render;
 mod robot_error;
+#[cfg(test)]
+mod tests;
 mod texture;
 
 pub use arm::{ArmErrors, BuiltArm};
 pub use cell::{Cell, CellNoise, Viewing};
+pub use clutter::{Clutter, Pattern};
+pub use conditions::{Conditions, Glare, Occlusion, PrintErrors, Shape, Slope, TrueCorner};
 pub use mistakes::{Mistake, spoil};
 pub use random::Random;
 pub use recording::{Recording, Truth};
-pub use render::{DepthSensor, Optics, Scene};
+pub use render::{BitDepth, DepthSensor, Optics, Scene};

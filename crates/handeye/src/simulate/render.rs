@@ -1,13 +1,17 @@
 //! Pictures and scans of a board whose pose is known exactly.
 //!
 //! A pixel is the scene, filtered by the optics' point spread `h` and integrated over the pixel's
-//! square: `I = ∫∫ (scene * h)(u, v) du dv + noise`, rounded to 8 bits. The scene is drawn on half
-//! pixels, each integrated over its square (exactly inside a field of one colour, over a Fibonacci
-//! lattice across an edge); the point spread is applied there, and 2 x 2 of them make a pixel.
+//! square: `I = ∫∫ (scene * h)(u, v) du dv + noise`, rounded to what the sensor resolves. The scene is
+//! drawn on cells, 4 x 4 to a pixel (`canvas`), each integrated over its square (exactly inside a
+//! field of one colour, over a Fibonacci lattice across an edge); point spread and sensitive area of
+//! a pixel are one kernel on these cells (`psf`).
 
 use nalgebra::{Vector2, Vector3};
 
-use super::{Random, texture::Texture};
+use super::canvas::{Canvas, Window};
+use super::conditions::{Cover, Glow, Paper, WHITEST, meet_bent, on_paper, texture_of};
+use super::psf::Kernel;
+use super::{Conditions, Random, texture::Texture};
 use crate::{Camera, GrayImage, Intrinsics, Point, Pose, Scan, Target, TargetModel};
 
 /// A board in front of a camera.
@@ -28,8 +32,18 @@ pub struct Optics {
     pub blur_px: f64,
     /// Radius of the disc of an out-of-focus lens, px; 0 in focus.
     pub defocus_px: f64,
-    /// Standard deviation of the noise, grey values.
+    /// Length of the streak that a motion leaves while the shutter is open, px; 0 at rest.
+    pub motion_px: f64,
+    /// Direction of that motion in the picture, rad, from x to y.
+    pub motion_rad: f64,
+    /// Side of the square of a pixel that is sensitive, px: 1 for the whole of it.
+    pub aperture_px: f64,
+    /// Standard deviation of the noise of reading the sensor, grey values.
     pub noise: f64,
+    /// Shot noise: variance (grey values squared) per grey value of light.
+    pub shot: f64,
+    /// How finely grey values are stored.
+    pub depth: BitDepth,
     /// Grey of the black squares.
     pub black: f64,
     /// Grey of the white squares.
@@ -45,11 +59,35 @@ impl Default for Optics {
         Self {
             blur_px: 0.8,
             defocus_px: 0.0,
+            motion_px: 0.0,
+            motion_rad: 0.0,
+            aperture_px: 1.0,
             noise: 2.0,
+            shot: 0.0,
+            depth: BitDepth::Eight,
             black: 40.0,
             white: 210.0,
             background: 120.0,
             vignetting: 0.0,
+        }
+    }
+}
+
+/// How finely a sensor resolves grey values; 255 is white in either case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BitDepth {
+    /// Whole grey values.
+    Eight,
+    /// Sixteenths of grey values.
+    Twelve,
+}
+
+impl BitDepth {
+    /// Distance between two grey values that differ.
+    pub fn step(self) -> f64 {
+        match self {
+            Self::Eight => 1.0,
+            Self::Twelve => 1.0 / 16.0,
         }
     }
 }
@@ -76,32 +114,60 @@ impl Default for DepthSensor {
 impl Scene {
     /// The exact pixels of the corners that the camera sees, with their ids.
     pub fn corners(&self) -> Vec<(u32, Vector2<f64>)> {
+        let corners = self.target.corners().into_iter().enumerate();
+        corners.filter_map(|(id, c)| Some((id as u32, self.pixel_in_picture(&c)?))).collect()
+    }
+
+    /// Pixel of a point, unless it is outside of the picture.
+    pub(super) fn pixel_in_picture(&self, in_target: &Point<Target>) -> Option<Vector2<f64>> {
         let (width, height) = (f64::from(self.intrinsics.width), f64::from(self.intrinsics.height));
         let inside =
             |p: &Vector2<f64>| p.x > -0.5 && p.y > -0.5 && p.x < width - 0.5 && p.y < height - 0.5;
-        let corners = self.target.corners().into_iter().enumerate();
-        corners
-            .filter_map(|(id, in_target)| {
-                let in_camera = self.camera_from_target * in_target;
-                let pixel = self.intrinsics.project(&in_camera.vector()).filter(inside)?;
-                Some((id as u32, pixel))
-            })
-            .collect()
+        let in_camera = self.camera_from_target * *in_target;
+        self.intrinsics.project(&in_camera.vector()).filter(inside)
     }
 
     /// The picture, with noise from `seed`.
     pub fn picture(&self, optics: &Optics, seed: u64) -> GrayImage {
-        let (width, height) = (self.intrinsics.width as usize, self.intrinsics.height as usize);
-        let mut grey = vec![optics.background as f32; width * height];
-        if let Some(texture) = Texture::of(&self.target) {
-            let window = self.window(&texture, 2 + (4.0 * blur_reach(optics)).ceil() as i64);
-            let mut halves = self.half_pixels(&texture, &window, optics);
-            halves.blur(2.0 * optics.blur_px);
-            halves.defocus(2.0 * optics.defocus_px);
-            halves.into_pixels(&window, &mut grey, width, height);
-        }
-        self.expose(&mut grey, optics, seed);
-        GrayImage::new(width, height, grey).expect("as many values as pixels")
+        self.picture_under(&Conditions::default(), optics, seed)
+    }
+
+    /// The picture under `conditions`, with noise from `seed`.
+    pub fn picture_under(&self, conditions: &Conditions, optics: &Optics, seed: u64) -> GrayImage {
+        let size = (self.intrinsics.width, self.intrinsics.height);
+        let glow = conditions.glare.map(|g| Glow::new(self, &g, optics));
+        let texture = Texture::of(&self.target);
+        let paper = Paper::new(&self.target, &conditions.print);
+        let cover = conditions.occlusion.map(|o| (o, Cover::new(self, &o.shape)));
+        let others = self.others(conditions);
+        let alone = conditions.clutter.is_none() && cover.is_none() && others.is_empty();
+        let window = match &texture {
+            Some(t) if alone => self.window(t, paper.as_ref(), margin(optics)),
+            _ => Window::whole(size, margin(optics)),
+        };
+        let paint = |canvas: &mut Canvas| {
+            if let Some(clutter) = &conditions.clutter {
+                clutter.paint(canvas, size);
+            }
+            others.iter().for_each(|(scene, t)| scene.draw(canvas, t, None, optics));
+            if let Some(texture) = &texture {
+                self.draw(canvas, texture, paper.as_ref(), optics);
+            }
+            if let Some((occlusion, cover)) = &cover {
+                canvas.paint(|at| (cover.depth(at) > 0.0).then(|| texture_of(occlusion, at)));
+            }
+        };
+        develop((&window, paint), size, (conditions, glow), optics, seed)
+    }
+
+    /// The further boards, before the same camera.
+    fn others(&self, conditions: &Conditions) -> Vec<(Self, Texture)> {
+        let one = |(target, pose): &(TargetModel, Pose<Camera, Target>)| {
+            let intrinsics = self.intrinsics;
+            let scene = Self { target: target.clone(), camera_from_target: *pose, intrinsics };
+            Some((scene, Texture::of(target)?))
+        };
+        conditions.others.iter().filter_map(one).collect()
     }
 
     /// The scan, one point per pixel, with noise from `seed`.
@@ -149,65 +215,114 @@ impl Scene {
     }
 
     /// The pixels that the board can reach, `margin` more on every side.
-    fn window(&self, texture: &Texture, margin: i64) -> Window {
-        let whole = Window {
-            left: -margin,
-            top: -margin,
-            right: i64::from(self.intrinsics.width) + margin,
-            bottom: i64::from(self.intrinsics.height) + margin,
-        };
+    fn window(&self, texture: &Texture, paper: Option<&Paper>, margin: i64) -> Window {
+        let whole = Window::whole((self.intrinsics.width, self.intrinsics.height), margin);
         let outline: Option<Vec<_>> = texture
             .outline()
             .iter()
             .map(|at| {
-                let p = self.camera_from_target * Point::new(at.x, at.y, 0.0);
+                let at = on_paper(paper, at);
+                let p = self.camera_from_target * Point::new(at.x, at.y, at.z);
                 self.intrinsics.project(&p.vector())
             })
             .collect();
         outline.map_or(whole, |pixels| whole.around(&pixels, margin))
     }
 
-    fn half_pixels(&self, texture: &Texture, window: &Window, optics: &Optics) -> HalfPixels {
+    /// Which place of the faultless print is seen along a ray.
+    fn on_print(&self, ray: &Vector3<f64>, paper: Option<&Paper>) -> Option<Vector2<f64>> {
+        let meet = |height: f64| self.meet(ray, height).map(|(at, _)| at);
+        match paper {
+            Some(paper) => meet_bent(paper, meet).map(|at| paper.print(&at)),
+            None => meet(0.0),
+        }
+    }
+
+    fn draw(&self, canvas: &mut Canvas, texture: &Texture, paper: Option<&Paper>, optics: &Optics) {
+        let window = self.window(texture, paper, margin(optics)).within(&canvas.window());
         let (columns, rows) = window.size();
+        if columns == 0 || rows == 0 {
+            return;
+        }
         let mut ray = RayGrid::new(self);
         let mut line = |v: i64| -> Vec<Option<Vector2<f64>>> {
             (window.left..=window.right)
                 .map(|u| ray.at(u as f64 - 0.5, v as f64 - 0.5))
-                .map(|d| d.and_then(|d| self.meet(&d, 0.0)).map(|(at, _)| at))
+                .map(|d| d.and_then(|d| self.on_print(&d, paper)))
                 .collect()
         };
-        let mut halves = HalfPixels::new(2 * columns, 2 * rows, optics.background as f32);
         let mut above = line(window.top);
         for j in 0..rows {
-            let below = line(window.top + j as i64 + 1);
+            let v = window.top + j as i64;
+            let below = line(v + 1);
             for i in 0..columns {
                 let square = [above[i], above[i + 1], below[i], below[i + 1]];
                 if let [Some(a), Some(b), Some(c), Some(d)] = square {
-                    halves.draw(texture, optics, i, j, &[a, b, c, d]);
+                    canvas.draw(texture, optics, (window.left + i as i64, v), &[a, b, c, d]);
                 }
             }
             above = below;
         }
-        halves
-    }
-
-    /// Vignetting, noise and rounding.
-    fn expose(&self, grey: &mut [f32], optics: &Optics, seed: u64) {
-        let mut random = Random::new(seed);
-        let (width, height) = (self.intrinsics.width as usize, self.intrinsics.height as usize);
-        let (cx, cy) = (0.5 * (width as f64 - 1.0), 0.5 * (height as f64 - 1.0));
-        let farthest = cx * cx + cy * cy;
-        for (i, value) in grey.iter_mut().enumerate() {
-            let (x, y) = ((i % width) as f64 - cx, (i / width) as f64 - cy);
-            let light = 1.0 - optics.vignetting * (x * x + y * y) / farthest;
-            let seen = f64::from(*value) * light + optics.noise * random.normal();
-            *value = seen.round().clamp(0.0, 255.0) as f32;
-        }
     }
 }
 
-fn blur_reach(optics: &Optics) -> f64 {
-    optics.blur_px + optics.defocus_px
+/// Pixels beyond the picture whose light spreads into it.
+pub(super) fn margin(optics: &Optics) -> i64 {
+    let spread = 4.0 * (optics.blur_px + optics.defocus_px) + optics.motion_px;
+    2 + (spread + (optics.aperture_px - 1.0).max(0.0)).ceil() as i64
+}
+
+/// Rows of pixels that are drawn at a time: memory for all cells of a large picture would be much.
+const STRIP: i64 = 128;
+
+/// Lens, light and sensor: what becomes of the scene in front of the camera, which `paint` draws
+/// wherever it can reach the picture: in `window`.
+pub(super) fn develop(
+    (window, paint): (&Window, impl Fn(&mut Canvas)),
+    (width, height): (u32, u32),
+    light: (&Conditions, Option<Glow>),
+    optics: &Optics,
+    seed: u64,
+) -> GrayImage {
+    let size = (width as usize, height as usize);
+    let mut grey = vec![optics.background as f32; size.0 * size.1];
+    let (kernel, margin) = (Kernel::of(optics), margin(optics));
+    for top in (0..i64::from(height)).step_by(STRIP as usize) {
+        let bottom = (top + STRIP).min(i64::from(height));
+        let strip = Window { top: top - margin, bottom: bottom + margin, ..*window };
+        let mut canvas = Canvas::new(strip.within(window), optics.background);
+        if canvas.window().size().0 > 0 && canvas.window().size().1 > 0 {
+            paint(&mut canvas);
+            canvas.gather(&kernel, &mut grey, size, (top, bottom));
+        }
+    }
+    expose(&mut grey, size, light, optics, seed);
+    GrayImage::new(size.0, size.1, grey).expect("as many values as pixels")
+}
+
+/// Uneven light, vignetting, glare, noise and rounding.
+fn expose(
+    grey: &mut [f32],
+    (width, height): (usize, usize),
+    (conditions, glow): (&Conditions, Option<Glow>),
+    optics: &Optics,
+    seed: u64,
+) {
+    let mut random = Random::new(seed);
+    let (cx, cy) = (0.5 * (width as f64 - 1.0), 0.5 * (height as f64 - 1.0));
+    let farthest = cx * cx + cy * cy;
+    let step = optics.depth.step();
+    for (i, value) in grey.iter_mut().enumerate() {
+        let (u, v) = ((i % width) as f64, (i / width) as f64);
+        let (x, y) = (u - cx, v - cy);
+        let corners = 1.0 - optics.vignetting * (x * x + y * y) / farthest;
+        let slope = conditions.light.light(&Vector2::new(x / cx.max(1.0), y / cy.max(1.0)));
+        let glow = glow.as_ref().map_or(0.0, |g| g.at(&Vector2::new(u, v)));
+        let light = f64::from(*value) * corners * slope + glow;
+        let sigma = optics.noise.hypot((optics.shot * light.max(0.0)).sqrt());
+        let seen = light + sigma * random.normal();
+        *value = ((seen / step).round() * step).clamp(0.0, WHITEST) as f32;
+    }
 }
 
 fn rounded(value: f64, step: f64) -> f64 {
@@ -252,182 +367,5 @@ impl<'a> RayGrid<'a> {
             n += jacobian.try_inverse()? * (d - at);
         }
         Some(n)
-    }
-}
-
-/// A rectangle of pixels, right and bottom excluded.
-#[derive(Clone, Copy)]
-struct Window {
-    left: i64,
-    top: i64,
-    right: i64,
-    bottom: i64,
-}
-
-impl Window {
-    fn size(&self) -> (usize, usize) {
-        ((self.right - self.left).max(0) as usize, (self.bottom - self.top).max(0) as usize)
-    }
-
-    /// The part of `self` that lies around `pixels`.
-    fn around(&self, pixels: &[Vector2<f64>], margin: i64) -> Self {
-        let least = |f: fn(&Vector2<f64>) -> f64| {
-            pixels.iter().map(f).fold(f64::INFINITY, f64::min).floor() as i64 - margin
-        };
-        let most = |f: fn(&Vector2<f64>) -> f64| {
-            pixels.iter().map(f).fold(f64::NEG_INFINITY, f64::max).ceil() as i64 + margin
-        };
-        Self {
-            left: self.left.max(least(|p| p.x)),
-            top: self.top.max(least(|p| p.y)),
-            right: self.right.min(most(|p| p.x)),
-            bottom: self.bottom.min(most(|p| p.y)),
-        }
-    }
-}
-
-/// The scene on half pixels.
-struct HalfPixels {
-    width: usize,
-    height: usize,
-    values: Vec<f32>,
-}
-
-/// Points of the Fibonacci lattice that integrates a half pixel crossed by an edge; an edge along
-/// the rows is then placed to 1/356 px at worst.
-const LATTICE: (usize, usize) = (89, 55);
-
-impl HalfPixels {
-    fn new(width: usize, height: usize, value: f32) -> Self {
-        Self { width, height, values: vec![value; width * height] }
-    }
-
-    /// Draws the four halves of pixel `(i, j)`, whose corners see `square` of the target's plane.
-    fn draw(
-        &mut self,
-        texture: &Texture,
-        optics: &Optics,
-        i: usize,
-        j: usize,
-        square: &[Vector2<f64>; 4],
-    ) {
-        let [a, b, c, d] = square;
-        let at = |x: f64, y: f64| {
-            a * ((1.0 - x) * (1.0 - y)) + b * (x * (1.0 - y)) + c * ((1.0 - x) * y) + d * (x * y)
-        };
-        let diagonal = (d - a).norm().max((c - b).norm());
-        let middle = at(0.5, 0.5);
-        if texture.clearance(&middle) > 0.6 * diagonal {
-            let grey = texture.grey(&middle, optics);
-            return (0..4).for_each(|k| self.set(i, j, k, grey));
-        }
-        for (k, (x, y)) in [(0.0, 0.0), (0.5, 0.0), (0.0, 0.5), (0.5, 0.5)].into_iter().enumerate()
-        {
-            let centre = at(x + 0.25, y + 0.25);
-            let grey = if texture.clearance(&centre) > 0.3 * diagonal {
-                texture.grey(&centre, optics)
-            } else {
-                let (n, step) = LATTICE;
-                let sample = |s: usize| {
-                    let (p, q) = (s as f64 + 0.5, ((s * step) % n) as f64 + 0.5);
-                    texture.grey(&at(x + 0.5 * p / n as f64, y + 0.5 * q / n as f64), optics)
-                };
-                (0..n).map(sample).sum::<f64>() / n as f64
-            };
-            self.set(i, j, k, grey);
-        }
-    }
-
-    /// Half `k` of pixel `(i, j)`.
-    fn set(&mut self, i: usize, j: usize, k: usize, grey: f64) {
-        self.values[(2 * j + k / 2) * self.width + 2 * i + k % 2] = grey as f32;
-    }
-
-    /// Gaussian, `sigma` in half pixels.
-    fn blur(&mut self, sigma: f64) {
-        if sigma <= 0.0 {
-            return;
-        }
-        let reach = (4.0 * sigma).ceil() as i64;
-        let weight = |k: i64| (-0.5 * (k as f64 / sigma).powi(2)).exp();
-        let sum: f64 = (-reach..=reach).map(weight).sum();
-        let kernel: Vec<f32> = (-reach..=reach).map(|k| (weight(k) / sum) as f32).collect();
-        self.along_rows(&kernel);
-        self.along_columns(&kernel);
-    }
-
-    fn along_rows(&mut self, kernel: &[f32]) {
-        let (reach, width) = (kernel.len() / 2, self.width);
-        let mut padded = vec![0.0; width + 2 * reach];
-        for row in self.values.chunks_exact_mut(width) {
-            padded[..reach].fill(row[0]);
-            padded[reach..reach + width].copy_from_slice(row);
-            padded[reach + width..].fill(row[width - 1]);
-            row.fill(0.0);
-            for (k, weight) in kernel.iter().enumerate() {
-                for (out, value) in row.iter_mut().zip(&padded[k..]) {
-                    *out += weight * value;
-                }
-            }
-        }
-    }
-
-    fn along_columns(&mut self, kernel: &[f32]) {
-        let reach = kernel.len() / 2;
-        let mut out = vec![0.0; self.values.len()];
-        for (j, row) in out.chunks_exact_mut(self.width).enumerate() {
-            for (k, weight) in kernel.iter().enumerate() {
-                let from = (j + k).saturating_sub(reach).min(self.height - 1) * self.width;
-                for (out, value) in row.iter_mut().zip(&self.values[from..]) {
-                    *out += weight * value;
-                }
-            }
-        }
-        self.values = out;
-    }
-
-    /// Disc of `radius` half pixels.
-    fn defocus(&mut self, radius: f64) {
-        if radius <= 0.0 {
-            return;
-        }
-        let reach = radius.ceil() as i64;
-        let share =
-            |dx: i64, dy: i64| (radius + 0.5 - (dx as f64).hypot(dy as f64)).clamp(0.0, 1.0);
-        let all = || (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy)));
-        let sum: f64 = all().map(|(dx, dy)| share(dx, dy)).sum();
-        let (width, height) = (self.width as i64, self.height as i64);
-        let seen = |x: i64, y: i64| -> f32 {
-            let one = |(dx, dy): (i64, i64)| {
-                let (i, j) = ((x + dx).clamp(0, width - 1), (y + dy).clamp(0, height - 1));
-                self.values[(j * width + i) as usize] * (share(dx, dy) / sum) as f32
-            };
-            all().map(one).sum()
-        };
-        self.values = (0..height)
-            .flat_map(|y| (0..width).map(move |x| (x, y)))
-            .map(|(x, y)| seen(x, y))
-            .collect();
-    }
-
-    /// Averages 2 x 2 halves into the pixels of the picture.
-    fn into_pixels(self, window: &Window, grey: &mut [f32], width: usize, height: usize) {
-        let (columns, rows) = window.size();
-        for j in 0..rows {
-            let y = window.top + j as i64;
-            if y < 0 || y >= height as i64 {
-                continue;
-            }
-            for i in 0..columns {
-                let x = window.left + i as i64;
-                if x >= 0 && x < width as i64 {
-                    let at = 2 * j * self.width + 2 * i;
-                    let below = at + self.width;
-                    let v = &self.values;
-                    grey[y as usize * width + x as usize] =
-                        0.25 * (v[at] + v[at + 1] + v[below] + v[below + 1]);
-                }
-            }
-        }
     }
 }

@@ -1,0 +1,32 @@
+//! Pictures of boards whose corners are known, and what `detect` finds in them; for
+//! `bench/detection/run.py`, which sets other detectors beside it:
+//!
+//! ```text
+//! cargo run --release -p handeye-io --example detection_benchmark -- render FOLDER ACCURACY HARD EMPTY
+//! cargo run --release -p handeye-io --example detection_benchmark -- detect FOLDER
+//! ```
+//!
+//! The numbers are pictures per case. `render` writes PNG files and `truth.json`, the same bytes for
+//! the same numbers; `detect` reads both and writes `handeye.json`.
+
+mod detected;
+mod pictures;
+mod placing;
+
+use std::{env, path::Path, process::ExitCode};
+
+fn main() -> ExitCode {
+    let args: Vec<String> = env::args().skip(1).collect();
+    let number = |k: usize| args.get(k).and_then(|a| a.parse().ok()).unwrap_or(1);
+    match (args.first().map(String::as_str), args.get(1)) {
+        (Some("render"), Some(folder)) => {
+            pictures::render(Path::new(folder), number(2), number(3), number(4));
+        }
+        (Some("detect"), Some(folder)) => detected::detect(Path::new(folder)),
+        _ => {
+            eprintln!("render FOLDER ACCURACY HARD EMPTY | detect FOLDER");
+            return ExitCode::FAILURE;
+        }
+    }
+    ExitCode::SUCCESS
+}
