@@ -89,6 +89,9 @@ pub enum NotFound {
     /// A target whose corners must be imported.
     #[error("{0} cannot be detected yet: import its corners")]
     Unsupported(&'static str),
+    /// A target without corners.
+    #[error("a ball cannot be found in pictures: it is found in 3D scans only")]
+    ScansOnly,
 }
 
 /// Smallest side of a picture (px) with a board of 2 x 2 corners in it.
@@ -241,10 +244,12 @@ impl Family {
                     ),
                 }))
             }
-            // a tag has no grid: it was looked for before
-            TargetModel::Tag { .. } | TargetModel::CircleGrid { .. } => {
-                Err(NotFound::Unsupported("a grid of circles"))
+            TargetModel::Sphere { .. } => Err(NotFound::ScansOnly),
+            TargetModel::Aprilgrid { .. } | TargetModel::TagGrid { .. } => {
+                Err(NotFound::Unsupported("a grid of tags"))
             }
+            // a tag has no grid: it was looked for before
+            _ => Err(NotFound::Unsupported("a grid of circles")),
         }
     }
 
