@@ -46,7 +46,7 @@ pub enum Command {
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
     Init(InitArgs),
     /// Draw a board to print, in true scale.
-    Target(TargetArgs),
+    Target(Box<TargetArgs>),
     /// Compare several results of one cell: do they agree?
     Repeat(RepeatArgs),
     /// Find a tool's tip from flange poses with the tip on one fixed point.

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
+use super::circles;
 use super::homography;
 use super::labelling::{Chess, FindGrids, Grid};
 use super::markers::{self, Dictionary, bilinear};
@@ -86,6 +87,16 @@ pub enum NotFound {
     /// A dictionary that does not exist.
     #[error("unknown marker dictionary {0}")]
     UnknownDictionary(String),
+    /// Circles that are not the board.
+    #[error("{found} circles found, but no grid of {columns} x {rows} among them")]
+    NoGrid {
+        /// Circles of the largest group.
+        found: usize,
+        /// Columns of the board.
+        columns: u32,
+        /// Rows of the board.
+        rows: u32,
+    },
     /// A target whose corners must be imported.
     #[error("{0} cannot be detected yet: import its corners")]
     Unsupported(&'static str),
@@ -109,6 +120,9 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     }
     if let TargetModel::Tag { dictionary, id, .. } = target {
         return tag::detect(image, dictionary, *id);
+    }
+    if target.has_circles() {
+        return circles::detect(image, target);
     }
     let family = Family::of(target)?;
     let mut best = Err(NotFound::NoCorners);

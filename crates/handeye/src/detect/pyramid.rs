@@ -27,6 +27,12 @@ impl Scaled {
         Self { image: draw(width, height, mean), factor: 2.0 }
     }
 
+    /// Half as large once more.
+    pub fn halved_again(&self) -> Self {
+        let half = Self::halved(&self.image);
+        Self { factor: half.factor * self.factor, ..half }
+    }
+
     /// Twice as large, linear between pixels.
     pub fn doubled(image: &GrayImage) -> Self {
         let (width, height) = (image.width(), image.height());
