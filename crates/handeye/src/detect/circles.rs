@@ -166,8 +166,11 @@ impl Sheet<'_> {
         }
         self.complete(&mut ellipses, rough);
         let (found, needed) = (ellipses.len(), self.target.len());
-        let enough = if self.board.has_larger() { rough.len() } else { needed };
-        if found < enough {
+        let enough = match self.board.larger() {
+            Some(larger) => ellipses.contains_key(&larger) && 2 * found >= needed,
+            None => found == needed,
+        };
+        if !enough {
             return Err(NotFound::TooFew { found, needed });
         }
         let (columns, rows) = self.target.grid();

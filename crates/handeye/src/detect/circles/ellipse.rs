@@ -137,11 +137,15 @@ impl Ring {
         let farthest = 1.0 + REACH * (rough.clear - 1.0).max(0.0);
         // the box around the ellipse, widened by the ring
         let half = Vector2::new(rough.shape[(0, 0)].sqrt(), rough.shape[(1, 1)].sqrt());
-        let (low, high) = (centre - half.add_scalar(width), centre + half.add_scalar(width));
         let (right, bottom) = (image.width() as f64 - 1.0, image.height() as f64 - 1.0);
-        if !(low.x >= 0.0 && low.y >= 0.0 && high.x <= right && high.y <= bottom) {
+        let edge = Vector2::new(right, bottom);
+        // the ellipse must be in the picture, the ring around it is cut off where that ends
+        let inside = (centre - half).min() >= 0.0 && (edge - centre - half).min() >= 0.0;
+        if !inside {
             return None;
         }
+        let low = (centre - half.add_scalar(width)).sup(&Vector2::zeros());
+        let high = (centre + half.add_scalar(width)).inf(&edge);
         let axes = rough.shape.symmetric_eigenvalues().map(f64::sqrt);
         let expected = std::f64::consts::PI * (axes.sum()) * 2.0 * width;
         let every = expected as usize / most + 1;

@@ -194,6 +194,22 @@ fn a_part_of_a_grid_with_a_larger_circle_is_enough() {
 }
 
 #[test]
+fn circles_just_inside_the_picture_are_found() {
+    for target in [symmetric(7, 5), modified(7, 5)] {
+        let mut scene = scene(&target, pinhole(), (0.0, 0.0, 0.0), 18.0);
+        let left = scene.corners().iter().map(|c| c.1.x).fold(f64::INFINITY, f64::min);
+        // 50 px to a pitch: the edge of the widest circle comes to 2 px from the picture's
+        let radius = if target == symmetric(7, 5) { 12.5 } else { 20.0 };
+        let aside = (radius + 2.0 - left) / 900.0 * 18.0 * target.pitch_m();
+        let shift = Pose::from_parts(&Matrix3::identity(), Vector3::new(aside, 0.0, 0.0));
+        scene.camera_from_target = shift * scene.camera_from_target;
+        let found = detect(&scene.picture(&Optics::default(), 4), &target).unwrap();
+        assert_eq!(found.len(), target.len());
+        assert!(rms(&errors(&scene, &found)) < 0.01, "{}", rms(&errors(&scene, &found)));
+    }
+}
+
+#[test]
 fn a_covered_circle_is_not_guessed() {
     let target = symmetric(7, 5);
     let scene = scene(&target, pinhole(), (0.3, 1.0, 0.2), 18.0);
