@@ -46,7 +46,7 @@ pub enum Command {
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
     Init(InitArgs),
     /// Draw a board to print, in true scale.
-    Target(TargetArgs),
+    Target(Box<TargetArgs>),
     /// Compare several results of one cell: do they agree?
     Repeat(RepeatArgs),
     /// Find a tool's tip from flange poses with the tip on one fixed point.
@@ -162,24 +162,36 @@ pub struct InitArgs {
 /// Arguments of `target`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye target --checkerboard 11x8 --square-mm 20 --out board.pdf\n  handeye target --charuco 7x5 --square-mm 35 --marker-mm 26 \\\n      --dictionary DICT_5X5_100 --out board.svg --paper a3\n  handeye target cell/handeye.toml --out board.pdf --paper 600x500"
+    after_help = "Examples:\n  handeye target --checkerboard 11x8 --square-mm 20 --out board.pdf\n  handeye target --charuco 7x5 --square-mm 35 --marker-mm 26 \\\n      --dictionary DICT_5X5_100 --out board.svg --paper a3\n  handeye target --aprilgrid 6x6 --tag-mm 24 --out board.pdf\n  handeye target cell/handeye.toml --out board.pdf --paper 600x500"
 )]
 pub struct TargetArgs {
     /// A manifest or another TOML file with a `[target]`.
-    #[arg(conflicts_with_all = ["checkerboard", "charuco", "tag", "circle_grid"])]
+    #[arg(group = "kind")]
     pub target: Option<PathBuf>,
     /// Checkerboard of so many INNER corners: columns x rows.
-    #[arg(long, value_name = "CxR", conflicts_with_all = ["charuco", "tag", "circle_grid"])]
+    #[arg(long, value_name = "CxR", group = "kind")]
     pub checkerboard: Option<String>,
     /// ChArUco board of so many squares: columns x rows.
-    #[arg(long, value_name = "XxY", conflicts_with_all = ["tag", "circle_grid"])]
+    #[arg(long, value_name = "XxY", group = "kind")]
     pub charuco: Option<String>,
+    /// Kalibr's grid of so many AprilTags: columns x rows.
+    #[arg(long, value_name = "XxY", group = "kind")]
+    pub aprilgrid: Option<String>,
+    /// OpenCV's grid of so many markers: columns x rows.
+    #[arg(long, value_name = "XxY", group = "kind")]
+    pub tag_grid: Option<String>,
     /// One ArUco or AprilTag marker with this id.
-    #[arg(long, value_name = "ID", conflicts_with = "circle_grid")]
+    #[arg(long, value_name = "ID", group = "kind")]
     pub tag: Option<u32>,
     /// Grid of so many circles: columns x rows.
-    #[arg(long, value_name = "CxR")]
+    #[arg(long, value_name = "CxR", group = "kind")]
     pub circle_grid: Option<String>,
+    /// OpenCV's asymmetric grid: circles in a row x rows.
+    #[arg(long, value_name = "CxR", group = "kind")]
+    pub asymmetric_circle_grid: Option<String>,
+    /// ROS-Industrial's grid with one larger circle: columns x rows.
+    #[arg(long, value_name = "CxR", group = "kind")]
+    pub modified_circle_grid: Option<String>,
     /// Side of a square.
     #[arg(long)]
     pub square_mm: Option<f64>,
@@ -189,13 +201,34 @@ pub struct TargetArgs {
     /// OpenCV's name of the markers, such as DICT_6X6_250.
     #[arg(long)]
     pub dictionary: Option<String>,
+    /// Family of an aprilgrid's tags: 16h5, 25h9, 36h10 or 36h11.
+    #[arg(long, value_name = "NAME", default_value = "36h11")]
+    pub family: String,
+    /// Side of the black square of a grid's tags.
+    #[arg(long)]
+    pub tag_mm: Option<f64>,
+    /// Gap between an aprilgrid's tags over the side of a tag.
+    #[arg(long, value_name = "RATIO", default_value_t = 0.3)]
+    pub spacing: f64,
+    /// Gap between the tags of a tag grid.
+    #[arg(long)]
+    pub gap_mm: Option<f64>,
+    /// The first tag of a grid.
+    #[arg(long, value_name = "ID", default_value_t = 0)]
+    pub first_id: u32,
+    /// Width of the black border of an aprilgrid's tags, bits; Kalibr's own drawings have 2.
+    #[arg(long, value_name = "BITS", default_value_t = 1)]
+    pub border_bits: u32,
+    /// No black squares where the gaps of an aprilgrid cross.
+    #[arg(long)]
+    pub no_corner_squares: bool,
     /// ChArUco layout of OpenCV before 4.6.
     #[arg(long)]
     pub legacy: bool,
     /// Side of the single marker's black square.
     #[arg(long)]
     pub size_mm: Option<f64>,
-    /// Distance between the centres of neighbouring circles.
+    /// Distance between the centres of neighbouring circles; in an asymmetric grid between rows.
     #[arg(long)]
     pub pitch_mm: Option<f64>,
     /// The drawing, .pdf or .svg; a .toml with the `[target]` is written beside it.

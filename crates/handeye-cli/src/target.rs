@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::TargetModel;
+use handeye::{TargetModel, target::AprilTagFamily};
 use handeye_io::{
     drawing::{self, DrawingError, Paper},
     read_target, target_toml, write_atomically,
@@ -110,13 +110,61 @@ fn target(args: &TargetArgs) -> Result<TargetModel, Failure> {
         let dictionary = needed("dictionary", args.dictionary.clone())?;
         return Ok(TargetModel::Tag { dictionary, id, size_mm: needed("size-mm", args.size_mm)? });
     }
+    if let Some(target) = grid_of_tags(args)? {
+        return Ok(target);
+    }
+    if let Some(target) = grid_of_circles(args)? {
+        return Ok(target);
+    }
+    let what = "which target? Name a TOML file, or --checkerboard, --charuco, --aprilgrid, \
+                --tag-grid, --tag, --circle-grid, --asymmetric-circle-grid, --modified-circle-grid";
+    Err(Failure::Usage(what.into()))
+}
+
+fn grid_of_tags(args: &TargetArgs) -> Result<Option<TargetModel>, Failure> {
+    if let Some(size) = &args.aprilgrid {
+        let (tags_x, tags_y) = pair("aprilgrid", size)?;
+        return Ok(Some(TargetModel::Aprilgrid {
+            tags_x,
+            tags_y,
+            tag_mm: needed("tag-mm", args.tag_mm)?,
+            spacing: args.spacing,
+            family: family(&args.family)?,
+            first_id: args.first_id,
+            corner_squares: !args.no_corner_squares,
+            border_bits: args.border_bits,
+        }));
+    }
+    let Some(size) = &args.tag_grid else { return Ok(None) };
+    let (tags_x, tags_y) = pair("tag-grid", size)?;
+    Ok(Some(TargetModel::TagGrid {
+        dictionary: needed("dictionary", args.dictionary.clone())?,
+        tags_x,
+        tags_y,
+        tag_mm: needed("tag-mm", args.tag_mm)?,
+        gap_mm: needed("gap-mm", args.gap_mm)?,
+        first_id: args.first_id,
+    }))
+}
+
+fn family(name: &str) -> Result<AprilTagFamily, Failure> {
+    AprilTagFamily::named(name)
+        .ok_or_else(|| Failure::Usage(format!("--family {name}: write 16h5, 25h9, 36h10 or 36h11")))
+}
+
+fn grid_of_circles(args: &TargetArgs) -> Result<Option<TargetModel>, Failure> {
+    let pitch = || needed("pitch-mm", args.pitch_mm);
     if let Some(size) = &args.circle_grid {
         let (columns, rows) = pair("circle-grid", size)?;
-        let pitch_mm = needed("pitch-mm", args.pitch_mm)?;
-        return Ok(TargetModel::CircleGrid { columns, rows, pitch_mm });
+        return Ok(Some(TargetModel::CircleGrid { columns, rows, pitch_mm: pitch()? }));
     }
-    let what = "which target? Name a TOML file, or --checkerboard, --charuco, --tag, --circle-grid";
-    Err(Failure::Usage(what.into()))
+    if let Some(size) = &args.asymmetric_circle_grid {
+        let (columns, rows) = pair("asymmetric-circle-grid", size)?;
+        return Ok(Some(TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm: pitch()? }));
+    }
+    let Some(size) = &args.modified_circle_grid else { return Ok(None) };
+    let (columns, rows) = pair("modified-circle-grid", size)?;
+    Ok(Some(TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm: pitch()? }))
 }
 
 fn needed<T>(name: &str, value: Option<T>) -> Result<T, Failure> {

@@ -38,7 +38,7 @@ pub fn read_target(path: &Path) -> Result<TargetModel, Error> {
     Ok(target)
 }
 
-const ADVICE: &str = "write kind = \"checkerboard\" (or charuco, tag, circle-grid) and its dimensions under [target]";
+const ADVICE: &str = "write kind = \"checkerboard\" (or charuco, aprilgrid, tag-grid, tag, circle-grid, asymmetric-circle-grid, modified-circle-grid, sphere) and its dimensions under [target]";
 
 /// The lines of a manifest that describe a target.
 pub fn target_toml(target: &TargetModel) -> String {

@@ -98,3 +98,14 @@ fn a_printed_charuco_board_is_found_in_true_scale() {
         check(name, &board, "a3");
     }
 }
+
+#[test]
+fn printed_grids_of_circles_are_found_in_true_scale() {
+    let pitch_mm = 20.0;
+    let grid = TargetModel::CircleGrid { columns: 9, rows: 6, pitch_mm };
+    check("circles", &grid, "a4");
+    let grid = TargetModel::AsymmetricCircleGrid { columns: 4, rows: 11, pitch_mm };
+    check("asymmetric", &grid, "a4");
+    let grid = TargetModel::ModifiedCircleGrid { columns: 10, rows: 8, pitch_mm };
+    check("modified", &grid, "a4");
+}

@@ -7,6 +7,7 @@ pub mod certify;
 mod chance;
 pub mod detect;
 pub mod diagnose;
+pub mod dictionary;
 pub mod error;
 pub mod evaluate;
 pub mod frame;

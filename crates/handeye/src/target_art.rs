@@ -4,10 +4,9 @@
 //! white. Shapes of one drawing belong into one path, filled by the nonzero rule: neighbours then
 //! meet without a seam.
 
-use crate::{
-    Error, TargetModel,
-    detect::markers::{Dictionary, marker_of_square},
-};
+use nalgebra::Vector2;
+
+use crate::{Error, TargetModel, detect::markers::marker_of_square, dictionary::Dictionary};
 
 /// Something black.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,13 +50,17 @@ pub struct Art {
 
 /// Diameter of a circle over the distance between neighbours.
 const DISC_SHARE: f64 = 0.5;
+/// Diameters of the usual and of the larger circle of ROS-Industrial's grid, over the distance
+/// between neighbours: circles of 10 and 20 mm, 25 mm apart.
+pub const MODIFIED_SHARES: (f64, f64) = (0.4, 0.8);
 /// White around a checkerboard, over the side of a square.
 const RIM_SHARE: f64 = 0.25;
 
-/// The drawing of a target. A circle's diameter is half the distance between neighbours.
+/// The drawing of a target. A circle's diameter is half the distance between neighbours, in
+/// ROS-Industrial's grid 0.4 and 0.8 times that distance.
 ///
 /// # Errors
-/// Dimensions that no board has, an unknown dictionary, a dictionary with too few markers.
+/// Dimensions that no board has, an unknown dictionary, a dictionary with too few markers; a ball.
 pub fn art(target: &TargetModel) -> Result<Art, Error> {
     target.check()?;
     match target {
@@ -84,13 +87,43 @@ pub fn art(target: &TargetModel) -> Result<Art, Error> {
                 width: *size_mm,
                 height: *size_mm,
                 white_rim: cell(&dictionary, *size_mm),
-                shapes: marker(&dictionary, *id, (0.0, 0.0), *size_mm),
+                shapes: marker(&dictionary, *id, &Square::upright((0.0, 0.0), *size_mm)),
                 target_origin: (0.5 * size_mm, 0.5 * size_mm),
             })
         }
-        &TargetModel::CircleGrid { columns, rows, pitch_mm } => {
-            Ok(circles(columns, rows, pitch_mm))
+        TargetModel::CircleGrid { .. }
+        | TargetModel::AsymmetricCircleGrid { .. }
+        | TargetModel::ModifiedCircleGrid { .. } => Ok(circles(target)),
+        TargetModel::Aprilgrid { family, tag_mm, spacing, corner_squares, border_bits, .. } => {
+            let gap = tag_mm * spacing;
+            let mut art = tags(target, &named(family.dictionary())?, *border_bits, gap);
+            if *corner_squares {
+                art.shapes.extend(corner_squares_of(target, *tag_mm, gap));
+            }
+            Ok(art)
         }
+        TargetModel::TagGrid { dictionary, gap_mm, .. } => {
+            Ok(tags(target, &named(dictionary)?, 1, *gap_mm))
+        }
+        TargetModel::Sphere { .. } => {
+            Err(Error::Invalid("target: a ball is not printed; it is found in 3D scans".into()))
+        }
+    }
+}
+
+/// The diameter (mm) of the circle with this id.
+pub fn disc_diameter_mm(target: &TargetModel, id: u32) -> f64 {
+    match *target {
+        TargetModel::CircleGrid { pitch_mm, .. } => DISC_SHARE * pitch_mm,
+        // the nearest neighbour is in the next row
+        TargetModel::AsymmetricCircleGrid { pitch_mm, .. } => {
+            DISC_SHARE * std::f64::consts::SQRT_2 * pitch_mm
+        }
+        TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm } => {
+            let (usual, larger) = MODIFIED_SHARES;
+            pitch_mm * if id == (rows - 1) * columns { larger } else { usual }
+        }
+        _ => 0.0,
     }
 }
 
@@ -132,7 +165,7 @@ fn markers(
             if let Some(id) = marker_of_square(column, row, across as usize, white_first) {
                 check_marker(dictionary, id)?;
                 let at = (f64::from(i) * side + inset, f64::from(j) * side + inset);
-                shapes.extend(marker(dictionary, id, at, size));
+                shapes.extend(marker(dictionary, id, &Square::upright(at, size)));
             }
         }
     }
@@ -162,13 +195,28 @@ fn cell(dictionary: &Dictionary, size: f64) -> f64 {
     size / (dictionary.side() + 2) as f64
 }
 
+/// Where a marker is drawn, and how.
+struct Square {
+    left: f64,
+    top: f64,
+    size: f64,
+    /// Width of the black border, bits.
+    border: u32,
+    /// By half a turn.
+    turned: bool,
+}
+
+impl Square {
+    fn upright((left, top): (f64, f64), size: f64) -> Self {
+        Self { left, top, size, border: 1, turned: false }
+    }
+}
+
 /// Runs of black cells, row by row, the border included.
-fn marker(dictionary: &Dictionary, id: u32, (left, top): (f64, f64), size: f64) -> Vec<Shape> {
-    let (n, cell) = (dictionary.side() + 2, cell(dictionary, size));
-    let is_black = |i: usize, j: usize| {
-        let border = i == 0 || j == 0 || i == n - 1 || j == n - 1;
-        border || dictionary.is_black(id, i - 1, j - 1)
-    };
+fn marker(dictionary: &Dictionary, id: u32, square: &Square) -> Vec<Shape> {
+    let n = dictionary.side() + 2 * square.border as usize;
+    let cell = square.size / n as f64;
+    let is_black = |i, j| dictionary.is_cell_black(id, square.border, square.turned, (i, j));
     let mut shapes = vec![];
     for j in 0..n {
         let mut i = 0;
@@ -176,8 +224,8 @@ fn marker(dictionary: &Dictionary, id: u32, (left, top): (f64, f64), size: f64) 
             let run = (i..n).take_while(|&k| is_black(k, j)).count();
             if run > 0 {
                 shapes.push(Shape::Rectangle {
-                    x: left + i as f64 * cell,
-                    y: top + j as f64 * cell,
+                    x: square.left + i as f64 * cell,
+                    y: square.top + j as f64 * cell,
                     width: run as f64 * cell,
                     height: cell,
                 });
@@ -188,22 +236,63 @@ fn marker(dictionary: &Dictionary, id: u32, (left, top): (f64, f64), size: f64) 
     shapes
 }
 
-fn circles(columns: u32, rows: u32, pitch: f64) -> Art {
-    let radius = 0.5 * DISC_SHARE * pitch;
-    let centres = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
-    let disc = |(i, j): (u32, u32)| Shape::Disc {
-        x: radius + f64::from(i) * pitch,
-        y: radius + f64::from(j) * pitch,
-        radius,
-    };
-    let extent = |n: u32| f64::from(n - 1) * pitch + 2.0 * radius;
+/// The discs of a grid of circles.
+fn circles(target: &TargetModel) -> Art {
+    let discs: Vec<(f64, f64, f64)> = (0..)
+        .zip(target.corners())
+        .map(|(id, at)| {
+            let at = 1e3 * at.vector();
+            (at.x, at.y, 0.5 * disc_diameter_mm(target, id))
+        })
+        .collect();
+    let least = |f: fn(&(f64, f64, f64)) -> f64| discs.iter().map(f).fold(f64::INFINITY, f64::min);
+    let (left, top) = (least(|d| d.0 - d.2), least(|d| d.1 - d.2));
+    let (right, bottom) = (-least(|d| -d.0 - d.2), -least(|d| -d.1 - d.2));
+    let disc = |&(x, y, radius): &(f64, f64, f64)| Shape::Disc { x: x - left, y: y - top, radius };
     Art {
-        width: extent(columns),
-        height: extent(rows),
-        white_rim: radius,
-        shapes: centres.map(disc).collect(),
-        target_origin: (radius, radius),
+        width: right - left,
+        height: bottom - top,
+        white_rim: least(|d| d.2),
+        shapes: discs.iter().map(disc).collect(),
+        target_origin: (-left, -top),
     }
+}
+
+/// A grid of tags that are `gap` apart; around it a gap stays for corner squares or for white.
+fn tags(target: &TargetModel, dictionary: &Dictionary, border: u32, gap: f64) -> Art {
+    let placed = target.tags();
+    let corner = |at: Vector2<f64>| at * 1e3;
+    let low = placed
+        .iter()
+        .map(|t| corner(t.top_left))
+        .fold(Vector2::repeat(f64::INFINITY), |a, b| a.inf(&b));
+    let size = target.pitch_m() * 1e3;
+    let high = placed
+        .iter()
+        .map(|t| corner(t.top_left))
+        .fold(Vector2::repeat(f64::NEG_INFINITY), |a, b| a.sup(&b));
+    let origin = Vector2::repeat(gap) - low;
+    let shapes = placed.iter().flat_map(|tag| {
+        let at = corner(tag.top_left) + origin;
+        let square = Square { left: at.x, top: at.y, size, border, turned: tag.turned };
+        marker(dictionary, tag.marker, &square)
+    });
+    let extent = (high - low).add_scalar(size + 2.0 * gap);
+    Art {
+        width: extent.x,
+        height: extent.y,
+        white_rim: gap,
+        shapes: shapes.collect(),
+        target_origin: (origin.x, origin.y),
+    }
+}
+
+/// Squares where the gaps cross, those at the rim too.
+fn corner_squares_of(target: &TargetModel, tag: f64, gap: f64) -> Vec<Shape> {
+    let (columns, rows) = target.grid();
+    let at = |k: u32| f64::from(k) * (tag + gap);
+    let square = |(i, j)| Shape::Rectangle { x: at(i), y: at(j), width: gap, height: gap };
+    (0..=rows / 2).flat_map(|j| (0..=columns / 2).map(move |i| (i, j))).map(square).collect()
 }
 
 #[cfg(test)]

@@ -181,7 +181,12 @@ fn corner(record: &Record, context: &TouchContext) -> Result<u32, Error> {
                         "rows and columns count from 0",
                     ));
                 }
-                row * f64::from(columns) + column
+                // a fraction stays one, and is refused below
+                let whole =
+                    row.fract() == 0.0 && column.fract() == 0.0 && row >= 0.0 && column >= 0.0;
+                let id = context.target.filter(|_| whole);
+                let id = id.and_then(|target| target.id_at(column as u32, row as u32));
+                id.map_or(row * f64::from(columns) + column, f64::from)
             }
             _ => {
                 return Err(record.refuse(

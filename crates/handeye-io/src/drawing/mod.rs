@@ -225,7 +225,31 @@ pub fn caption(target: &TargetModel) -> String {
         TargetModel::CircleGrid { columns, rows, pitch_mm } => {
             format!("Circle grid, {columns} x {rows} circles, {pitch_mm} mm from centre to centre")
         }
+        TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm } => format!(
+            "Asymmetric circle grid, {rows} rows of {columns} circles, {pitch_mm} mm from row to row"
+        ),
+        TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm } => format!(
+            "Circle grid with a larger one, {columns} x {rows} circles, {pitch_mm} mm from centre to \
+             centre"
+        ),
+        TargetModel::Aprilgrid { tags_x, tags_y, tag_mm, spacing, family, first_id, .. } => {
+            format!(
+                "Aprilgrid, {tags_x} x {tags_y} tags of {tag_mm} mm, gaps of {} mm, {} from {first_id}",
+                round(tag_mm * spacing),
+                family.dictionary()
+            )
+        }
+        TargetModel::TagGrid { dictionary, tags_x, tags_y, tag_mm, gap_mm, first_id } => format!(
+            "Tag grid, {tags_x} x {tags_y} tags of {tag_mm} mm, gaps of {gap_mm} mm, {dictionary} \
+             from {first_id}"
+        ),
+        TargetModel::Sphere { diameter_mm } => format!("Ball of {diameter_mm} mm"),
     }
+}
+
+/// To a micrometre.
+fn round(mm: f64) -> f64 {
+    (mm * 1e3).round() / 1e3
 }
 
 #[cfg(test)]

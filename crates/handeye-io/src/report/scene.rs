@@ -99,9 +99,7 @@ fn cell_size(captures: &[CaptureResult]) -> f64 {
 }
 
 fn outline(target: &TargetModel) -> Vec<Vector3<f64>> {
-    let (columns, rows) = target.grid();
-    let ids = [0, columns - 1, columns * rows - 1, columns * (rows - 1)];
-    let ids = if matches!(target, TargetModel::Tag { .. }) { [0, 1, 2, 3] } else { ids };
+    let ids = target.outline();
     let mut points: Vec<_> =
         ids.iter().filter_map(|&id| target.corner(id)).map(|p| p.vector()).collect();
     points.extend(points.first().copied());

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
+use super::circles;
 use super::grid::Grid;
 use super::homography;
 use super::markers::{self, Dictionary, bilinear};
@@ -87,9 +88,22 @@ pub enum NotFound {
     /// A dictionary that does not exist.
     #[error("unknown marker dictionary {0}")]
     UnknownDictionary(String),
+    /// Circles that are not the board.
+    #[error("{found} circles found, but no grid of {columns} x {rows} among them")]
+    NoGrid {
+        /// Circles of the largest group.
+        found: usize,
+        /// Columns of the board.
+        columns: u32,
+        /// Rows of the board.
+        rows: u32,
+    },
     /// A target whose corners must be imported.
     #[error("{0} cannot be detected yet: import its corners")]
     Unsupported(&'static str),
+    /// A target without corners.
+    #[error("a ball cannot be found in pictures: it is found in 3D scans only")]
+    ScansOnly,
 }
 
 /// Smallest side of a picture (px) with a board of 2 x 2 corners in it.
@@ -107,6 +121,9 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     }
     if let TargetModel::Tag { dictionary, id, .. } = target {
         return tag::detect(image, dictionary, *id);
+    }
+    if target.has_circles() {
+        return circles::detect(image, target);
     }
     let family = Family::of(target)?;
     let mut best = Err(NotFound::NoCorners);
@@ -132,15 +149,10 @@ const MOST_TO_DOUBLE: usize = 4_000_000;
 
 /// The picture at half sizes, the smallest first, and last doubled.
 fn levels(image: &GrayImage) -> impl Iterator<Item = Scaled<'_>> {
-    let mut all = vec![Scaled::same(image)];
-    while let Some(last) = all.last()
-        && last.image.width().max(last.image.height()) > COARSEST
-    {
-        all.push(last.halved());
-    }
+    let halves = Scaled::halves(image, |half| half.width().max(half.height()) <= COARSEST);
     let small = image.width() * image.height() <= MOST_TO_DOUBLE;
     let doubled = small.then_some(image).into_iter().map(Scaled::doubled);
-    all.into_iter().rev().chain(doubled)
+    halves.chain(doubled)
 }
 
 type Outcome = Result<Vec<ImageCorner>, NotFound>;
@@ -204,10 +216,12 @@ impl Family {
                     ),
                 }))
             }
-            // a tag has no grid: it was looked for before
-            TargetModel::Tag { .. } | TargetModel::CircleGrid { .. } => {
-                Err(NotFound::Unsupported("a grid of circles"))
+            TargetModel::Sphere { .. } => Err(NotFound::ScansOnly),
+            TargetModel::Aprilgrid { .. } | TargetModel::TagGrid { .. } => {
+                Err(NotFound::Unsupported("a grid of tags"))
             }
+            // a tag has no grid: it was looked for before
+            _ => Err(NotFound::Unsupported("a grid of circles")),
         }
     }
 

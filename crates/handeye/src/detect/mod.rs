@@ -1,10 +1,12 @@
 //! What the camera saw of the target.
 //!
 //! A picture goes through three steps: `crossings` and `mesh` find grids of corners, [`board`] decides
-//! which corner of the target each one is, and [`subpixel`] measures where exactly they are. From
-//! the corners, [`planar_pose`] has the target's pose, and [`surface`] their places on a scan.
+//! which corner of the target each one is, and [`subpixel`] measures where exactly they are; grids
+//! of [`circles`] and single tags have ways of their own. From the corners, [`planar_pose`] has the
+//! target's pose, and [`surface`] their places on a scan.
 
 pub mod board;
+pub mod circles;
 mod crossings;
 mod erf;
 mod grid;

@@ -154,16 +154,25 @@ pub fn relabelled(corners: &[ImageCorner], map: &[u32]) -> Vec<ImageCorner> {
 
 /// The turn of the board that takes corner `map[id]` to corner `id`.
 pub fn symmetry_turn(target: &TargetModel, map: &[u32]) -> Pose<Target, Target> {
-    let at = |id: usize| target.corner(map[id]).map_or(Vector3::zeros(), |p| p.vector());
-    let here = target.corners();
-    let columns = target.grid().0 as usize;
-    // the directions of the first row and column fix the turn; a tag's third corner lies across
-    let x = (at(1) - at(0)).normalize();
-    let down = at(columns) - at(0);
+    let here: Vec<Vector3<f64>> = target.corners().iter().map(|c| c.vector()).collect();
+    let there: Vec<Vector3<f64>> =
+        map.iter().filter_map(|&id| here.get(id as usize).copied()).collect();
+    let (Some(from), Some(into)) = (axes(&there), axes(&here)) else { return Pose::identity() };
+    let rotation = into * from.transpose();
+    Pose::from_parts(&rotation, here[0] - rotation * there[0])
+}
+
+/// Axes that move with the corners: from the first to the second one, and from there towards the
+/// corner farthest from that line.
+fn axes(corners: &[Vector3<f64>]) -> Option<Matrix3<f64>> {
+    let (first, second) = (corners.first()?, corners.get(1)?);
+    let x = (second - first).normalize();
+    let off = |c: &Vector3<f64>| x.cross(&(c - first)).norm_squared();
+    // of equally far ones the first
+    let farthest = corners.iter().rev().max_by(|a, b| off(a).total_cmp(&off(b)))?;
+    let down = farthest - first;
     let y = (down - x * x.dot(&down)).normalize();
-    let there = Matrix3::from_columns(&[x, y, x.cross(&y)]);
-    let rotation = there.transpose();
-    Pose::from_parts(&rotation, here[0].vector() - rotation * at(0))
+    Some(Matrix3::from_columns(&[x, y, x.cross(&y)]))
 }
 
 /// A corner in the picture, with its place on the board.

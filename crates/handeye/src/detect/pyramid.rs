@@ -37,6 +37,21 @@ impl<'a> Scaled<'a> {
         Self { image: Cow::Owned(image), factor: 2.0 * self.factor }
     }
 
+    /// The picture and its halves, halves of these and so on, until one is `small_enough`; the
+    /// smallest first.
+    pub fn halves(
+        image: &'a GrayImage,
+        small_enough: impl Fn(&GrayImage) -> bool,
+    ) -> impl Iterator<Item = Self> {
+        let mut all = vec![Self::same(image)];
+        while let Some(last) = all.last()
+            && !small_enough(&last.image)
+        {
+            all.push(last.halved());
+        }
+        all.into_iter().rev()
+    }
+
     /// Twice as large, linear between pixels.
     pub fn doubled(image: &GrayImage) -> Self {
         let (width, height) = (image.width(), image.height());

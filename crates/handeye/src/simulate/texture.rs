@@ -4,11 +4,12 @@ use nalgebra::Vector2;
 
 use super::Optics;
 use crate::{
-    TargetModel,
-    detect::markers::{Dictionary, marker_of_square},
+    TargetModel, detect::markers::marker_of_square, dictionary::Dictionary,
+    target_art::disc_diameter_mm,
 };
 
-/// The print on a board. Lengths in units of a cell: a square, or a bit of a single tag.
+/// The print on a board. Lengths in units of a cell: a square, a bit of a single tag, a tag of a
+/// grid, the distance between circles (or rows of circles).
 pub(super) struct Texture {
     columns: f64,
     rows: f64,
@@ -23,6 +24,8 @@ enum Print {
     Squares,
     Markers { dictionary: Dictionary, share: f64, white_first: bool, squares_x: usize },
     Tag { dictionary: Dictionary, id: u32 },
+    Tags(Tags),
+    Discs(Discs),
 }
 
 impl Texture {
@@ -69,7 +72,72 @@ impl Texture {
                     print: Print::Tag { dictionary, id: *id },
                 })
             }
-            TargetModel::CircleGrid { .. } => None,
+            TargetModel::CircleGrid { .. }
+            | TargetModel::AsymmetricCircleGrid { .. }
+            | TargetModel::ModifiedCircleGrid { .. } => Some(Self::circles(target)),
+            TargetModel::Aprilgrid { spacing, family, corner_squares, border_bits, .. } => {
+                let dictionary = Dictionary::named(family.dictionary())?;
+                Some(Self::tags(target, dictionary, *spacing, (*border_bits, *corner_squares)))
+            }
+            TargetModel::TagGrid { dictionary, tag_mm, gap_mm, .. } => {
+                let dictionary = Dictionary::named(dictionary)?;
+                Some(Self::tags(target, dictionary, gap_mm / tag_mm, (1, false)))
+            }
+            TargetModel::Sphere { .. } => None,
+        }
+    }
+
+    fn circles(target: &TargetModel) -> Self {
+        let cell_m = target.pitch_m();
+        let centres = || target.corners().into_iter().map(|c| c.vector().xy() / cell_m);
+        let low = centres().fold(Vector2::repeat(f64::INFINITY), |a, b| a.inf(&b));
+        let high = centres().fold(Vector2::repeat(f64::NEG_INFINITY), |a, b| a.sup(&b));
+        let radius = |id| 0.5e-3 * disc_diameter_mm(target, id) / cell_m;
+        let discs = (0..).zip(centres()).map(|(id, at)| (at - low, radius(id)));
+        let extent = high - low;
+        Self {
+            columns: extent.x,
+            rows: extent.y,
+            margin: 1.0,
+            cell_m,
+            origin: -low,
+            print: Print::Discs(Discs::new(discs, (extent.x as usize + 1, extent.y as usize + 1))),
+        }
+    }
+
+    fn tags(
+        target: &TargetModel,
+        dictionary: Dictionary,
+        spacing: f64,
+        (border, corner_squares): (u32, bool),
+    ) -> Self {
+        let (columns, rows) = target.grid();
+        let placed = target.tags();
+        let cell_m = target.pitch_m();
+        let corner = placed.iter().map(|t| t.top_left / cell_m);
+        let low = corner.fold(Vector2::repeat(f64::INFINITY), |a, b| a.inf(&b));
+        let across = columns as usize / 2;
+        let mut ids = vec![0; placed.len()];
+        for tag in &placed {
+            let at = (tag.top_left / cell_m - low) / (1.0 + spacing);
+            ids[at.y.round() as usize * across + at.x.round() as usize] = tag.marker;
+        }
+        let extent = |n: u32| f64::from(n / 2) * (1.0 + spacing) + spacing;
+        Self {
+            columns: extent(columns),
+            rows: extent(rows),
+            margin: spacing,
+            cell_m,
+            origin: Vector2::repeat(spacing) - low,
+            print: Print::Tags(Tags {
+                dictionary,
+                ids,
+                across,
+                spacing,
+                border,
+                corner_squares,
+                turned: placed.first().is_some_and(|t| t.turned),
+            }),
         }
     }
 
@@ -106,12 +174,17 @@ impl Texture {
     }
 
     fn is_black(&self, q: &Vector2<f64>) -> bool {
+        if let Print::Discs(discs) = &self.print {
+            return discs.distance(q) < 0.0;
+        }
         if q.x < 0.0 || q.y < 0.0 || q.x >= self.columns || q.y >= self.rows {
             return false;
         }
         let (i, j) = (q.x as usize, q.y as usize);
         match &self.print {
             Print::Squares => (i + j) % 2 == 0,
+            Print::Tags(tags) => tags.is_black(q),
+            Print::Discs(_) => false,
             Print::Tag { dictionary, id } => marker_is_black(dictionary, *id, i, j),
             Print::Markers { dictionary, share, white_first, squares_x } => {
                 if (i + j + usize::from(*white_first)) % 2 == 0 {
@@ -133,15 +206,116 @@ impl Texture {
         let q = self.in_cells(at);
         let to_line = |x: f64| (x - x.round()).abs();
         let lines = to_line(q.x).min(to_line(q.y));
-        let Print::Markers { dictionary, share, .. } = &self.print else {
-            return lines * self.cell_m;
+        let cells = match &self.print {
+            Print::Squares | Print::Tag { .. } => lines,
+            Print::Markers { dictionary, share, .. } => {
+                let n = (dictionary.side() + 2) as f64;
+                let to_bit = |x: f64| {
+                    let bit = ((x - x.floor() - 0.5) / share + 0.5) * n;
+                    (bit - bit.round().clamp(0.0, n)).abs() * share / n
+                };
+                lines.min(to_bit(q.x)).min(to_bit(q.y))
+            }
+            Print::Tags(tags) => tags.clearance(&q).min(self.to_paper(&q)),
+            Print::Discs(discs) => discs.distance(&q).abs().min(self.to_paper(&q)),
         };
-        let n = (dictionary.side() + 2) as f64;
-        let to_bit = |x: f64| {
-            let bit = ((x - x.floor() - 0.5) / share + 0.5) * n;
-            (bit - bit.round().clamp(0.0, n)).abs() * share / n
+        cells * self.cell_m
+    }
+
+    /// Distance to the lines along the paper's edges, in cells.
+    fn to_paper(&self, q: &Vector2<f64>) -> f64 {
+        let m = self.margin;
+        let to = |x: f64, n: f64| (x + m).abs().min((x - n - m).abs());
+        to(q.x, self.columns).min(to(q.y, self.rows))
+    }
+}
+
+/// A grid of tags with gaps between; lengths in tags, from the outer corner of the gap at the top
+/// left.
+struct Tags {
+    dictionary: Dictionary,
+    /// Row by row from the top left.
+    ids: Vec<u32>,
+    across: usize,
+    spacing: f64,
+    border: u32,
+    corner_squares: bool,
+    turned: bool,
+}
+
+impl Tags {
+    /// Which tag or gap along one direction, and where in it: negative in the gap before the tag.
+    fn place(&self, x: f64) -> (usize, f64) {
+        let period = 1.0 + self.spacing;
+        let k = (x / period).floor().max(0.0);
+        (k as usize, x - k * period - self.spacing)
+    }
+
+    fn cells(&self) -> f64 {
+        (self.dictionary.side() + 2 * self.border as usize) as f64
+    }
+
+    fn is_black(&self, q: &Vector2<f64>) -> bool {
+        let ((i, x), (j, y)) = (self.place(q.x), self.place(q.y));
+        if x < 0.0 || y < 0.0 {
+            return self.corner_squares && x < 0.0 && y < 0.0;
+        }
+        let cell = |x: f64| ((x * self.cells()) as usize).min(self.cells() as usize - 1);
+        let id = (i < self.across).then(|| self.ids.get(j * self.across + i)).flatten();
+        id.is_some_and(|&id| {
+            self.dictionary.is_cell_black(id, self.border, self.turned, (cell(x), cell(y)))
+        })
+    }
+
+    fn clearance(&self, q: &Vector2<f64>) -> f64 {
+        let n = self.cells();
+        let along = |x: f64| {
+            let x = self.place(x).1;
+            // the gap before the tag, or the lines between its bits
+            if x < 0.0 {
+                (-x).min((x + self.spacing).abs())
+            } else {
+                (x * n - (x * n).round()).abs() / n
+            }
         };
-        lines.min(to_bit(q.x)).min(to_bit(q.y)) * self.cell_m
+        along(q.x).min(along(q.y))
+    }
+}
+
+/// Discs, each in the cell that its centre is in; no two of one cell.
+struct Discs {
+    columns: usize,
+    /// Centre and radius; a cell without a disc has none.
+    cells: Vec<Option<(Vector2<f64>, f64)>>,
+    largest: f64,
+}
+
+impl Discs {
+    fn new(
+        discs: impl Iterator<Item = (Vector2<f64>, f64)>,
+        (columns, rows): (usize, usize),
+    ) -> Self {
+        let mut all = Self { columns, cells: vec![None; columns * rows], largest: 0.0 };
+        for (centre, radius) in discs {
+            let (i, j) = (centre.x.round() as usize, centre.y.round() as usize);
+            all.cells[j * columns + i] = Some((centre, radius));
+            all.largest = all.largest.max(radius);
+        }
+        all
+    }
+
+    /// Distance to the nearest disc's edge, negative inside; far from all, a lower bound.
+    fn distance(&self, q: &Vector2<f64>) -> f64 {
+        let (i, j) = (q.x.round() as i64, q.y.round() as i64);
+        let near = (j - 1..=j + 1).flat_map(|j| (i - 1..=i + 1).map(move |i| (i, j)));
+        let discs = near.filter_map(|(i, j)| {
+            let (i, j) = (usize::try_from(i).ok()?, usize::try_from(j).ok()?);
+            let cell = (i < self.columns).then(|| self.cells.get(j * self.columns + i)).flatten();
+            *cell?
+        });
+        // centres in other cells are 1.5 cells away or more
+        let farther = 1.5 - self.largest;
+        discs.map(|(centre, radius)| (q - centre).norm() - radius).fold(farther, f64::min)
     }
 }
 
@@ -149,4 +323,109 @@ fn marker_is_black(dictionary: &Dictionary, id: u32, column: usize, row: usize) 
     let last = dictionary.side() + 1;
     let border = column == 0 || row == 0 || column >= last || row >= last;
     border || dictionary.is_black(id, column - 1, row - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::Random;
+    use crate::target::AprilTagFamily;
+    use crate::target_art::{Shape, art};
+
+    fn boards() -> Vec<TargetModel> {
+        let (columns, rows, pitch_mm) = (5, 4, 20.0);
+        let dictionary = || "DICT_5X5_100".to_string();
+        let aprilgrid = |corner_squares, border_bits| TargetModel::Aprilgrid {
+            tags_x: 3,
+            tags_y: 2,
+            tag_mm: 30.0,
+            spacing: 0.3,
+            family: AprilTagFamily::Tag36h11,
+            first_id: 7,
+            corner_squares,
+            border_bits,
+        };
+        vec![
+            TargetModel::Checkerboard { columns, rows, square_mm: 20.0 },
+            TargetModel::Charuco {
+                squares_x: columns,
+                squares_y: rows,
+                square_mm: 20.0,
+                marker_mm: 15.0,
+                dictionary: dictionary(),
+                legacy: true,
+            },
+            TargetModel::Tag { dictionary: dictionary(), id: 3, size_mm: 60.0 },
+            TargetModel::CircleGrid { columns, rows, pitch_mm },
+            TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm },
+            TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm },
+            aprilgrid(true, 1),
+            aprilgrid(false, 2),
+            TargetModel::TagGrid {
+                dictionary: dictionary(),
+                tags_x: 2,
+                tags_y: 3,
+                tag_mm: 30.0,
+                gap_mm: 8.0,
+                first_id: 11,
+            },
+        ]
+    }
+
+    fn holds(shape: &Shape, at: &Vector2<f64>) -> bool {
+        match *shape {
+            Shape::Rectangle { x, y, width, height } => {
+                at.x >= x && at.y >= y && at.x < x + width && at.y < y + height
+            }
+            Shape::Disc { x, y, radius } => (at - Vector2::new(x, y)).norm() < radius,
+        }
+    }
+
+    #[test]
+    fn what_is_rendered_is_what_is_printed() {
+        for target in boards() {
+            let (art, texture) = (art(&target).unwrap(), Texture::of(&target).unwrap());
+            let mut random = Random::new(5);
+            let mut black = 0;
+            for _ in 0..4000 {
+                let on_art = Vector2::new(
+                    random.between(-3.0, art.width + 3.0),
+                    random.between(-3.0, art.height + 3.0),
+                );
+                let at =
+                    (on_art - Vector2::from([art.target_origin.0, art.target_origin.1])) * 1e-3;
+                if texture.clearance(&at) < 1e-7 {
+                    continue; // on an edge
+                }
+                let printed = art.shapes.iter().any(|s| holds(s, &on_art));
+                let rendered = texture.grey(&at, &Optics::default()) == Optics::default().black;
+                assert_eq!(printed, rendered, "{target:?} at {on_art}");
+                black += usize::from(printed);
+            }
+            assert!(black > 500, "{target:?}");
+        }
+    }
+
+    #[test]
+    fn no_edge_is_nearer_than_the_clearance() {
+        let optics = Optics::default();
+        for target in boards() {
+            let texture = Texture::of(&target).unwrap();
+            let outline = texture.outline();
+            let low = outline.iter().fold(outline[0], |a, b| a.inf(b));
+            let high = outline.iter().fold(outline[0], |a, b| a.sup(b));
+            let mut random = Random::new(6);
+            let (mut inside, mut sum) = (0, 0.0);
+            for _ in 0..2000 {
+                let at = Vector2::new(random.between(low.x, high.x), random.between(low.y, high.y));
+                let clear = texture.clearance(&at);
+                let angle = random.between(0.0, std::f64::consts::TAU);
+                let near = at + 0.999 * clear * Vector2::new(angle.cos(), angle.sin());
+                assert_eq!(texture.grey(&at, &optics), texture.grey(&near, &optics), "{target:?}");
+                inside += usize::from(clear > 0.0);
+                sum += clear;
+            }
+            assert!(inside > 1900 && sum > 0.0, "{target:?}");
+        }
+    }
 }
