@@ -125,7 +125,7 @@ fn noise_blur_light_and_polarity_cost_little() {
             let ratio = expected_ratio(&errors);
             assert!(rms(&errors) < goal, "{name}, {target:?}: {}", rms(&errors));
             // a sharp picture's rounding is less than its covariance takes it for
-            assert!((0.75..1.25).contains(&ratio), "{name}, {target:?}: {ratio}");
+            assert!((0.7..1.25).contains(&ratio), "{name}, {target:?}: {ratio}");
         }
     }
 }
