@@ -1,22 +1,11 @@
-//! Which corner of the board each corner in the picture is.
-//!
-//! A checkerboard is known by its extent, its sense of rotation and its colours: it is turned so
-//! that the square outside of corner 0 is black if that can be (OpenCV's findChessboardCorners does
-//! so, its findChessboardCornersSB the opposite), and else so that corner 0 is the one nearest to
-//! the picture's top left. A ChArUco board is known by its markers: each one that
-//! is read votes for a turn and a shift of the grid.
+//! A target found in a picture: which corner of it each one in the picture is.
 
-use std::collections::BTreeMap;
-
-use nalgebra::Vector2;
-
+use super::checkerboard;
 use super::circles;
+use super::coded::{Coded, coded};
 use super::grid::Grid;
-use super::homography;
-use super::markers::{self, Dictionary, bilinear};
 use super::mesh;
 use super::pyramid::{Scaled, smoothed};
-use super::subpixel::{self, FittedCorner, NearCorner, RoughCorner};
 use super::tag;
 use crate::{GrayImage, ImageCorner, TargetModel};
 
@@ -155,7 +144,7 @@ fn levels(image: &GrayImage) -> impl Iterator<Item = Scaled<'_>> {
     halves.chain(doubled)
 }
 
-type Outcome = Result<Vec<ImageCorner>, NotFound>;
+pub(super) type Outcome = Result<Vec<ImageCorner>, NotFound>;
 
 /// The outcome with more corners; of two failures the one that says more.
 fn better(a: Outcome, b: Outcome) -> Outcome {
@@ -173,378 +162,47 @@ fn worth(outcome: &Outcome) -> (u32, usize) {
 }
 
 /// The targets that are found by their grid of corners.
-enum Family {
+enum Family<'a> {
     Checkerboard { columns: i32, rows: i32 },
-    Charuco(Charuco),
+    Coded(Coded<'a>),
 }
 
-struct Charuco {
-    squares: (i32, i32),
-    share: f64,
-    name: String,
-    dictionary: Dictionary,
-    /// The square of each marker.
-    square_of: Vec<(i32, i32)>,
-}
-
-impl Family {
-    fn of(target: &TargetModel) -> Result<Self, NotFound> {
+impl<'a> Family<'a> {
+    fn of(target: &'a TargetModel) -> Result<Self, NotFound> {
+        if let Some(coded) = coded(target) {
+            return Ok(Self::Coded(coded?));
+        }
         match target {
             &TargetModel::Checkerboard { columns, rows, .. } => {
                 Ok(Self::Checkerboard { columns: columns as i32, rows: rows as i32 })
             }
-            TargetModel::Charuco {
-                squares_x,
-                squares_y,
-                square_mm,
-                marker_mm,
-                dictionary: name,
-                legacy,
-            } => {
-                let unknown = || NotFound::UnknownDictionary(name.clone());
-                let dictionary = Dictionary::named(name).ok_or_else(unknown)?;
-                let white_first = *legacy && squares_y % 2 == 0;
-                Ok(Self::Charuco(Charuco {
-                    squares: (*squares_x as i32, *squares_y as i32),
-                    share: marker_mm / square_mm,
-                    name: name.clone(),
-                    dictionary,
-                    square_of: marker_squares(
-                        *squares_x as usize,
-                        *squares_y as usize,
-                        white_first,
-                    ),
-                }))
-            }
             TargetModel::Sphere { .. } => Err(NotFound::ScansOnly),
-            TargetModel::Aprilgrid { .. } | TargetModel::TagGrid { .. } => {
-                Err(NotFound::Unsupported("a grid of tags"))
+            TargetModel::Aprilgrid { .. } => {
+                Err(NotFound::Unsupported("an aprilgrid without corner squares"))
             }
-            // a tag has no grid: it was looked for before
-            _ => Err(NotFound::Unsupported("a grid of circles")),
+            // a single tag and circles were looked for before
+            _ => Err(NotFound::Unsupported("a grid of tags")),
         }
     }
 
     fn label(&self, image: &GrayImage, grids: &[Grid]) -> Outcome {
         let largest = grids.first().ok_or(NotFound::NoCorners)?;
         match self {
-            &Self::Checkerboard { columns, rows } => checkerboard(image, largest, columns, rows),
-            Self::Charuco(board) => board.label(image, grids),
-        }
-    }
-}
-
-fn marker_squares(squares_x: usize, squares_y: usize, white_first: bool) -> Vec<(i32, i32)> {
-    let squares = (0..squares_y).flat_map(|j| (0..squares_x).map(move |i| (i, j)));
-    squares
-        .filter(|&(i, j)| markers::marker_of_square(i, j, squares_x, white_first).is_some())
-        .map(|(i, j)| (i as i32, j as i32))
-        .collect()
-}
-
-// ---------------------------------------------------------------- checkerboard
-
-/// Of a board in full extent this share of the corners must be fitted.
-const FITTED_SHARE: f64 = 0.8;
-
-fn checkerboard(image: &GrayImage, grid: &Grid, columns: i32, rows: i32) -> Outcome {
-    let fits = Fits { image, clean: 1.0 };
-    let grown = grow(grid, &fits, (columns, rows));
-    let fitted = fits.all(&grown);
-    let known = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };
-    let window = best_window(&known, (columns, rows))?;
-    let (i0, j0, width, height) = window;
-    let inside =
-        |k: &(i32, i32)| (0..width).contains(&(k.0 - i0)) && (0..height).contains(&(k.1 - j0));
-    let origin = known.corners.iter().filter(|(k, _)| inside(k));
-    let board = Grid { corners: origin.map(|(k, p)| ((k.0 - i0, k.1 - j0), *p)).collect() };
-    let turns = turns_of_board(image, &board, (width, height), (columns, rows));
-    let turns = turns.ok_or(NotFound::NoCorners)?;
-    let corners = board.corners.keys().map(|&(i, j)| {
-        let (x, y) = turned((i, j), (width, height), turns);
-        corner((y * columns + x) as u32, &fitted[&(i + i0, j + j0)])
-    });
-    Ok(sorted(corners.collect()))
-}
-
-/// The part of a grid that is the board: first column and row, columns, rows. Larger grids arise
-/// where something beside the board looks like corners; the board is the fullest part.
-fn best_window(grid: &Grid, (columns, rows): (i32, i32)) -> Result<(i32, i32, i32, i32), NotFound> {
-    let needed = (columns * rows) as usize;
-    let (low, high) = grid.bounds().ok_or(NotFound::NoCorners)?;
-    let mut windows = vec![];
-    let mut sizes = vec![(columns, rows), (rows, columns)];
-    sizes.dedup();
-    for (width, height) in sizes {
-        for j in low.1..=high.1 - height + 1 {
-            for i in low.0..=high.0 - width + 1 {
-                let keys = (j..j + height).flat_map(|y| (i..i + width).map(move |x| (x, y)));
-                let count = keys.filter(|k| grid.corners.contains_key(k)).count();
-                windows.push((count, (i, j, width, height)));
+            &Self::Checkerboard { columns, rows } => {
+                checkerboard::label(image, largest, columns, rows)
             }
+            Self::Coded(board) => board.label(image, grids),
         }
     }
-    windows.sort_by_key(|w| std::cmp::Reverse(w.0));
-    let fullest = windows.first().map_or(0, |w| w.0);
-    if (fullest as f64) < FITTED_SHARE * needed as f64 {
-        return Err(NotFound::TooFew { found: grid.corners.len().min(needed), needed });
-    }
-    if windows.get(1).is_some_and(|second| second.0 >= fullest) {
-        return Err(NotFound::OtherSize {
-            columns: (high.0 - low.0 + 1) as u32,
-            rows: (high.1 - low.1 + 1) as u32,
-            wanted_columns: columns as u32,
-            wanted_rows: rows as u32,
-        });
-    }
-    Ok(windows[0].1)
 }
-
-fn corner(id: u32, fitted: &FittedCorner) -> ImageCorner {
-    ImageCorner { id, pixel: fitted.pixel, covariance: fitted.covariance }
-}
-
-fn sorted(mut corners: Vec<ImageCorner>) -> Vec<ImageCorner> {
-    corners.sort_by_key(|c| c.id);
-    corners
-}
-
-/// Clockwise quarter turns of the labels after which the grid lies as the board does.
-fn turns_of_board(
-    image: &GrayImage,
-    grid: &Grid,
-    size: (i32, i32),
-    board: (i32, i32),
-) -> Option<usize> {
-    let fits = |turns: &usize| {
-        if turns.is_multiple_of(2) { size == board } else { (size.1, size.0) == board }
-    };
-    let relabelled = |turns: usize| grid.relabel(|k| turned(k, size, turns));
-    let all: Vec<usize> = (0..4).filter(fits).collect();
-    let is_black = |turns: &usize| first_square_brightness(image, &relabelled(*turns)) < 0.0;
-    let black: Vec<usize> = all.iter().copied().filter(is_black).collect();
-    let allowed = if black.is_empty() { all } else { black };
-    let from_top_left = |turns: usize| {
-        let near = relabelled(turns).corners.into_iter().min_by_key(|((i, j), _)| i + j);
-        near.map_or(f64::INFINITY, |(_, p)| p.x + p.y)
-    };
-    allowed.into_iter().min_by(|&a, &b| from_top_left(a).total_cmp(&from_top_left(b)))
-}
-
-/// A label of a grid of `size`, after quarter turns.
-fn turned(label: (i32, i32), size: (i32, i32), turns: usize) -> (i32, i32) {
-    let quarter = |((i, j), (width, height)): ((i32, i32), (i32, i32))| {
-        ((height - 1 - j, i), (height, width))
-    };
-    (0..turns).fold((label, size), |at, _| quarter(at)).0
-}
-
-/// Grey of the squares with the colour of the one outside of corner (0, 0), minus that of the
-/// others.
-fn first_square_brightness(image: &GrayImage, grid: &Grid) -> f64 {
-    let one = |(&(i, j), p): (&(i32, i32), &Vector2<f64>)| {
-        let (u, v) = (grid.step((i, j), (1, 0))?, grid.step((i, j), (0, 1))?);
-        let grey = |a: f64, b: f64| bilinear(image, &(p + (u * a + v * b) * 0.35));
-        let own = grey(-1.0, -1.0)? + grey(1.0, 1.0)?;
-        let other = grey(1.0, -1.0)? + grey(-1.0, 1.0)?;
-        Some(if (i + j) % 2 == 0 { own - other } else { other - own })
-    };
-    grid.corners.iter().filter_map(one).sum()
-}
-
-/// Sub-pixel fits in one picture.
-struct Fits<'a> {
-    image: &'a GrayImage,
-    clean: f64,
-}
-
-impl Fits<'_> {
-    /// The corner of a label, and the steps to its neighbours.
-    fn rough(&self, grid: &Grid, label: (i32, i32)) -> Option<RoughCorner> {
-        let step = |d| grid.step(label, d).or_else(|| grid.mean_step(d));
-        Some(RoughCorner {
-            pixel: *grid.corners.get(&label)?,
-            along_x: step((1, 0))?,
-            along_y: step((0, 1))?,
-            clean: self.clean,
-        })
-    }
-
-    /// All corners. First every one is approached; then the steps between them are known well enough
-    /// to measure each with a disc that does not depend on where the search began.
-    fn all(&self, grid: &Grid) -> BTreeMap<(i32, i32), FittedCorner> {
-        let near = |&k: &(i32, i32)| {
-            Some((k, subpixel::approach(self.image, &self.rough(grid, k)?).ok()?))
-        };
-        let near: BTreeMap<(i32, i32), NearCorner> = grid.corners.keys().filter_map(near).collect();
-        let grid = Grid { corners: near.iter().map(|(k, n)| (*k, n.pixel)).collect() };
-        let measured = |(k, near): (&(i32, i32), &NearCorner)| {
-            let rough = self.rough(&grid, *k)?;
-            Some((*k, subpixel::measure(self.image, &rough, near).ok()?))
-        };
-        near.iter().filter_map(measured).collect()
-    }
-
-    /// The corner that the neighbours predict, if the picture has one there.
-    fn predicted(&self, grid: &Grid, label: (i32, i32)) -> Option<Vector2<f64>> {
-        let mut with = grid.clone();
-        with.corners.insert(label, grid.predict(label)?);
-        subpixel::fit(self.image, &self.rough(&with, label)?).ok().map(|fitted| fitted.pixel)
-    }
-}
-
-/// Adds corners that the finder missed: inside the grid, and rows at its rim while it is smaller
-/// than the board.
-fn grow(grid: &Grid, fits: &Fits, (columns, rows): (i32, i32)) -> Grid {
-    let mut grid = grid.clone();
-    for _ in 0..columns.max(rows) {
-        let Some((low, high)) = grid.bounds() else { break };
-        let (width, height) = (high.0 - low.0 + 1, high.1 - low.1 + 1);
-        let (short, long) = (columns.min(rows), columns.max(rows));
-        // the grid may lie across
-        let rim_x = i32::from(width < if height > short { short } else { long });
-        let rim_y = i32::from(height < if width > short { short } else { long });
-        let mut added = BTreeMap::new();
-        for j in low.1 - rim_y..=high.1 + rim_y {
-            for i in low.0 - rim_x..=high.0 + rim_x {
-                if !grid.corners.contains_key(&(i, j))
-                    && let Some(at) = fits.predicted(&grid, (i, j))
-                {
-                    added.insert((i, j), at);
-                }
-            }
-        }
-        if added.is_empty() {
-            break;
-        }
-        grid.corners.append(&mut added);
-    }
-    grid
-}
-
-// --------------------------------------------------------------------- ChArUco
-
-/// Border cells of a marker that may look white.
-const MOST_BORDER_ERRORS: u32 = 3;
-/// Least contrast of a marker, grey values.
-const LEAST_CONTRAST: f64 = 12.0;
-/// Markers with more bits than this do not occur by chance: one of them is proof enough.
-const PROOF_BITS: usize = 24;
-
-/// A turn (clockwise quarters) and a shift that take grid labels to the board.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Placing {
-    turns: usize,
-    shift: (i32, i32),
-}
-
-impl Placing {
-    /// Board label of a grid label. Turning the board clockwise by `turns` gave the grid.
-    fn on_board(&self, label: (i32, i32)) -> (i32, i32) {
-        let (i, j) = turned_back(label, self.turns);
-        (i + self.shift.0, j + self.shift.1)
-    }
-}
-
-fn turned_back((i, j): (i32, i32), turns: usize) -> (i32, i32) {
-    (0..turns).fold((i, j), |(i, j), _| (j, -i))
-}
-
-impl Charuco {
-    fn label(&self, image: &GrayImage, grids: &[Grid]) -> Outcome {
-        let fits = Fits { image, clean: 0.5 * (1.0 - self.share) };
-        let mut board = Grid::default();
-        for grid in grids {
-            if let Some(placing) = self.placing(image, grid) {
-                let placed = grid.relabel(|k| placing.on_board(k));
-                let inside = placed.corners.into_iter().filter(|(k, _)| self.has(*k));
-                for (label, at) in inside {
-                    board.corners.entry(label).or_insert(at); // larger grids come first
-                }
-            }
-        }
-        if board.corners.is_empty() {
-            let corners = grids.first().map_or(0, |g| g.corners.len());
-            return Err(NotFound::NoMarkers { corners, dictionary: self.name.clone() });
-        }
-        self.fill(&mut board, &fits);
-        let columns = self.squares.0 - 1;
-        let fitted = fits.all(&board);
-        let corners =
-            fitted.iter().map(|(&(i, j), f)| corner(((j - 1) * columns + i - 1) as u32, f));
-        let corners: Vec<_> = corners.collect();
-        if corners.len() < FEWEST_CORNERS {
-            let needed = (columns * (self.squares.1 - 1)) as usize;
-            return Err(NotFound::TooFew { found: corners.len(), needed });
-        }
-        Ok(sorted(corners))
-    }
-
-    /// Whether the board has an inner corner there, counted from its outer corner.
-    fn has(&self, (i, j): (i32, i32)) -> bool {
-        i > 0 && j > 0 && i < self.squares.0 && j < self.squares.1
-    }
-
-    fn fill(&self, board: &mut Grid, fits: &Fits) {
-        loop {
-            let missing = (1..self.squares.1)
-                .flat_map(|j| (1..self.squares.0).map(move |i| (i, j)))
-                .filter(|k| !board.corners.contains_key(k));
-            let mut added: BTreeMap<_, _> =
-                missing.filter_map(|k| Some((k, fits.predicted(board, k)?))).collect();
-            if added.is_empty() {
-                return;
-            }
-            board.corners.append(&mut added);
-        }
-    }
-
-    /// The placing most markers vote for.
-    fn placing(&self, image: &GrayImage, grid: &Grid) -> Option<Placing> {
-        let mut votes: BTreeMap<Placing, u32> = BTreeMap::new();
-        for &cell in grid.corners.keys() {
-            if let Some(placing) = self.vote(image, grid, cell) {
-                *votes.entry(placing).or_default() += 1;
-            }
-        }
-        let (&placing, &most) = votes.iter().max_by_key(|(_, n)| **n)?;
-        let second = votes.iter().filter(|(p, _)| **p != placing).map(|(_, n)| *n).max();
-        let bits = self.dictionary.side().pow(2);
-        let enough = most > second.unwrap_or(0) && (most > 1 || bits > PROOF_BITS);
-        enough.then_some(placing)
-    }
-
-    /// Reads the marker in the cell right below a corner.
-    fn vote(&self, image: &GrayImage, grid: &Grid, (i, j): (i32, i32)) -> Option<Placing> {
-        let at = |k| grid.corners.get(&k).copied();
-        let quad = [at((i, j))?, at((i + 1, j))?, at((i + 1, j + 1))?, at((i, j + 1))?];
-        let h = homography::from_unit_square(&quad);
-        let inset = |x: f64| 0.5 + (x - 0.5) * self.share;
-        let cells = markers::read_cells(image, self.dictionary.side(), |x, y| {
-            homography::apply(&h, &Vector2::new(inset(x), inset(y)))
-        })?;
-        if cells.border_errors > MOST_BORDER_ERRORS || cells.contrast < LEAST_CONTRAST {
-            return None;
-        }
-        let errors = if self.dictionary.side() > 4 { 2 } else { 0 };
-        let reading = self.dictionary.read(cells.code, 0..self.square_of.len() as u32, errors)?;
-        // the cell's outer corner on the board is the one that was its first before turning
-        let (x, y) = self.square_of[reading.id as usize];
-        let first = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)][reading.turns];
-        let (a, b) = turned_back(first, reading.turns);
-        Some(Placing { turns: reading.turns, shift: (x - a, y - b) })
-    }
-}
-
-/// Fewer corners do not determine a pose.
-const FEWEST_CORNERS: usize = 4;
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::simulate::{Optics, Random, Scene};
     use crate::{Distortion, Intrinsics, Pose};
-    use nalgebra::{Matrix3, Vector3, Vector6};
+    use nalgebra::{Matrix3, Vector2, Vector3, Vector6};
+    use std::collections::BTreeMap;
 
     fn charuco(squares_x: u32, squares_y: u32, legacy: bool) -> TargetModel {
         TargetModel::Charuco {
@@ -620,6 +278,26 @@ mod tests {
                 let found = detect(&scene.picture(&Optics::default(), 2), &target).unwrap();
                 assert_eq!(found.len(), target.len(), "{target:?} turn {k}");
                 assert!(farthest(&scene, &found) < 0.1, "{target:?} {k}");
+            }
+        }
+    }
+
+    fn aprilgrid(border_bits: u32) -> TargetModel {
+        let toml = format!(
+            r#"{{"kind":"aprilgrid","tags_x":5,"tags_y":4,"tag_mm":24.0,"spacing":0.3,"family":"36h11","border_bits":{border_bits}}}"#
+        );
+        serde_json::from_str(&toml).unwrap()
+    }
+
+    #[test]
+    fn aprilgrids_are_found_in_every_turn() {
+        for target in [aprilgrid(1), aprilgrid(2)] {
+            for k in 0..4 {
+                let scene = scene(&target, 0.3 + 1.6 * f64::from(k), 0.3);
+                let found = detect(&scene.picture(&Optics::default(), 2), &target).unwrap();
+                let farthest = farthest(&scene, &found);
+                assert_eq!(found.len(), target.len(), "{target:?} turn {k}: {farthest}");
+                assert!(farthest < 0.1, "{target:?} {k}: {farthest}");
             }
         }
     }

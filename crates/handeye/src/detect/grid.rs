@@ -46,8 +46,13 @@ impl Grid {
         (!steps.is_empty()).then(|| steps.iter().sum::<Vector2<f64>>() / steps.len() as f64)
     }
 
-    /// Where a corner should be, px, judged by its neighbours.
-    pub fn predict(&self, at: (i32, i32)) -> Option<Vector2<f64>> {
+    /// Where a corner should be, px, judged by its neighbours; `place` says where labels are on the
+    /// board.
+    pub fn predict(
+        &self,
+        at: (i32, i32),
+        place: impl Fn((i32, i32)) -> Vector2<f64>,
+    ) -> Option<Vector2<f64>> {
         let near = |k: &(i32, i32)| {
             (k.0 - at.0).abs().max((k.1 - at.1).abs()) <= NEIGHBOURHOOD && *k != at
         };
@@ -55,7 +60,7 @@ impl Grid {
             .corners
             .iter()
             .filter(|(k, _)| near(k))
-            .map(|(k, p)| (Vector2::new(f64::from(k.0 - at.0), f64::from(k.1 - at.1)), *p))
+            .map(|(k, p)| (place(*k) - place(at), *p))
             .unzip();
         if from.len() < FEWEST_NEIGHBOURS {
             return None;

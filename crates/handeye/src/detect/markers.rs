@@ -31,14 +31,15 @@ pub struct Cells {
 /// Samples per side of a cell.
 const SAMPLES: [f64; 3] = [0.3, 0.5, 0.7];
 
-/// Reads the cells of a marker that covers the unit square of `pixel_at`. `None` when a part lies
+/// Reads the cells of a marker of `side` bits with a border, `border` bits wide, that covers the unit
+/// square of `pixel_at`. `None` when a part lies
 /// outside the picture.
 pub fn read_cells(
     image: &GrayImage,
-    side: usize,
+    (side, border): (usize, usize),
     pixel_at: impl Fn(f64, f64) -> Vector2<f64>,
 ) -> Option<Cells> {
-    let n = side + 2;
+    let n = side + 2 * border;
     let mut grey = vec![0.0; n * n];
     for (i, cell) in grey.iter_mut().enumerate() {
         let (column, row) = ((i % n) as f64, (i / n) as f64);
@@ -53,7 +54,8 @@ pub fn read_cells(
     let (mut code, mut border_errors, mut inner) = (0, 0, 0);
     for (i, &cell) in grey.iter().enumerate() {
         let (column, row, black) = (i % n, i / n, cell < threshold);
-        if column == 0 || row == 0 || column == n - 1 || row == n - 1 {
+        let inner_bit = |k: usize| (border..n - border).contains(&k);
+        if !(inner_bit(column) && inner_bit(row)) {
             border_errors += u32::from(!black);
         } else {
             code |= u64::from(black) << inner;

@@ -6,9 +6,12 @@
 //! target's pose, and [`surface`] their places on a scan.
 
 pub mod board;
+mod checkerboard;
 pub mod circles;
+mod coded;
 mod crossings;
 mod erf;
+mod fits;
 mod grid;
 pub mod homography;
 pub mod markers;

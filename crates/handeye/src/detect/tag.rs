@@ -79,7 +79,7 @@ fn read(image: &GrayImage, quad: &Quad, dictionary: &Dictionary, id: u32) -> Opt
     let side = dictionary.side();
     let h = homography::from_unit_square(quad);
     let at = |x: f64, y: f64| homography::apply(&h, &Vector2::new(x, y));
-    let cells = markers::read_cells(image, side, at)?;
+    let cells = markers::read_cells(image, (side, 1), at)?;
     let most = |cells: usize| (MOST_WRONG * cells as f64) as u32;
     if cells.contrast < LEAST_CONTRAST || cells.border_errors > most(4 * (side + 1)) {
         return None;

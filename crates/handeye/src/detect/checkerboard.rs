@@ -1,0 +1,144 @@
+//! A checkerboard is known by its extent, its sense of rotation and its colours.
+//!
+//! It is turned so that the square outside of corner 0 is black if that can be (OpenCV's
+//! findChessboardCorners does so, its findChessboardCornersSB the opposite), and else so that corner 0
+//! is the one nearest to the picture's top left.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector2;
+
+use super::board::{NotFound, Outcome};
+use super::fits::{Fits, corner, sorted};
+use super::grid::Grid;
+use super::markers::bilinear;
+use crate::GrayImage;
+
+/// Of a board in full extent this share of the corners must be fitted.
+const FITTED_SHARE: f64 = 0.8;
+
+/// The corners of a board of `columns` x `rows` in a grid.
+pub(super) fn label(image: &GrayImage, grid: &Grid, columns: i32, rows: i32) -> Outcome {
+    let fits = Fits { image, clean: 1.0, lines: None };
+    let grown = grow(grid, &fits, (columns, rows));
+    let fitted = fits.all(&grown);
+    let known = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };
+    let window = best_window(&known, (columns, rows))?;
+    let (i0, j0, width, height) = window;
+    let inside =
+        |k: &(i32, i32)| (0..width).contains(&(k.0 - i0)) && (0..height).contains(&(k.1 - j0));
+    let origin = known.corners.iter().filter(|(k, _)| inside(k));
+    let board = Grid { corners: origin.map(|(k, p)| ((k.0 - i0, k.1 - j0), *p)).collect() };
+    let turns = turns_of_board(image, &board, (width, height), (columns, rows));
+    let turns = turns.ok_or(NotFound::NoCorners)?;
+    let corners = board.corners.keys().map(|&(i, j)| {
+        let (x, y) = turned((i, j), (width, height), turns);
+        corner((y * columns + x) as u32, &fitted[&(i + i0, j + j0)])
+    });
+    Ok(sorted(corners.collect()))
+}
+
+/// The part of a grid that is the board: first column and row, columns, rows. Larger grids arise
+/// where something beside the board looks like corners; the board is the fullest part.
+fn best_window(grid: &Grid, (columns, rows): (i32, i32)) -> Result<(i32, i32, i32, i32), NotFound> {
+    let needed = (columns * rows) as usize;
+    let (low, high) = grid.bounds().ok_or(NotFound::NoCorners)?;
+    let mut windows = vec![];
+    let mut sizes = vec![(columns, rows), (rows, columns)];
+    sizes.dedup();
+    for (width, height) in sizes {
+        for j in low.1..=high.1 - height + 1 {
+            for i in low.0..=high.0 - width + 1 {
+                let keys = (j..j + height).flat_map(|y| (i..i + width).map(move |x| (x, y)));
+                let count = keys.filter(|k| grid.corners.contains_key(k)).count();
+                windows.push((count, (i, j, width, height)));
+            }
+        }
+    }
+    windows.sort_by_key(|w| std::cmp::Reverse(w.0));
+    let fullest = windows.first().map_or(0, |w| w.0);
+    if (fullest as f64) < FITTED_SHARE * needed as f64 {
+        return Err(NotFound::TooFew { found: grid.corners.len().min(needed), needed });
+    }
+    if windows.get(1).is_some_and(|second| second.0 >= fullest) {
+        return Err(NotFound::OtherSize {
+            columns: (high.0 - low.0 + 1) as u32,
+            rows: (high.1 - low.1 + 1) as u32,
+            wanted_columns: columns as u32,
+            wanted_rows: rows as u32,
+        });
+    }
+    Ok(windows[0].1)
+}
+
+/// Clockwise quarter turns of the labels after which the grid lies as the board does.
+fn turns_of_board(
+    image: &GrayImage,
+    grid: &Grid,
+    size: (i32, i32),
+    board: (i32, i32),
+) -> Option<usize> {
+    let fits = |turns: &usize| {
+        if turns.is_multiple_of(2) { size == board } else { (size.1, size.0) == board }
+    };
+    let relabelled = |turns: usize| grid.relabel(|k| turned(k, size, turns));
+    let all: Vec<usize> = (0..4).filter(fits).collect();
+    let is_black = |turns: &usize| first_square_brightness(image, &relabelled(*turns)) < 0.0;
+    let black: Vec<usize> = all.iter().copied().filter(is_black).collect();
+    let allowed = if black.is_empty() { all } else { black };
+    let from_top_left = |turns: usize| {
+        let near = relabelled(turns).corners.into_iter().min_by_key(|((i, j), _)| i + j);
+        near.map_or(f64::INFINITY, |(_, p)| p.x + p.y)
+    };
+    allowed.into_iter().min_by(|&a, &b| from_top_left(a).total_cmp(&from_top_left(b)))
+}
+
+/// A label of a grid of `size`, after quarter turns.
+fn turned(label: (i32, i32), size: (i32, i32), turns: usize) -> (i32, i32) {
+    let quarter = |((i, j), (width, height)): ((i32, i32), (i32, i32))| {
+        ((height - 1 - j, i), (height, width))
+    };
+    (0..turns).fold((label, size), |at, _| quarter(at)).0
+}
+
+/// Grey of the squares with the colour of the one outside of corner (0, 0), minus that of the
+/// others.
+fn first_square_brightness(image: &GrayImage, grid: &Grid) -> f64 {
+    let one = |(&(i, j), p): (&(i32, i32), &Vector2<f64>)| {
+        let (u, v) = (grid.step((i, j), (1, 0))?, grid.step((i, j), (0, 1))?);
+        let grey = |a: f64, b: f64| bilinear(image, &(p + (u * a + v * b) * 0.35));
+        let own = grey(-1.0, -1.0)? + grey(1.0, 1.0)?;
+        let other = grey(1.0, -1.0)? + grey(-1.0, 1.0)?;
+        Some(if (i + j) % 2 == 0 { own - other } else { other - own })
+    };
+    grid.corners.iter().filter_map(one).sum()
+}
+
+/// Adds corners that the finder missed: inside the grid, and rows at its rim while it is smaller
+/// than the board.
+fn grow(grid: &Grid, fits: &Fits, (columns, rows): (i32, i32)) -> Grid {
+    let mut grid = grid.clone();
+    for _ in 0..columns.max(rows) {
+        let Some((low, high)) = grid.bounds() else { break };
+        let (width, height) = (high.0 - low.0 + 1, high.1 - low.1 + 1);
+        let (short, long) = (columns.min(rows), columns.max(rows));
+        // the grid may lie across
+        let rim_x = i32::from(width < if height > short { short } else { long });
+        let rim_y = i32::from(height < if width > short { short } else { long });
+        let mut added = BTreeMap::new();
+        for j in low.1 - rim_y..=high.1 + rim_y {
+            for i in low.0 - rim_x..=high.0 + rim_x {
+                if !grid.corners.contains_key(&(i, j))
+                    && let Some(at) = fits.predicted(&grid, (i, j))
+                {
+                    added.insert((i, j), at);
+                }
+            }
+        }
+        if added.is_empty() {
+            break;
+        }
+        grid.corners.append(&mut added);
+    }
+    grid
+}

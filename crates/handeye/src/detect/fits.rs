@@ -1,0 +1,77 @@
+//! All corners of a grid measured, and those found that the grid lacks.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector2;
+
+use super::grid::Grid;
+use super::subpixel::{self, FittedCorner, NearCorner, RoughCorner};
+use crate::{GrayImage, ImageCorner};
+
+/// Sub-pixel fits in one picture.
+pub(super) struct Fits<'a> {
+    pub image: &'a GrayImage,
+    /// As in [`RoughCorner`].
+    pub clean: f64,
+    /// Places of the columns and rows of labels on the board, in any unit; evenly spaced where there
+    /// are none.
+    pub lines: Option<&'a [Vec<f64>; 2]>,
+}
+
+impl Fits<'_> {
+    /// Where a label is on the board.
+    fn place(&self, (i, j): (i32, i32)) -> Vector2<f64> {
+        let on = |lines: &[f64], k: i32| {
+            let line = usize::try_from(k).ok().and_then(|k| lines.get(k));
+            line.copied().unwrap_or(f64::NAN)
+        };
+        match self.lines {
+            Some([x, y]) => Vector2::new(on(x, i), on(y, j)),
+            None => Vector2::new(f64::from(i), f64::from(j)),
+        }
+    }
+
+    /// The corner of a label, and the steps to its neighbours.
+    fn rough(&self, grid: &Grid, label: (i32, i32)) -> Option<RoughCorner> {
+        let step = |d| grid.step(label, d).or_else(|| grid.mean_step(d));
+        Some(RoughCorner {
+            pixel: *grid.corners.get(&label)?,
+            along_x: step((1, 0))?,
+            along_y: step((0, 1))?,
+            clean: self.clean,
+        })
+    }
+
+    /// All corners. First every one is approached; then the steps between them are known well enough
+    /// to measure each with a disc that does not depend on where the search began.
+    pub fn all(&self, grid: &Grid) -> BTreeMap<(i32, i32), FittedCorner> {
+        let near = |&k: &(i32, i32)| {
+            Some((k, subpixel::approach(self.image, &self.rough(grid, k)?).ok()?))
+        };
+        let near: BTreeMap<(i32, i32), NearCorner> = grid.corners.keys().filter_map(near).collect();
+        let grid = Grid { corners: near.iter().map(|(k, n)| (*k, n.pixel)).collect() };
+        let measured = |(k, near): (&(i32, i32), &NearCorner)| {
+            let rough = self.rough(&grid, *k)?;
+            Some((*k, subpixel::measure(self.image, &rough, near).ok()?))
+        };
+        near.iter().filter_map(measured).collect()
+    }
+
+    /// The corner that the neighbours predict, if the picture has one there.
+    pub fn predicted(&self, grid: &Grid, label: (i32, i32)) -> Option<Vector2<f64>> {
+        let mut with = grid.clone();
+        with.corners.insert(label, grid.predict(label, |k| self.place(k))?);
+        subpixel::fit(self.image, &self.rough(&with, label)?).ok().map(|fitted| fitted.pixel)
+    }
+}
+
+/// A measured corner with its id.
+pub(super) fn corner(id: u32, fitted: &FittedCorner) -> ImageCorner {
+    ImageCorner { id, pixel: fitted.pixel, covariance: fitted.covariance }
+}
+
+/// In the order of their ids.
+pub(super) fn sorted(mut corners: Vec<ImageCorner>) -> Vec<ImageCorner> {
+    corners.sort_by_key(|c| c.id);
+    corners
+}
