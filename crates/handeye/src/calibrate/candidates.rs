@@ -82,10 +82,7 @@ pub(super) fn estimate<'a>(
         named::judge_by_likeliest(&views, &fit, config, result);
         named::report_scale(&views, method, result);
     }
-    if let (Some(tre), Some(x)) = (&mut result.predicted_tre_mm, &result.hand_eye.mount_from_camera)
-    {
-        tre.map = workpiece.map(x);
-    }
+    map_error(&workpiece, result);
     captures::report_touches(&views, &paired, joint.as_ref(), result);
     let rests_on_arm = result.chosen.as_deref() == Some(WITH_ARM);
     let found = arm.filter(|_| rests_on_arm).map(|a| a.fit);
@@ -120,6 +117,14 @@ fn fit_views(
     config.unknown.report(&fit, result);
     verdict::judge_scale(views, &fit, config, result);
     Some((joint::views_problem(views.session, &views.views, &extras), fit))
+}
+
+/// The predicted error of the chosen answer all over the workpiece.
+fn map_error(workpiece: &Workpiece, result: &mut Calibration) {
+    let x = result.hand_eye.mount_from_camera.as_ref();
+    if let (Some(tre), Some(x)) = (&mut result.predicted_tre_mm, x) {
+        tre.map = workpiece.map(x);
+    }
 }
 
 /// The touches that can be of the corners they name, by board and by pair; the others are reported.

@@ -101,8 +101,8 @@ const SMALLEST_IMAGE: usize = 24;
 /// The target's corners in a picture, in the order of their ids. Pixels; the centre of the top-left
 /// pixel is (0, 0).
 ///
-/// A checkerboard must be wholly in the picture (single corners may be hidden); of a ChArUco board
-/// a part is enough.
+/// A checkerboard must be wholly in the picture (single corners may be hidden); of a board with
+/// markers a part is enough.
 pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner>, NotFound> {
     let (width, height) = (image.width(), image.height());
     if width.min(height) < SMALLEST_IMAGE {
@@ -116,15 +116,16 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     }
     let family = Family::of(target)?;
     let mut best = Err(NotFound::NoCorners);
-    let mut since = 0;
     for level in levels(image) {
         let found: Vec<Grid> = mesh::grids(&smoothed(&level.image));
         let grids: Vec<Grid> = found.iter().map(|g| g.map(|p| level.original(p))).collect();
         let found = family.label(image, &grids);
-        since = if worth(&found) > worth(&best) { 0 } else { since + 1 };
-        best = better(best, found);
+        let improved = worth(&found) > worth(&best);
+        if improved {
+            best = found;
+        }
         let complete = best.as_ref().is_ok_and(|corners| corners.len() == target.len());
-        if complete || (best.is_ok() && since > 0) {
+        if complete || (best.is_ok() && !improved) {
             break;
         }
     }
@@ -146,11 +147,7 @@ fn levels(image: &GrayImage) -> impl Iterator<Item = Scaled<'_>> {
 
 pub(super) type Outcome = Result<Vec<ImageCorner>, NotFound>;
 
-/// The outcome with more corners; of two failures the one that says more.
-fn better(a: Outcome, b: Outcome) -> Outcome {
-    if worth(&b) > worth(&a) { b } else { a }
-}
-
+/// An outcome with more corners is worth more; of two failures the one that says more.
 fn worth(outcome: &Outcome) -> (u32, usize) {
     match outcome {
         Ok(corners) => (2, corners.len()),
@@ -297,7 +294,8 @@ mod tests {
                 let found = detect(&scene.picture(&Optics::default(), 2), &target).unwrap();
                 let farthest = farthest(&scene, &found);
                 assert_eq!(found.len(), target.len(), "{target:?} turn {k}: {farthest}");
-                assert!(farthest < 0.1, "{target:?} {k}: {farthest}");
+                // as near as in the middle: bits of the tags are no part of a corner at the rim
+                assert!(farthest < 0.05, "{target:?} {k}: {farthest}");
             }
         }
     }

@@ -137,7 +137,7 @@ fn aprilgrid(target: &TargetModel) -> Result<Coded<'_>, NotFound> {
     })
 }
 
-/// All columns and rows of a board, column by column.
+/// All columns and rows of a board, row by row.
 fn labels(target: &TargetModel) -> impl Iterator<Item = (i32, i32)> + use<> {
     let (columns, rows) = target.grid();
     (0..rows as i32).flat_map(move |j| (0..columns as i32).map(move |i| (i, j)))

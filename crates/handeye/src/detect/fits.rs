@@ -33,13 +33,42 @@ impl Fits<'_> {
 
     /// The corner of a label, and the steps to its neighbours.
     fn rough(&self, grid: &Grid, label: (i32, i32)) -> Option<RoughCorner> {
-        let step = |d| grid.step(label, d).or_else(|| grid.mean_step(d));
+        let step = |d| self.step(grid, label, d).or_else(|| self.mean_step(grid, d));
         Some(RoughCorner {
             pixel: *grid.corners.get(&label)?,
             along_x: step((1, 0))?,
             along_y: step((0, 1))?,
             clean: self.clean,
         })
+    }
+
+    /// The board's shortest step, px, judged by the neighbours ahead and behind: the shorter of both.
+    fn step(&self, grid: &Grid, at: (i32, i32), (di, dj): (i32, i32)) -> Option<Vector2<f64>> {
+        let here = grid.corners.get(&at)?;
+        let side = |sign: i32| {
+            let next = (at.0 + sign * di, at.1 + sign * dj);
+            let there = grid.corners.get(&next)?;
+            let length = (self.place(next) - self.place(at)).norm();
+            Some((there - here) * (f64::from(sign) * self.shortest() / length))
+        };
+        match (side(1), side(-1)) {
+            (Some(a), Some(b)) => Some(if a.norm() < b.norm() { a } else { b }),
+            (a, b) => a.or(b),
+        }
+    }
+
+    fn mean_step(&self, grid: &Grid, direction: (i32, i32)) -> Option<Vector2<f64>> {
+        let all = || grid.corners.keys().filter_map(|&at| self.step(grid, at, direction));
+        let count = all().count();
+        (count > 0).then(|| all().sum::<Vector2<f64>>() / count as f64)
+    }
+
+    /// Distance of the closest columns or rows on the board.
+    fn shortest(&self) -> f64 {
+        let gaps = |lines: &'_ Vec<f64>| {
+            lines.windows(2).map(|w| (w[1] - w[0]).abs()).fold(f64::INFINITY, f64::min)
+        };
+        self.lines.map_or(1.0, |[x, y]| gaps(x).min(gaps(y)))
     }
 
     /// All corners. First every one is approached; then the steps between them are known well enough

@@ -39,13 +39,6 @@ impl Grid {
         }
     }
 
-    /// Mean step in a direction, px.
-    pub fn mean_step(&self, direction: (i32, i32)) -> Option<Vector2<f64>> {
-        let steps: Vec<_> =
-            self.corners.keys().filter_map(|&at| self.step(at, direction)).collect();
-        (!steps.is_empty()).then(|| steps.iter().sum::<Vector2<f64>>() / steps.len() as f64)
-    }
-
     /// Where a corner should be, px, judged by its neighbours; `place` says where labels are on the
     /// board.
     pub fn predict(

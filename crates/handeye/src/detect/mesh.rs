@@ -281,9 +281,11 @@ mod tests {
             let sizes: Vec<usize> = found.iter().map(|g| g.corners.len()).collect();
             assert_eq!(sizes, [30, 9], "{skew}");
             for grid in &found {
-                let (x, y) = (grid.mean_step((1, 0)).unwrap(), grid.mean_step((0, 1)).unwrap());
+                let middle = *grid.corners.keys().nth(grid.corners.len() / 2).unwrap();
+                let step = |d| grid.step(middle, d).unwrap();
+                let (x, y) = (step((1, 0)), step((0, 1)));
                 assert!(x.perp(&y) > 0.0, "labels turn clockwise in the picture");
-                assert!((x.perp(&y) - 144.0).abs() < 5.0, "{skew}: {x} {y}");
+                assert!((x.perp(&y) - 144.0).abs() < 20.0, "{skew}: {x} {y}");
             }
         }
     }
