@@ -14,6 +14,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use multiversion::multiversion;
 use nalgebra::{Matrix2, Vector2};
 
 use crate::GrayImage;
@@ -46,6 +47,8 @@ impl Crossing {
 const FAINTEST: f32 = 1.0;
 /// A candidate is the largest in a square of this half width, px.
 const APART: usize = 2;
+/// Rows and columns of that square.
+const WINDOW: usize = 2 * APART + 1;
 /// Radii of the ring, px: the second is for small squares.
 const RADII: [f64; 2] = [4.5, 3.0];
 /// Samples on the ring.
@@ -108,12 +111,15 @@ fn candidates(smooth: &GrayImage) -> Vec<(usize, usize)> {
     if width.min(height) < 4 * APART + 3 {
         return vec![];
     }
-    let response = determinant(smooth);
     let mut found = vec![];
-    for y in APART..height - APART {
-        let row = &response[y * width..(y + 1) * width];
+    // of a few rows only, that they stay at hand
+    let mut rows: [Vec<f32>; WINDOW] = std::array::from_fn(|_| vec![0.0; width]);
+    for last in 2..height {
+        determinant(smooth, last, &mut rows[last % WINDOW]);
+        let Some(y) = last.checked_sub(APART).filter(|y| *y >= APART) else { continue };
+        let window: [&[f32]; WINDOW] = std::array::from_fn(|k| &rows[(y + k - APART) % WINDOW][..]);
         for x in APART..width - APART {
-            if row[x] > FAINTEST * FAINTEST && is_peak(&response, width, x, y) {
+            if window[APART][x] > FAINTEST * FAINTEST && is_peak(&window, x) {
                 found.push((x, y));
             }
         }
@@ -122,41 +128,40 @@ fn candidates(smooth: &GrayImage) -> Vec<(usize, usize)> {
 }
 
 /// Whether no neighbour is larger; of equals the first counts.
-fn is_peak(response: &[f32], width: usize, x: usize, y: usize) -> bool {
-    let own = response[y * width + x];
-    (y - APART..=y + APART).all(|j| {
-        let row = &response[j * width + x - APART..=j * width + x + APART];
-        row.iter().enumerate().all(|(k, &other)| {
-            let before = (j, k + x) < (y, x + APART);
-            if before { other < own } else { other <= own }
-        })
+fn is_peak(window: &[&[f32]; WINDOW], x: usize) -> bool {
+    let own = window[APART][x];
+    window.iter().enumerate().all(|(j, row)| {
+        let near = &row[x - APART..=x + APART];
+        near.iter()
+            .enumerate()
+            .all(|(i, &other)| if (j, i) < (APART, APART) { other < own } else { other <= own })
     })
 }
 
-/// `D` of every pixel, 0 at the rim. The second derivatives along the axes come from neighbours two
-/// pixels away, the mixed one from diagonal neighbours: so `D` depends little on how edges are turned.
-fn determinant(smooth: &GrayImage) -> Vec<f32> {
+/// `D` of a row, 0 at the rim. The second derivatives along the axes come from neighbours two pixels
+/// away, the mixed one from diagonal neighbours: so `D` depends little on how edges are turned.
+#[multiversion(targets("x86_64+avx2"))]
+fn determinant(smooth: &GrayImage, y: usize, out: &mut [f32]) {
     let (width, height) = (smooth.width(), smooth.height());
-    let mut out = vec![0.0; width * height];
+    if y < 2 || y + 2 >= height {
+        out.fill(0.0);
+        return;
+    }
     let row = |y: usize| &smooth.values()[y * width..(y + 1) * width];
     let n = width - 4;
-    for y in 2..height - 2 {
-        let (above2, above, here, below, below2) =
-            (&row(y - 2)[2..], row(y - 1), row(y), row(y + 1), &row(y + 2)[2..]);
-        let (al, ar, bl, br) =
-            (&above[1..][..n], &above[3..][..n], &below[1..][..n], &below[3..][..n]);
-        let (left, middle, right) = (&here[..n], &here[2..][..n], &here[4..][..n]);
-        let (up, down) = (&above2[..n], &below2[..n]);
-        let out = &mut out[y * width + 2..][..n];
-        for k in 0..n {
-            let twice = middle[k] + middle[k];
-            let xx = left[k] + right[k] - twice;
-            let yy = up[k] + down[k] - twice;
-            let xy = al[k] + br[k] - ar[k] - bl[k];
-            out[k] = (xy * xy - xx * yy) * (1.0 / 16.0);
-        }
+    let (above2, above, here, below, below2) =
+        (&row(y - 2)[2..], row(y - 1), row(y), row(y + 1), &row(y + 2)[2..]);
+    let (al, ar, bl, br) = (&above[1..][..n], &above[3..][..n], &below[1..][..n], &below[3..][..n]);
+    let (left, middle, right) = (&here[..n], &here[2..][..n], &here[4..][..n]);
+    let (up, down) = (&above2[..n], &below2[..n]);
+    let out = &mut out[2..][..n];
+    for k in 0..n {
+        let twice = middle[k] + middle[k];
+        let xx = left[k] + right[k] - twice;
+        let yy = up[k] + down[k] - twice;
+        let xy = al[k] + br[k] - ar[k] - bl[k];
+        out[k] = (xy * xy - xx * yy) * (1.0 / 16.0);
     }
-    out
 }
 
 /// The saddle next to a pixel, by a Newton step.
@@ -233,12 +238,12 @@ pub(super) fn sample(image: &GrayImage, x: f64, y: f64) -> Option<f64> {
     if !(x >= 0.0 && y >= 0.0) {
         return None;
     }
-    let (i, j) = (x as usize, y as usize);
+    let (i, j) = (x as i32 as usize, y as i32 as usize); // the shorter integer is the quicker one
     let width = image.width();
     if i + 1 >= width || j + 1 >= image.height() {
         return None;
     }
-    let (a, b) = ((x - i as f64) as f32, (y - j as f64) as f32);
+    let (a, b) = ((x - f64::from(i as i32)) as f32, (y - f64::from(j as i32)) as f32);
     let top = &image.values()[j * width + i..][..2];
     let bottom = &image.values()[(j + 1) * width + i..][..2];
     let (t, u) = (top[0] + a * (top[1] - top[0]), bottom[0] + a * (bottom[1] - bottom[0]));

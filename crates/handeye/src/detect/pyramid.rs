@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use multiversion::multiversion;
 use nalgebra::Vector2;
 
 use crate::GrayImage;
@@ -77,25 +78,31 @@ impl<'a> Scaled<'a> {
 /// Smoothed with the binomial kernel 1 4 6 4 1 in both directions (standard deviation 1 px).
 pub fn smoothed(image: &GrayImage) -> GrayImage {
     let (width, height) = (image.width(), image.height());
-    let mut rows = vec![0.0; width * height];
     let mut padded = vec![0.0; width + 4];
-    for (out, row) in
-        rows.chunks_exact_mut(width.max(1)).zip(image.values().chunks_exact(width.max(1)))
-    {
+    let mut across = |y: usize, out: &mut [f32]| {
+        let row = &image.values()[y * width..(y + 1) * width];
         padded[2..width + 2].copy_from_slice(row);
         padded[..2].fill(row[0]);
         padded[width + 2..].fill(row[width - 1]);
         let at = |k: usize| &padded[k..][..width];
         binomial(out, [at(0), at(1), at(2), at(3), at(4)]);
-    }
+    };
+    // rows smoothed across, the last five
+    let mut rows: [Vec<f32>; 5] = std::array::from_fn(|_| vec![0.0; width]);
+    let mut next = 0;
     let mut values = vec![0.0; width * height];
     for (y, out) in values.chunks_exact_mut(width.max(1)).enumerate() {
-        let at = |d: usize| &rows[(y + d).saturating_sub(2).min(height - 1) * width..][..width];
+        while next < height.min(y + 3) {
+            across(next, &mut rows[next % 5]);
+            next += 1;
+        }
+        let at = |d: usize| &rows[(y + d).saturating_sub(2).min(height - 1) % 5][..];
         binomial(out, [at(0), at(1), at(2), at(3), at(4)]);
     }
     GrayImage::new(width, height, values).expect("as many values as pixels")
 }
 
+#[multiversion(targets("x86_64+avx2"))]
 fn binomial(out: &mut [f32], [a, b, c, d, e]: [&[f32]; 5]) {
     let n = out.len();
     let (a, b, c, d, e) = (&a[..n], &b[..n], &c[..n], &d[..n], &e[..n]);

@@ -16,8 +16,9 @@
 //! After L. Krüger and C. Wöhler, *Accurate chequerboard corner localisation for camera
 //! calibration*, Pattern Recognition Letters 32(10), 2011, who fit the same surface with one blur.
 
-use std::f64::consts::FRAC_1_SQRT_2;
+use std::{f64::consts::FRAC_1_SQRT_2, ops::Range};
 
+use multiversion::multiversion;
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 use super::erf::erf;
@@ -82,9 +83,11 @@ const FEWEST_PIXELS: usize = 14;
 const MARKER_MARGIN_PX: f64 = 2.0;
 /// Most steps of the fit; it usually takes four.
 const MOST_STEPS: usize = 30;
-/// The fit has converged when the corner moves less than this, px: the next step, were it taken,
-/// would be some hundred times smaller.
-const STEP_PX: f64 = 3e-3;
+/// The fit has converged when the corner moves less than this, px: the step after it would be some
+/// twenty times smaller.
+const STEP_PX: f64 = 5e-3;
+/// Damping below this hardly shortens a step.
+const FREE: f64 = 0.05;
 /// In a sharpened picture the fit may creep to and fro between pixels, by less than this, px.
 const SETTLED_PX: f64 = 0.03;
 /// The small disc's fit ends when the corner moves less than this, px.
@@ -182,22 +185,27 @@ fn radius(rough: &RoughCorner) -> Result<f64, Unfit> {
 }
 
 /// Pixels that are computed at once.
-const LANES: usize = 8;
+const LANES: usize = 32;
 type Lane = [f32; LANES];
+/// Sums that are kept apart, so that a processor adds as many at once.
+const SUMS: usize = 8;
 
 /// Pixels relative to the disc's centre; a weight of 0 fills up the last ones.
-#[derive(Clone, Copy, Default)]
-struct Pixels {
-    x: Lane,
-    y: Lane,
-    grey: Lane,
-    weight: Lane,
+struct Pixels<'a> {
+    x: &'a Lane,
+    y: &'a Lane,
+    grey: &'a Lane,
+    weight: &'a Lane,
 }
 
-/// The pixels around a corner.
+/// The pixels around a corner, relative to its centre: a multiple of [`LANES`], the last ones with
+/// a weight of 0.
 struct Disc {
     centre: Vector2<f64>,
-    pixels: Vec<Pixels>,
+    x: Vec<f32>,
+    y: Vec<f32>,
+    grey: Vec<f32>,
+    weight: Vec<f32>,
     count: usize,
 }
 
@@ -211,46 +219,65 @@ impl Disc {
             return Err(Unfit::AtTheEdge);
         }
         let hidden = markers_around(rough)?;
-        let mut disc = Self { centre, pixels: vec![], count: 0 };
-        disc.pixels.reserve((4.0 * radius * radius) as usize / LANES + 1);
+        let mut disc = Self::with_room((4.0 * radius * radius) as usize + LANES, centre);
         for y in low_y as usize..=high_y as usize {
             let dy = y as f64 - centre.y;
             let half = (radius * radius - dy * dy).max(0.0).sqrt();
             let (first, last) = ((centre.x - half).ceil(), (centre.x + half).floor());
-            for x in first as usize..=last as usize {
-                let d = Vector2::new(x as f64 - centre.x, dy);
-                if hidden.as_ref().is_none_or(|hidden| !hidden(&d)) {
-                    disc.push(&d, image.at(x, y));
+            let seen = first as usize..last as usize + 1;
+            match &hidden {
+                None => disc.push(image, y, seen),
+                Some(hidden) => {
+                    let clear = |x: &usize| !hidden(&Vector2::new(*x as f64 - centre.x, dy));
+                    seen.filter(clear).for_each(|x| disc.push(image, y, x..x + 1));
                 }
             }
         }
         if disc.count < FEWEST_PIXELS {
             return Err(Unfit::TooSmall(radius / REACH));
         }
+        disc.fill_up();
         Ok(disc)
     }
 
-    fn push(&mut self, d: &Vector2<f64>, grey: f32) {
-        let k = self.count % LANES;
-        if k == 0 {
-            self.pixels.push(Pixels::default());
+    fn with_room(count: usize, centre: Vector2<f64>) -> Self {
+        let room = || Vec::with_capacity(count);
+        Self { centre, x: room(), y: room(), grey: room(), weight: room(), count: 0 }
+    }
+
+    /// Adds a part of a row.
+    fn push(&mut self, image: &GrayImage, y: usize, part: Range<usize>) {
+        let row = y * image.width();
+        self.count += part.len();
+        self.grey.extend_from_slice(&image.values()[row + part.start..row + part.end]);
+        self.y.resize(self.count, (y as f64 - self.centre.y) as f32);
+        self.x.extend(part.map(|x| (x as f64 - self.centre.x) as f32));
+    }
+
+    fn fill_up(&mut self) {
+        let full = self.count.next_multiple_of(LANES);
+        self.weight.resize(self.count, 1.0);
+        for values in [&mut self.x, &mut self.y, &mut self.grey, &mut self.weight] {
+            values.resize(full, 0.0);
         }
-        if let Some(last) = self.pixels.last_mut() {
-            (last.x[k], last.y[k]) = (d.x as f32, d.y as f32);
-            (last.grey[k], last.weight[k]) = (grey, 1.0);
+    }
+
+    fn pixels(&self) -> impl Iterator<Item = Pixels<'_>> {
+        fn lanes(values: &[f32]) -> std::slice::Iter<'_, Lane> {
+            values.as_chunks().0.iter()
         }
-        self.count += 1;
+        let all =
+            lanes(&self.x).zip(lanes(&self.y)).zip(lanes(&self.grey)).zip(lanes(&self.weight));
+        all.map(|(((x, y), grey), weight)| Pixels { x, y, grey, weight })
     }
 
     fn each(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
-        let one = |k: usize| {
-            let (p, k) = (&self.pixels[k / LANES], k % LANES);
-            (f64::from(p.x[k]), f64::from(p.y[k]), f64::from(p.grey[k]))
-        };
+        let one = |k: usize| (f64::from(self.x[k]), f64::from(self.y[k]), f64::from(self.grey[k]));
         (0..self.count).map(one)
     }
 
-    /// Levenberg-Marquardt until the corner moves less than `step_px`: parameters, `JᵀJ` and cost.
+    /// Levenberg-Marquardt until the corner moves less than `step_px`: parameters, `JᵀJ` and cost
+    /// before the last step.
     fn descend(&self, start: Parameters, step_px: f64) -> Option<(Parameters, Normal, f64)> {
         let mut at = start;
         let (mut normal, mut gradient, mut cost) = self.linearise(&at);
@@ -266,14 +293,15 @@ impl Disc {
             }
             let mut next = at + step;
             next[6] = clamped(next[6]);
+            let length = step[0].hypot(step[1]);
+            if length < step_px && last_px.is_finite() && damping < FREE {
+                return Some((next, normal, cost));
+            }
             let (n, g, c) = self.linearise(&next);
             if c.is_finite() && c <= cost {
                 (at, normal, gradient, cost) = (next, n, g, c);
                 damping *= 0.1;
-                last_px = step[0].hypot(step[1]);
-                if last_px < step_px {
-                    return Some((at, normal, cost));
-                }
+                last_px = length;
             } else if damping > 1e6 {
                 return Some((at, normal, cost)); // rounding: no step makes it better
             } else {
@@ -304,11 +332,7 @@ impl Disc {
 
     /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
     fn linearise(&self, at: &Parameters) -> (Normal, Parameters, f64) {
-        let model = Model::new(at);
-        let mut products = [[0.0; LANES]; PRODUCTS];
-        for pixels in &self.pixels {
-            accumulate(&mut products, &model.rows(pixels));
-        }
+        let products = products(&Model::new(at), self);
         let sums = products.map(|lane| lane.iter().map(|v| f64::from(*v)).sum::<f64>());
         let at = |m: usize, n: usize| sums[place(m.min(n), m.max(n))];
         (Normal::from_fn(at), Parameters::from_fn(|m, _| at(m, 9)), at(9, 9))
@@ -344,15 +368,29 @@ const fn place(m: usize, n: usize) -> usize {
     m * 10 - m * (m + 1) / 2 + n
 }
 
-/// Adds the products of all pairs of rows.
-#[inline]
-fn accumulate(products: &mut [Lane; PRODUCTS], rows: &Rows) {
+/// Products of all pairs of rows, summed over the pixels. Wider registers are used where there are
+/// any; they compute the same numbers.
+#[multiversion(targets("x86_64+avx2"))]
+fn products(model: &Model, disc: &Disc) -> [[f32; SUMS]; PRODUCTS] {
+    let mut products = [[0.0; SUMS]; PRODUCTS];
+    for pixels in disc.pixels() {
+        accumulate(&mut products, &model.rows(&pixels));
+    }
+    products
+}
+
+#[inline(always)]
+fn accumulate(products: &mut [[f32; SUMS]; PRODUCTS], rows: &Rows) {
     let mut next = 0;
     for m in 0..10 {
         for n in m..10 {
-            for k in 0..LANES {
-                products[next][k] += rows[m][k] * rows[n][k];
+            let mut sum = products[next];
+            for from in (0..LANES).step_by(SUMS) {
+                for k in 0..SUMS {
+                    sum[k] += rows[m][from + k] * rows[n][from + k];
+                }
             }
+            products[next] = sum;
             next += 1;
         }
     }
@@ -397,7 +435,7 @@ impl Model {
     }
 
     /// Derivatives and residual at pixels.
-    #[inline]
+    #[inline(always)]
     fn rows(&self, pixels: &Pixels) -> Rows {
         let [cx, cy, _, _, a, b, _, gx, gy] = self.p;
         let ((n1x, n1y), (n2x, n2y)) = (self.n1, self.n2);
@@ -458,8 +496,9 @@ mod tests {
         let at =
             Parameters::from_column_slice(&[0.3, -0.2, 0.4, 1.8, 110.0, -60.0, 0.2, 0.01, -0.02]);
         for (x, y) in [(0.5, 0.1), (-3.0, 2.0), (1.0, -4.0)] {
-            let one = |v: f32| [v, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-            let pixel = Pixels { x: one(x), y: one(y), grey: one(0.0), weight: one(1.0) };
+            let one = |v: f32| [v; LANES];
+            let (x, y, grey, weight) = (&one(x), &one(y), &one(0.0), &one(1.0));
+            let pixel = Pixels { x, y, grey, weight };
             let rows = Model::new(&at).rows(&pixel);
             for k in 0..9 {
                 let mut step = Parameters::zeros();
