@@ -12,30 +12,56 @@ use super::board::{NotFound, Outcome};
 use super::fits::{Fits, corner, sorted};
 use super::grid::Grid;
 use super::markers::bilinear;
-use crate::GrayImage;
+use super::partial;
+use crate::{GrayImage, TargetModel};
 
 /// Of a board in full extent this share of the corners must be fitted.
 const FITTED_SHARE: f64 = 0.8;
 
-/// The corners of a board of `columns` x `rows` in a grid.
-pub(super) fn label(image: &GrayImage, grid: &Grid, columns: i32, rows: i32) -> Outcome {
+/// The corners of a checkerboard in grids, the largest first.
+pub(super) fn label(image: &GrayImage, grids: &[Grid], target: &TargetModel) -> Outcome {
+    let (columns, rows) = target.grid();
+    let size = (columns as i32, rows as i32);
     let fits = Fits { image, clean: 1.0, lines: None };
-    let grown = grow(grid, &fits, (columns, rows));
-    let fitted = fits.all(&grown);
+    let seen = joined(image, grids);
+    let fitted = fits.all(&grow(&seen, &fits, size), &seen);
     let known = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };
-    let window = best_window(&known, (columns, rows))?;
-    let (i0, j0, width, height) = window;
-    let inside =
-        |k: &(i32, i32)| (0..width).contains(&(k.0 - i0)) && (0..height).contains(&(k.1 - j0));
-    let origin = known.corners.iter().filter(|(k, _)| inside(k));
-    let board = Grid { corners: origin.map(|(k, p)| ((k.0 - i0, k.1 - j0), *p)).collect() };
-    let turns = turns_of_board(image, &board, (width, height), (columns, rows));
-    let turns = turns.ok_or(NotFound::NoCorners)?;
-    let corners = board.corners.keys().map(|&(i, j)| {
-        let (x, y) = turned((i, j), (width, height), turns);
-        corner((y * columns + x) as u32, &fitted[&(i + i0, j + j0)])
+    let board = match whole(image, &known, size) {
+        Ok(board) => board,
+        Err(reason) => partial::on_board(image, &known, target).ok_or(reason)?,
+    };
+    // places tell which corner is which, labels have changed
+    let corners = fitted.values().filter_map(|fit| {
+        let (k, _) = board.corners.iter().find(|(_, p)| **p == fit.pixel)?;
+        Some(corner(target.id_at(k.0 as u32, k.1 as u32)?, fit))
     });
     Ok(sorted(corners.collect()))
+}
+
+/// A board of which nearly all corners are seen.
+fn whole(image: &GrayImage, known: &Grid, board: (i32, i32)) -> Result<Grid, NotFound> {
+    let (i0, j0, width, height) = best_window(known, board)?;
+    let inside =
+        |k: &(i32, i32)| (0..width).contains(&(k.0 - i0)) && (0..height).contains(&(k.1 - j0));
+    let seen = known.corners.iter().filter(|(k, _)| inside(k));
+    let seen = Grid { corners: seen.map(|(k, p)| ((k.0 - i0, k.1 - j0), *p)).collect() };
+    let turns = turns_of_board(image, &seen, (width, height), board).ok_or(NotFound::NoCorners)?;
+    Ok(seen.relabel(|k| turned(k, (width, height), turns)))
+}
+
+/// The largest grid and those that continue it beyond a gap.
+fn joined(image: &GrayImage, grids: &[Grid]) -> Grid {
+    let Some((largest, others)) = grids.split_first() else { return Grid::default() };
+    let mut all = largest.clone();
+    for other in others {
+        if let Some(more) = all.continued(other) {
+            let same = |grid| first_square_brightness(image, grid).is_sign_positive();
+            if same(&all) == same(&more) {
+                all.corners.extend(more.corners);
+            }
+        }
+    }
+    all
 }
 
 /// The part of a grid that is the board: first column and row, columns, rows. Larger grids arise
@@ -58,7 +84,7 @@ fn best_window(grid: &Grid, (columns, rows): (i32, i32)) -> Result<(i32, i32, i3
     windows.sort_by_key(|w| std::cmp::Reverse(w.0));
     let fullest = windows.first().map_or(0, |w| w.0);
     if (fullest as f64) < FITTED_SHARE * needed as f64 {
-        return Err(NotFound::TooFew { found: grid.corners.len().min(needed), needed });
+        return Err(NotFound::PartOfBoard { found: grid.corners.len().min(needed), needed });
     }
     if windows.get(1).is_some_and(|second| second.0 >= fullest) {
         return Err(NotFound::OtherSize {
@@ -94,7 +120,7 @@ fn turns_of_board(
 }
 
 /// A label of a grid of `size`, after quarter turns.
-fn turned(label: (i32, i32), size: (i32, i32), turns: usize) -> (i32, i32) {
+pub(super) fn turned(label: (i32, i32), size: (i32, i32), turns: usize) -> (i32, i32) {
     let quarter = |((i, j), (width, height)): ((i32, i32), (i32, i32))| {
         ((height - 1 - j, i), (height, width))
     };
@@ -103,7 +129,7 @@ fn turned(label: (i32, i32), size: (i32, i32), turns: usize) -> (i32, i32) {
 
 /// Grey of the squares with the colour of the one outside of corner (0, 0), minus that of the
 /// others.
-fn first_square_brightness(image: &GrayImage, grid: &Grid) -> f64 {
+pub(super) fn first_square_brightness(image: &GrayImage, grid: &Grid) -> f64 {
     let one = |(&(i, j), p): (&(i32, i32), &Vector2<f64>)| {
         let (u, v) = (grid.step((i, j), (1, 0))?, grid.step((i, j), (0, 1))?);
         let grey = |a: f64, b: f64| bilinear(image, &(p + (u * a + v * b) * 0.35));

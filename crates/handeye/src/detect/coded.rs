@@ -176,8 +176,9 @@ impl Coded<'_> {
             let corners = grids.first().map_or(0, |g| g.corners.len());
             return Err(NotFound::NoMarkers { corners, dictionary: self.name.clone() });
         }
+        let seen = board.clone();
         self.fill(&mut board, &fits);
-        let fitted = fits.all(&board);
+        let fitted = fits.all(&board, &seen);
         let with_id = fitted.iter().filter_map(|(k, f)| Some(corner(id_of(self.target, *k)?, f)));
         let corners: Vec<_> = with_id.collect();
         if corners.len() < FEWEST_CORNERS {

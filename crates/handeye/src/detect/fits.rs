@@ -8,6 +8,20 @@ use super::grid::Grid;
 use super::subpixel::{self, FittedCorner, NearCorner, RoughCorner};
 use crate::{GrayImage, ImageCorner};
 
+/// Measured corners by label.
+pub(super) type Fitted = BTreeMap<(i32, i32), FittedCorner>;
+
+/// A corner this many times farther from where its neighbours have it than they are themselves, and
+/// than its own error is, is none.
+const STRAY: f64 = 7.0;
+/// But no nearer than this, px: prints and pictures of whole pixels are rounded.
+const NOT_STRAY_PX: f64 = 0.75;
+
+/// A prediction whose variance is this many times that of the neighbours is none.
+const UNSURE: f64 = 30.0;
+/// A predicted corner may be off by this share of a cell: lenses bend boards.
+const OFF_SHARE: f64 = 0.12;
+
 /// Sub-pixel fits in one picture.
 pub(super) struct Fits<'a> {
     pub image: &'a GrayImage,
@@ -73,7 +87,8 @@ impl Fits<'_> {
 
     /// All corners. First every one is approached; then the steps between them are known well enough
     /// to measure each with a disc that does not depend on where the search began.
-    pub fn all(&self, grid: &Grid) -> BTreeMap<(i32, i32), FittedCorner> {
+    /// What was not `seen` as a corner of the grid, but predicted, needs neighbours that confirm it.
+    pub fn all(&self, grid: &Grid, seen: &Grid) -> Fitted {
         let near = |&k: &(i32, i32)| {
             Some((k, subpixel::approach(self.image, &self.rough(grid, k)?).ok()?))
         };
@@ -83,15 +98,70 @@ impl Fits<'_> {
             let rough = self.rough(&grid, *k)?;
             Some((*k, subpixel::measure(self.image, &rough, near).ok()?))
         };
-        near.iter().filter_map(measured).collect()
+        let mut fitted = self.consistent(near.iter().filter_map(measured).collect());
+        let grid = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };
+        let confirmed =
+            |k: (i32, i32)| seen.corners.contains_key(&k) || self.predict(&grid, k).is_some();
+        fitted.retain(|k, _| confirmed(*k));
+        fitted
+    }
+
+    /// Without those that lie where their neighbours cannot have them: at the rim of what hides a
+    /// board, a crossing of something else is soon found.
+    fn consistent(&self, mut fitted: Fitted) -> Fitted {
+        let mut grid = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };
+        let mut misfits: BTreeMap<(i32, i32), f64> =
+            grid.corners.keys().filter_map(|&k| Some((k, self.misfit(&grid, k)?))).collect();
+        loop {
+            let stray = |(k, misfit): (&(i32, i32), &f64)| {
+                let usual = median(grid.around(*k).filter_map(|(k, _)| misfits.get(&k)).copied());
+                let own = fitted.get(k)?.covariance.trace();
+                let ratio = misfit / (usual * usual + own).sqrt();
+                (ratio > STRAY && *misfit > NOT_STRAY_PX).then_some((ratio, *k))
+            };
+            let worst = misfits.iter().filter_map(stray).max_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((_, worst)) = worst else { return fitted };
+            fitted.remove(&worst);
+            grid.corners.remove(&worst);
+            misfits.remove(&worst);
+            let near: Vec<(i32, i32)> = grid.around(worst).map(|(k, _)| k).collect();
+            for k in near {
+                match self.misfit(&grid, k) {
+                    Some(misfit) => misfits.insert(k, misfit),
+                    None => misfits.remove(&k),
+                };
+            }
+        }
+    }
+
+    /// Distance of a corner from where its neighbours have it, px, as if they had it exactly.
+    fn misfit(&self, grid: &Grid, label: (i32, i32)) -> Option<f64> {
+        let predicted = grid.predict(label, |k| self.place(k))?;
+        Some((grid.corners.get(&label)? - predicted.pixel).norm() / (1.0 + predicted.spread).sqrt())
+    }
+
+    /// Where the neighbours have a corner, px, if they are sure.
+    fn predict(&self, grid: &Grid, label: (i32, i32)) -> Option<Vector2<f64>> {
+        let predicted = grid.predict(label, |k| self.place(k))?;
+        (predicted.spread < UNSURE).then_some(predicted.pixel)
     }
 
     /// The corner that the neighbours predict, if the picture has one there.
     pub fn predicted(&self, grid: &Grid, label: (i32, i32)) -> Option<Vector2<f64>> {
+        let there = self.predict(grid, label)?;
         let mut with = grid.clone();
-        with.corners.insert(label, grid.predict(label, |k| self.place(k))?);
-        subpixel::fit(self.image, &self.rough(&with, label)?).ok().map(|fitted| fitted.pixel)
+        with.corners.insert(label, there);
+        let rough = self.rough(&with, label)?;
+        let fitted = subpixel::fit(self.image, &rough).ok()?;
+        let cell = rough.along_x.norm().min(rough.along_y.norm());
+        ((fitted.pixel - there).norm() < OFF_SHARE * cell).then_some(fitted.pixel)
     }
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    let middle = values.len() / 2;
+    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
 /// A measured corner with its id.

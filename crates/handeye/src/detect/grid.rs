@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Vector2;
+use nalgebra::{Matrix3, Vector2};
 
 use super::homography;
 
@@ -19,6 +19,13 @@ pub struct Grid {
 const NEIGHBOURHOOD: i32 = 3;
 /// At least this many neighbours predict a corner.
 const FEWEST_NEIGHBOURS: usize = 6;
+
+/// So many of a grid's corners say where another one continues it.
+const MOST_CONTINUED: usize = 24;
+/// There its corners may be off by this much, steps.
+const EVEN: f64 = 0.3;
+/// A gap wider than this (steps) is not bridged.
+const WIDEST_GAP: u32 = 6;
 
 impl Grid {
     /// Smallest and largest column and row.
@@ -39,28 +46,69 @@ impl Grid {
         }
     }
 
-    /// Where a corner should be, px, judged by its neighbours; `place` says where labels are on the
+    /// Where a corner should be, judged by its neighbours; `place` says where labels are on the
     /// board.
     pub fn predict(
         &self,
         at: (i32, i32),
         place: impl Fn((i32, i32)) -> Vector2<f64>,
-    ) -> Option<Vector2<f64>> {
-        let near = |k: &(i32, i32)| {
-            (k.0 - at.0).abs().max((k.1 - at.1).abs()) <= NEIGHBOURHOOD && *k != at
-        };
-        let (from, to): (Vec<_>, Vec<_>) = self
-            .corners
-            .iter()
-            .filter(|(k, _)| near(k))
-            .map(|(k, p)| (place(*k) - place(at), *p))
-            .unzip();
-        if from.len() < FEWEST_NEIGHBOURS {
-            return None;
+    ) -> Option<Prediction> {
+        let others = self.around(at).filter(|(k, _)| *k != at);
+        prediction(&others.map(|(k, p)| (place(k) - place(at), p)).collect::<Vec<_>>())
+    }
+
+    /// Where a place is that lies `offset` steps from a corner, px.
+    pub fn beside(&self, at: (i32, i32), offset: Vector2<f64>) -> Option<Vector2<f64>> {
+        let steps = |k: (i32, i32)| Vector2::new(f64::from(k.0 - at.0), f64::from(k.1 - at.1));
+        let near = self.around(at).map(|(k, p)| (steps(k) - offset, p));
+        prediction(&near.collect::<Vec<_>>()).map(|p| p.pixel)
+    }
+
+    /// The corners around a label and the one there.
+    pub fn around(
+        &self,
+        at: (i32, i32),
+    ) -> impl Iterator<Item = ((i32, i32), Vector2<f64>)> + use<'_> {
+        let near = -NEIGHBOURHOOD..=NEIGHBOURHOOD;
+        let labels =
+            near.clone().flat_map(move |j| near.clone().map(move |i| (at.0 + i, at.1 + j)));
+        labels.filter_map(|k| Some((k, *self.corners.get(&k)?)))
+    }
+
+    /// Another grid with the labels that it has as the continuation of this one.
+    pub fn continued(&self, other: &Self) -> Option<Self> {
+        let middle = other.corners.values().sum::<Vector2<f64>>() / other.corners.len() as f64;
+        let mut near: Vec<_> = self.corners.iter().collect();
+        near.sort_by(|a, b| (a.1 - middle).norm().total_cmp(&(b.1 - middle).norm()));
+        near.truncate(MOST_CONTINUED);
+        let labels: Vec<_> =
+            near.iter().map(|(k, _)| Vector2::new(f64::from(k.0), f64::from(k.1))).collect();
+        let pixels: Vec<_> = near.iter().map(|(_, p)| **p).collect();
+        let h = homography::fit(&pixels, &labels)?;
+        let mut turned = other.clone();
+        for _ in 0..4 {
+            if let Some(moved) = self.shifted(&turned, &h) {
+                return Some(moved);
+            }
+            turned = turned.relabel(|(i, j)| (-j, i));
         }
-        let h = homography::fit(&from, &to)?;
-        let there = homography::apply(&h, &Vector2::zeros());
-        there.iter().all(|x| x.is_finite()).then_some(there)
+        None
+    }
+
+    /// A grid shifted to where `h` has its pixels, if that is near, free and evenly spaced.
+    fn shifted(&self, other: &Self, h: &Matrix3<f64>) -> Option<Self> {
+        let offset = |(k, p): (&(i32, i32), &Vector2<f64>)| {
+            homography::apply(h, p) - Vector2::new(f64::from(k.0), f64::from(k.1))
+        };
+        let sum = other.corners.iter().map(offset).sum::<Vector2<f64>>();
+        let shift = (sum / other.corners.len() as f64).map(f64::round);
+        let even = other.corners.iter().all(|c| (offset(c) - shift).amax() < EVEN);
+        let (x, y) = (shift.x as i32, shift.y as i32);
+        let moved = other.relabel(|(i, j)| (i.saturating_add(x), j.saturating_add(y)));
+        let free = moved.corners.keys().all(|k| !self.corners.contains_key(k));
+        let close = |a: i32, b: i32| a.abs_diff(b) <= WIDEST_GAP;
+        let near = |k: &(i32, i32)| self.corners.keys().any(|o| close(k.0, o.0) && close(k.1, o.1));
+        (even && free && moved.corners.keys().any(near)).then_some(moved)
     }
 
     /// Every position moved, e.g. back from a scaled picture.
@@ -72,4 +120,20 @@ impl Grid {
     pub fn relabel(&self, f: impl Fn((i32, i32)) -> (i32, i32)) -> Self {
         Self { corners: self.corners.iter().map(|(k, p)| (f(*k), *p)).collect() }
     }
+}
+
+/// A corner as its neighbours have it.
+#[derive(Debug, Clone, Copy)]
+pub struct Prediction {
+    /// Where, px.
+    pub pixel: Vector2<f64>,
+    /// Its variance over that of a neighbour.
+    pub spread: f64,
+}
+
+fn prediction(neighbours: &[(Vector2<f64>, Vector2<f64>)]) -> Option<Prediction> {
+    if neighbours.len() < FEWEST_NEIGHBOURS {
+        return None;
+    }
+    homography::origin(neighbours).map(|(pixel, spread)| Prediction { pixel, spread })
 }

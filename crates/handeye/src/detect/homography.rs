@@ -55,6 +55,51 @@ fn normalisation(points: &[Vector2<f64>]) -> Option<Matrix3<f64>> {
         .then(|| Matrix3::new(s, 0.0, -s * centre.x, 0.0, s, -s * centre.y, 0.0, 0.0, 1.0))
 }
 
+/// Where the homography that takes the first points of all pairs to their second ones takes the
+/// origin, and the variance of that over the variance of the second points' coordinates. `None` if the
+/// pairs do not tell.
+///
+/// With `H₃₃ = 1` the origin goes to `(H₁₃, H₂₃)`, two of eight unknowns of a linear system.
+pub fn origin(pairs: &[(Vector2<f64>, Vector2<f64>)]) -> Option<(Vector2<f64>, f64)> {
+    let count = pairs.len() as f64;
+    let middle = pairs.iter().map(|p| p.1).sum::<Vector2<f64>>() / count;
+    let widest = |of: &dyn Fn(&(Vector2<f64>, Vector2<f64>)) -> f64| {
+        pairs.iter().map(of).fold(0.0, f64::max).recip()
+    };
+    let (scale, there) = (widest(&|p| p.0.amax()), widest(&|p| (p.1 - middle).amax()));
+    let mut normal = SMatrix::<f64, 8, 8>::zeros();
+    let mut right = SVector::<f64, 8>::zeros();
+    for (a, b) in pairs {
+        let (p, q) = ((a * scale).push(1.0), (b - middle) * there);
+        let products = p * p.transpose();
+        for (row, value) in [(0, q.x), (3, q.y)] {
+            add(&mut normal, (row, row), &products);
+            let mixed = products.fixed_view::<3, 2>(0, 0) * -value;
+            let mut block = normal.fixed_view_mut::<3, 2>(row, 6);
+            block += mixed;
+            let mut part = right.fixed_rows_mut::<3>(row);
+            part += p * value;
+        }
+        let mut last = normal.fixed_view_mut::<2, 2>(6, 6);
+        last += products.fixed_view::<2, 2>(0, 0) * q.norm_squared();
+        let mut part = right.fixed_rows_mut::<2>(6);
+        part -= p.xy() * q.norm_squared();
+    }
+    normal.fill_lower_triangle_with_upper_triangle();
+    let solver = normal.cholesky()?;
+    let h = solver.solve(&right);
+    let of_x = solver.solve(&SVector::<f64, 8>::ith(2, 1.0))[2];
+    let of_y = solver.solve(&SVector::<f64, 8>::ith(5, 1.0))[5];
+    let at = middle + Vector2::new(h[2], h[5]) / there;
+    let spread = of_x.max(of_y);
+    (at.iter().all(|x| x.is_finite()) && spread.is_finite()).then_some((at, spread))
+}
+
+fn add(normal: &mut SMatrix<f64, 8, 8>, at: (usize, usize), block: &Matrix3<f64>) {
+    let mut part = normal.fixed_view_mut::<3, 3>(at.0, at.1);
+    part += block;
+}
+
 /// Image of a point; not finite at the horizon.
 pub fn apply(h: &Matrix3<f64>, at: &Vector2<f64>) -> Vector2<f64> {
     let p: Vector3<f64> = h * at.push(1.0);
@@ -93,6 +138,19 @@ mod tests {
         for (a, b) in grid().iter().zip(&to) {
             assert!((apply(&h, a) - b).norm() < 1e-9);
         }
+    }
+
+    #[test]
+    fn the_origin_goes_where_the_homography_takes_it() {
+        let centre = Vector2::new(0.17, 0.08);
+        let pairs: Vec<_> = grid().iter().map(|p| (p - centre, apply(&truth(), p))).collect();
+        let (at, spread) = origin(&pairs).unwrap();
+        assert!((at - apply(&truth(), &centre)).norm() < 1e-9);
+        assert!((0.05..1.0).contains(&spread), "{spread}");
+        let outside: Vec<_> = pairs.iter().map(|p| (p.0.add_scalar(1.0), p.1)).collect();
+        assert!(origin(&outside).unwrap().1 > 10.0 * spread);
+        let line: Vec<_> = pairs.iter().map(|p| (Vector2::repeat(p.0.x), p.1)).collect();
+        assert!(origin(&line).is_none() && origin(&[]).is_none());
     }
 
     #[test]

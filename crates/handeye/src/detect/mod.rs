@@ -16,6 +16,7 @@ mod grid;
 pub mod homography;
 pub mod markers;
 mod mesh;
+mod partial;
 pub mod planar_pose;
 mod pyramid;
 pub mod sight;

@@ -69,6 +69,10 @@ pub enum Unfit {
 const REACH: f64 = 0.6;
 /// Largest disc radius, px: beyond it lens distortion bends the edges.
 const WIDEST_PX: f64 = 14.0;
+/// No pixel of a disc is more columns or rows away from its middle.
+const MOST_ACROSS: i32 = 16;
+/// Columns and rows of a square that holds any disc.
+const ACROSS: usize = 2 * MOST_ACROSS as usize + 1;
 /// The next parallel edge must stay this far outside the disc, px: about three blurs.
 const GUARD_PX: f64 = 2.5;
 /// Below this radius (px) a disc holds too few pixels for nine parameters.
@@ -101,8 +105,14 @@ const ROUNDING_VARIANCE: f64 = 1.0 / 12.0;
 /// Blurs stay in this range (px): a pixel's own square blurs by 0.29, more than the upper bound is
 /// not a corner's. Without the lower bound an edge between two pixels would have no place.
 const BLUR_PX: (f64, f64) = (0.29, 6.0);
+/// The model's own error, px.
+const MODEL_PX: f64 = 1e-3;
+/// Pairs of opposite pixels that tell the noise.
+const FEWEST_PAIRS: f64 = 40.0;
+/// Place and slope of the light: parameters that change sign with half a turn.
+const ODD_PARAMETERS: f64 = 4.0;
 /// A corner with a larger variance (px², both axes) was not measured.
-const UNKNOWN_PX2: f64 = 1.0;
+const UNKNOWN_PX2: f64 = 0.1;
 /// Edges that cross at a smaller angle (rad) do not fix a point.
 const SHALLOWEST_RAD: f64 = 0.15;
 
@@ -338,16 +348,52 @@ impl Disc {
         (Normal::from_fn(at), Parameters::from_fn(|m, _| at(m, 9)), at(9, 9))
     }
 
+    /// Variance of what is different on opposite sides of the corner. A crossing of edges looks the
+    /// same after half a turn, whatever blurs it, and what does not change with half a turn does
+    /// not move the corner. `None` where there are few pairs.
+    fn odd_variance(&self, at: &Parameters) -> Option<f64> {
+        let residuals = residuals(&Model::new(at), self);
+        let whole = self.centre.map(f64::round);
+        // columns and rows from a corner of a square that holds the disc
+        let middle = self.centre - whole + Vector2::repeat(MOST_ACROSS as f64 + 0.5);
+        let (column, row) = (middle.x as f32, middle.y as f32);
+        let cell = |k: usize| ((self.x[k] + column) as i32, (self.y[k] + row) as i32);
+        let turned = (self.place(at) * 2.0).map(f64::round) - whole * 2.0;
+        let turned = turned.map(|t| t as i32 + 2 * MOST_ACROSS);
+        let mut square = [[f32::NAN; ACROSS]; ACROSS];
+        let inside = |(i, j): (i32, i32)| {
+            let range = 0..ACROSS as i32;
+            (range.contains(&i) && range.contains(&j)).then_some((i as usize, j as usize))
+        };
+        for k in 0..self.count {
+            let (i, j) = inside(cell(k))?;
+            square[j][i] = residuals[k];
+        }
+        let (mut sum, mut pairs) = (0.0, 0.0);
+        for k in 0..self.count {
+            let (i, j) = cell(k);
+            let opposite = inside((turned.x - i, turned.y - j)).map(|(i, j)| square[j][i]);
+            if let Some(opposite) = opposite.filter(|r| r.is_finite()) {
+                // every pair comes twice
+                sum += 0.25 * f64::from(residuals[k] - opposite).powi(2);
+                pairs += 0.5;
+            }
+        }
+        (pairs >= FEWEST_PAIRS).then(|| sum / (pairs - ODD_PARAMETERS))
+    }
+
     fn judge(&self, at: &Parameters, normal: &Normal, cost: f64) -> Option<FittedCorner> {
         let freedom = self.count as f64 - 9.0;
-        let variance = (cost / freedom).max(ROUNDING_VARIANCE);
+        let odd = self.odd_variance(at);
+        let variance = odd.unwrap_or(cost / freedom).max(ROUNDING_VARIANCE);
         let blur_px = at[6].exp();
         let crossing = (at[2] - at[3]).sin().abs();
-        let sound = variance.sqrt() < WORST_RESIDUAL * at[5].abs()
+        let sound = (cost / freedom).sqrt() < WORST_RESIDUAL * at[5].abs()
             && blur_px < 0.99 * BLUR_PX.1
             && crossing > SHALLOWEST_RAD.sin();
         let inverse = normal.cholesky()?.inverse() * variance;
-        let covariance: Matrix2<f64> = inverse.fixed_view::<2, 2>(0, 0).into_owned();
+        let own = Matrix2::identity() * MODEL_PX.powi(2);
+        let covariance: Matrix2<f64> = inverse.fixed_view::<2, 2>(0, 0).into_owned() + own;
         let known = covariance.determinant() > 0.0 && covariance.trace() < UNKNOWN_PX2;
         (sound && known).then(|| FittedCorner {
             pixel: self.place(at),
@@ -377,6 +423,16 @@ fn products(model: &Model, disc: &Disc) -> [[f32; SUMS]; PRODUCTS] {
         accumulate(&mut products, &model.rows(&pixels));
     }
     products
+}
+
+/// Picture minus model at every pixel.
+#[multiversion(targets("x86_64+avx2"))]
+fn residuals(model: &Model, disc: &Disc) -> Vec<f32> {
+    let mut all = Vec::with_capacity(disc.x.len());
+    for pixels in disc.pixels() {
+        all.extend_from_slice(&model.residual(&pixels));
+    }
+    all
 }
 
 #[inline(always)]
@@ -432,6 +488,22 @@ impl Model {
         let normal = |t: f64| (t.cos() as f32, t.sin() as f32);
         let scale = (FRAC_1_SQRT_2 * (-at[6]).exp()) as f32;
         Self { p, n1: normal(at[2]), n2: normal(at[3]), scale }
+    }
+
+    /// Picture minus model.
+    #[inline(always)]
+    fn residual(&self, pixels: &Pixels) -> Lane {
+        let [cx, cy, _, _, a, b, _, gx, gy] = self.p;
+        let ((n1x, n1y), (n2x, n2y)) = (self.n1, self.n2);
+        let mut residual = [0.0; LANES];
+        for k in 0..LANES {
+            let (x, y) = (pixels.x[k], pixels.y[k]);
+            let (dx, dy) = (x - cx, y - cy);
+            let (e1, _) = erf((n1x * dx + n1y * dy) * self.scale);
+            let (e2, _) = erf((n2x * dx + n2y * dy) * self.scale);
+            residual[k] = pixels.grey[k] - (1.0 + gx * x + gy * y) * (a + b * e1 * e2);
+        }
+        residual
     }
 
     /// Derivatives and residual at pixels.
