@@ -1,0 +1,100 @@
+//! Writes good inputs for each fuzz target into `corpus/`, to begin with.
+
+use std::{fs, io::Cursor, path::Path};
+
+use handeye::{
+    GrayImage, Intrinsics, Pose, TargetModel,
+    simulate::{DepthSensor, Optics, Scene},
+};
+use image::{GrayImage as Pixels, ImageBuffer, ImageFormat, Luma};
+use nalgebra::{Matrix3, Vector3};
+
+const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/corpus");
+const SIZE: (u32, u32) = (120, 96);
+
+fn main() {
+    for (k, target) in handeye_fuzz::targets().iter().enumerate() {
+        let picture = picture(target);
+        let mut bytes = vec![k as u8, SIZE.0 as u8];
+        bytes.extend(picture.to_u8());
+        put("detect", &format!("target{k}"), &bytes);
+    }
+    let target = &handeye_fuzz::targets()[0];
+    let pixels = Pixels::from_raw(SIZE.0, SIZE.1, picture(target).to_u8()).expect("all pixels");
+    let kinds = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tiff, ImageFormat::Bmp];
+    for (k, format) in kinds.into_iter().enumerate() {
+        let mut bytes = Cursor::new(vec![]);
+        pixels.write_to(&mut bytes, format).expect("into memory");
+        put("image", &format!("kind{k}"), &[&[k as u8][..], bytes.get_ref()].concat());
+    }
+    scans(target);
+    texts();
+}
+
+fn scene(target: &TargetModel) -> Scene {
+    let middle = target.reference().vector();
+    let away = Pose::from_parts(&Matrix3::identity(), Vector3::new(-middle.x, -middle.y, 0.12));
+    let (width, height) = SIZE;
+    let intrinsics = Intrinsics::pinhole(width, height, 160.0, 160.0, 59.5, 47.5);
+    Scene { target: target.clone(), camera_from_target: away, intrinsics }
+}
+
+fn picture(target: &TargetModel) -> GrayImage {
+    scene(target).picture(&Optics::default(), 1)
+}
+
+fn scans(target: &TargetModel) {
+    let scan = scene(target).scan(&DepthSensor::default(), 1);
+    let millimetres: Vec<u8> = scan.points().iter().map(|p| (p[2] * 1e3).min(252.0) as u8).collect();
+    put("lift", "board", &[&[SIZE.0 as u8, 0][..], &millimetres].concat());
+    let deep: Vec<u16> = scan.points().iter().map(|p| (p[2] * 1e3) as u16).collect();
+    let deep = ImageBuffer::<Luma<u16>, _>::from_raw(SIZE.0, SIZE.1, deep).expect("all pixels");
+    for (k, format) in [(4, ImageFormat::Png), (5, ImageFormat::Tiff)] {
+        let mut bytes = Cursor::new(vec![]);
+        deep.write_to(&mut bytes, format).expect("into memory");
+        put("scan", &format!("kind{k}"), &[&[k][..], bytes.get_ref()].concat());
+    }
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n4 5 6\n7 8 9\n";
+    let pcd = "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3\nDATA ascii\n1 2 3\n4 5 6\n7 8 9\n";
+    let mut binary = ply.replace("ascii", "binary_little_endian").into_bytes();
+    binary.truncate(binary.len() - "1 2 3\n4 5 6\n7 8 9\n".len());
+    binary.extend([0x3f; 36]);
+    for (k, name, bytes) in
+        [(0, "ply", ply.as_bytes()), (0, "ply_binary", &binary), (1, "pcd", pcd.as_bytes())]
+    {
+        put("scan", name, &[&[k][..], bytes].concat());
+    }
+    let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 3), }";
+    let mut npy = b"\x93NUMPY\x01\x00\x46\x00".to_vec();
+    npy.extend(format!("{header:<69}\n").into_bytes());
+    npy.extend([0x3f; 48]);
+    put("scan", "npy", &[&[2][..], &npy].concat());
+}
+
+fn texts() {
+    let camera = r#"{"width": 640, "height": 480, "fx": 600, "fy": 601, "cx": 320, "cy": 240, "distortion_model": "brown-conrady", "distortion": [0.1, 0, 0, 0, 0]}"#;
+    put("camera", "json", &[&[1][..], camera.as_bytes()].concat());
+    let yaml = "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [600., 0., 320., 0., 600., 240., 0., 0., 1.]\ndistortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n   data: [0.1, 0., 0., 0., 0.]\n";
+    put("camera", "yaml", &[&[0][..], yaml.as_bytes()].concat());
+    let ros = "image_width: 640\nimage_height: 480\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [600, 0, 320, 0, 600, 240, 0, 0, 1]\ndistortion_model: plumb_bob\n";
+    put("camera", "ros", &[&[0][..], ros.as_bytes()].concat());
+    let csv = "id,x,y,z,a,b,c\n01,100,200,300,10,20,30\n02,150,210,280,-10,15,40\n";
+    for notation in 0..8 {
+        put("poses", &format!("csv{notation}"), &[&[notation, 0][..], csv.as_bytes()].concat());
+    }
+    let json = r#"[{"id": "01", "x": 1, "y": 2, "z": 3, "a": 1, "b": 2, "c": 3}]"#;
+    put("poses", "json", &[&[1, 2][..], json.as_bytes()].concat());
+    put("touches", "csv", &[&[0][..], b"corner,x,y,z\n0,1,2,3\n5,4,5,6\n"].concat());
+    let target = "[target]\nkind = \"checkerboard\"\ncolumns = 4\nrows = 3\nsquare_mm = 10.0\n";
+    put("touches", "target", &[&[3][..], target.as_bytes()].concat());
+    let manifest = format!(
+        "setup = \"eye-to-hand\"\n\n{target}\n[camera]\nfile = \"camera.json\"\n\n[robot]\nposes = \"poses.csv\"\nnotation = \"kuka\"\ndirection = \"base_from_flange\"\n\n[images]\nfiles = \"*.png\"\n"
+    );
+    put("manifest", "plain", manifest.as_bytes());
+}
+
+fn put(target: &str, name: &str, bytes: &[u8]) {
+    let folder = Path::new(CORPUS).join(target);
+    fs::create_dir_all(&folder).expect("a folder can be made");
+    fs::write(folder.join(name), bytes).expect("a file can be written");
+}

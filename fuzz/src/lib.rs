@@ -1,0 +1,42 @@
+//! What the fuzz targets share.
+
+use std::{fs, path::PathBuf, process};
+
+/// A folder in memory where that is to be had, else a temporary one, of this process alone.
+pub fn folder() -> PathBuf {
+    let memory = PathBuf::from("/dev/shm");
+    let parent = if memory.is_dir() { memory } else { std::env::temp_dir() };
+    let folder = parent.join(format!("handeye-fuzz-{}", process::id()));
+    fs::create_dir_all(&folder).expect("a temporary folder can be made");
+    folder
+}
+
+/// A file of these bytes; the first byte chooses one of the extensions.
+pub fn file(data: &[u8], extensions: &[&str]) -> Option<PathBuf> {
+    let (first, rest) = data.split_first()?;
+    let extension = extensions[usize::from(*first) % extensions.len()];
+    let path = folder().join(format!("input.{extension}"));
+    fs::write(&path, rest).expect("a temporary file can be written");
+    Some(path)
+}
+
+/// An error must be told in words that are not empty.
+pub fn told<T>(result: Result<T, handeye_io::Error>) -> Option<T> {
+    result.map_err(|error| assert!(!error.to_string().trim().is_empty())).ok()
+}
+
+/// A small one of every kind of target.
+pub fn targets() -> Vec<handeye::TargetModel> {
+    [
+        r#"{"kind":"checkerboard","columns":4,"rows":3,"square_mm":10.0}"#,
+        r#"{"kind":"charuco","squares_x":5,"squares_y":4,"square_mm":10.0,"marker_mm":7.0,"dictionary":"DICT_4X4_50"}"#,
+        r#"{"kind":"tag","dictionary":"DICT_4X4_50","id":1,"size_mm":30.0}"#,
+        r#"{"kind":"aprilgrid","tags_x":2,"tags_y":2,"tag_mm":20.0,"spacing":0.3,"family":"36h11"}"#,
+        r#"{"kind":"tag-grid","tags_x":2,"tags_y":2,"tag_mm":20.0,"gap_mm":5.0,"dictionary":"DICT_4X4_50"}"#,
+        r#"{"kind":"circle-grid","columns":4,"rows":3,"pitch_mm":10.0}"#,
+        r#"{"kind":"asymmetric-circle-grid","columns":3,"rows":5,"pitch_mm":10.0}"#,
+        r#"{"kind":"modified-circle-grid","columns":5,"rows":5,"pitch_mm":10.0}"#,
+    ]
+    .map(|text| serde_json::from_str(text).expect("a target"))
+    .to_vec()
+}
