@@ -7,6 +7,7 @@ use super::grid::Grid;
 use super::mesh;
 use super::pyramid::{Scaled, smoothed};
 use super::tag;
+use super::tags;
 use crate::{GrayImage, ImageCorner, TargetModel};
 
 /// Why no target was found.
@@ -66,6 +67,15 @@ pub enum NotFound {
         /// The declared tag.
         id: u32,
     },
+    /// No tags that lie to one another as the board's do.
+    #[error(
+        "no tags of {dictionary} that lie as on the board: check dictionary, first_id, numbers of \
+         tags and border_bits"
+    )]
+    NoTags {
+        /// The declared dictionary.
+        dictionary: String,
+    },
     /// The tag was read, but one of its edges is no straight line.
     #[error("tag {id} of {dictionary} is there, but its edges are too blurred or covered")]
     BlurredTag {
@@ -113,6 +123,9 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     }
     if target.has_circles() {
         return circles::detect(image, target);
+    }
+    if let Some(board) = tags::Board::apart(target) {
+        return board?.detect(image);
     }
     let family = Family::of(target)?;
     let mut best = Err(NotFound::NoCorners);
@@ -174,11 +187,8 @@ impl<'a> Family<'a> {
                 Ok(Self::Checkerboard { columns: columns as i32, rows: rows as i32 })
             }
             TargetModel::Sphere { .. } => Err(NotFound::ScansOnly),
-            TargetModel::Aprilgrid { .. } => {
-                Err(NotFound::Unsupported("an aprilgrid without corner squares"))
-            }
-            // a single tag and circles were looked for before
-            _ => Err(NotFound::Unsupported("a grid of tags")),
+            // the others were looked for before
+            _ => Err(NotFound::Unsupported("this target")),
         }
     }
 

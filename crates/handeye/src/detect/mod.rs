@@ -22,6 +22,7 @@ pub mod sight;
 pub mod subpixel;
 pub mod surface;
 pub mod tag;
+mod tags;
 
 pub use board::{NotFound, detect};
 pub use planar_pose::{

@@ -36,7 +36,7 @@ const COARSEST: usize = 900;
 /// # Errors
 /// Why it was not found.
 pub fn detect(image: &GrayImage, name: &str, id: u32) -> Result<Vec<ImageCorner>, NotFound> {
-    let print = Print::new(name, 1, 1.0)?;
+    let print = Print::new(name, 1, 1.0, false)?;
     let mut blurred = false;
     let corners = Levels::new(image).search(|level, clear| {
         let best = best(print.read_all(level.image(), clear, [id]))?;
@@ -89,10 +89,15 @@ pub(super) struct Print {
 
 impl Print {
     /// Tags by the name of their dictionary.
-    pub fn new(name: &str, border: usize, white: f64) -> Result<Self, NotFound> {
+    pub fn new(
+        name: &str,
+        border: usize,
+        white: f64,
+        touching: bool,
+    ) -> Result<Self, NotFound> {
         let dictionary =
             Dictionary::named(name).ok_or_else(|| NotFound::UnknownDictionary(name.into()))?;
-        Ok(Self { dictionary, border, white, touching: false })
+        Ok(Self { dictionary, border, white, touching })
     }
 
     /// Cells along a side.
@@ -102,7 +107,8 @@ impl Print {
 
     fn surroundings(&self) -> Surroundings {
         let cells = self.cells() as f64;
-        Surroundings { cells, clear: (self.white * cells).min(self.border as f64) }
+        let clear = (self.white * cells).min(self.border as f64);
+        Surroundings { cells, clear, bows: [0.0; 4] }
     }
 
     /// All tags with one of `ids` in a picture, once for each dark patch. Patches are looked for in
@@ -182,7 +188,7 @@ impl Level<'_> {
     /// The corners of a quadrilateral found here, in the original: to some tenths of this
     /// picture's pixel where its sides are clear.
     pub fn approached(&self, quad: &Quad, print: &Print) -> Quad {
-        let near = approached(self.image(), quad, print.surroundings());
+        let near = approached(self.image(), quad, &print.surroundings());
         self.original(&near.unwrap_or(*quad))
     }
 
@@ -196,18 +202,34 @@ impl Level<'_> {
         quad.each_ref().map(|p| self.scaled().reduced(p))
     }
 
-    /// The corners of a quadrilateral of the original, measured in the original. From picture to
-    /// picture the start comes nearer.
+    /// The corners of a quadrilateral of the original, measured in the original.
     pub fn refined(&self, quad: &Quad, print: &Print) -> Option<[ImageCorner; 4]> {
         let (original, smaller) = self.levels.all[self.at..].split_last()?;
-        let nearer = |quad: Quad, level: &Scaled| {
-            let start = quad.each_ref().map(|p| level.reduced(p));
-            let near = approached(&level.image, &start, print.surroundings());
-            near.map_or(quad, |near| near.each_ref().map(|p| level.original(p)))
-        };
-        let start = smaller.iter().fold(*quad, nearer);
-        refined(&original.image, &start, print.surroundings())
+        refined(&original.image, &nearer(quad, smaller, print), &print.surroundings())
     }
+
+    /// The corners of a quadrilateral of the original to some tenths of its pixel.
+    pub fn nearer(&self, quad: &Quad, print: &Print) -> Quad {
+        nearer(quad, &self.levels.all[self.at..], print)
+    }
+
+    /// The corners of a quadrilateral of the original that is near already; the lens bends its
+    /// sides by `bows`.
+    pub fn measured(&self, quad: &Quad, print: &Print, bows: [f64; 4]) -> Option<[ImageCorner; 4]> {
+        let original = self.levels.all.last()?;
+        refined(&original.image, quad, &Surroundings { bows, ..print.surroundings() })
+    }
+}
+
+/// A quadrilateral of the original; from picture to picture it comes nearer to the truth.
+fn nearer(quad: &Quad, levels: &[Scaled], print: &Print) -> Quad {
+    let around = print.surroundings();
+    let step = |quad: Quad, level: &Scaled| {
+        let start = quad.each_ref().map(|p| level.reduced(p));
+        let near = approached(&level.image, &start, &around);
+        near.map_or(quad, |near| near.each_ref().map(|p| level.original(p)))
+    };
+    levels.iter().fold(*quad, step)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 //!
 //! with `u` along the side and `m` its middle. `ρ, θ, a, b, ln s, g` are fitted by
 //! Levenberg-Marquardt; neighbouring sides meet in the corners, which take over the lines'
-//! covariances.
+//! covariances. Where it is known how a lens bends the sides, that is taken off first.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -56,6 +56,8 @@ pub(super) struct Surroundings {
     pub cells: f64,
     /// Cells from a side to the next edge on either side: of the bits within, of what is around.
     pub clear: f64,
+    /// How far the lens moves the middle of each side outwards from the line between its corners, px.
+    pub bows: [f64; 4],
 }
 
 type Parameters = SVector<f64, 6>;
@@ -81,20 +83,20 @@ struct Wobble {
 pub(super) fn refined(
     image: &GrayImage,
     start: &Quad,
-    around: Surroundings,
+    around: &Surroundings,
 ) -> Option<[ImageCorner; 4]> {
     in_rounds(image, start, around, ROUNDS)
 }
 
-/// The corners after one round: good enough to start from in a larger picture.
-pub(super) fn approached(image: &GrayImage, start: &Quad, around: Surroundings) -> Option<Quad> {
+/// The corners after one round: good enough to start from.
+pub(super) fn approached(image: &GrayImage, start: &Quad, around: &Surroundings) -> Option<Quad> {
     Some(in_rounds(image, start, around, 1)?.map(|corner| corner.pixel))
 }
 
 fn in_rounds(
     image: &GrayImage,
     start: &Quad,
-    around: Surroundings,
+    around: &Surroundings,
     rounds: usize,
 ) -> Option<[ImageCorner; 4]> {
     let mut quad = *start;
@@ -103,7 +105,9 @@ fn in_rounds(
     let mut blur_px = USUAL_BLUR_PX;
     for _ in 0..rounds {
         let one = |k: usize| {
-            side(image, [&quad[k], &quad[(k + 1) % 4]], around, blur_px, shapes[k])
+            let (a, b) = (&quad[k], &quad[(k + 1) % 4]);
+            let place = Place::new([a, b], around, around.bows[k], blur_px);
+            side(image, &place, shapes[k])
         };
         let mut sides = [one(0)?, one(1)?, one(2)?, one(3)?];
         let wobble = wobble(&sides);
@@ -116,7 +120,10 @@ fn in_rounds(
         found = Some(corners);
     }
     let corners = found?;
-    let near = |k: usize| (quad[k] - start[k]).norm() < 2.0 + 0.1 * area(start).sqrt();
+    let size = Vector2::new(image.width() as f64 - 1.0, image.height() as f64 - 1.0);
+    let inside = |p: &Vector2<f64>| p.x > 0.0 && p.y > 0.0 && p.x < size.x && p.y < size.y;
+    let moved = |k: usize| (quad[k] - start[k]).norm();
+    let near = |k: usize| inside(&quad[k]) && moved(k) < 2.0 + 0.1 * area(start).sqrt();
     let known = |c: &ImageCorner| c.covariance.trace() < UNKNOWN_PX2;
     ((0..4).all(near) && corners.iter().all(known)).then_some(corners)
 }
@@ -146,19 +153,9 @@ fn meet(id: u32, a: &Line, b: &Line) -> Option<ImageCorner> {
     finite.then_some(ImageCorner { id, pixel, covariance })
 }
 
-/// The edge from corner `a` to corner `b`; the tag is on the right of that way. `shape` is what an
-/// earlier round found.
-fn side(
-    image: &GrayImage,
-    [a, b]: [&Vector2<f64>; 2],
-    around: Surroundings,
-    blur_px: f64,
-    shape: Option<Parameters>,
-) -> Option<Line> {
-    let (middle, along) = ((a + b) * 0.5, (b - a).normalize());
-    let outwards = Vector2::new(along.y, -along.x);
-    let place = Place { middle, outwards, ..Place::new((b - a).norm(), around, blur_px) };
-    let band = Band::gather(image, &place)?;
+/// The edge of a side. `shape` is what an earlier round found.
+fn side(image: &GrayImage, place: &Place, shape: Option<Parameters>) -> Option<Line> {
+    let band = Band::gather(image, place)?;
     let start = shape.map_or_else(|| band.start(), moved_back);
     let (at, normal, cost) = band.descend(start)?;
     let freedom = band.count as f64 - 6.0;
@@ -166,8 +163,8 @@ fn side(
     let inverse = normal.cholesky()?.inverse() * variance;
     let sound = variance.sqrt() < WORST_RESIDUAL * at[3].abs() && at[3] > 0.0;
     sound.then(|| Line {
-        middle,
-        angle: outwards.y.atan2(outwards.x) + at[1],
+        middle: place.middle,
+        angle: place.outwards.y.atan2(place.outwards.x) + at[1],
         covariance: inverse.fixed_view::<2, 2>(0, 0).into_owned(),
         wobble: band.wobble(&at, variance, place.half),
         at,
@@ -184,18 +181,39 @@ fn moved_back(mut at: Parameters) -> Parameters {
 struct Place {
     middle: Vector2<f64>,
     outwards: Vector2<f64>,
-    /// Half its length along the side and half its width across, px.
+    /// From the middle to a corner, px.
+    to_corner: f64,
+    bow: f64,
+    /// Half the band's length along the side and half its width across, px.
     half: f64,
     width: f64,
 }
 
 impl Place {
-    fn new(length: f64, around: Surroundings, blur_px: f64) -> Self {
+    /// From corner `a` to corner `b`; the tag is on the right of that way.
+    fn new(
+        [a, b]: [&Vector2<f64>; 2],
+        around: &Surroundings,
+        bow: f64,
+        blur_px: f64,
+    ) -> Self {
+        let (length, along) = ((b - a).norm(), (b - a).normalize());
         let cell = length / around.cells;
         let (free, clear) = (around.clear * cell, CLEAR_BLURS * blur_px);
-        let width = (BAND_SHARE * free).min(free - clear).clamp(BAND_PX.0, BAND_PX.1);
-        let half = (0.5 * length - (END_CELLS * cell + END_PX).max(clear)).max(0.0);
-        Self { middle: Vector2::zeros(), outwards: Vector2::zeros(), half, width }
+        Self {
+            middle: (a + b) * 0.5,
+            outwards: Vector2::new(along.y, -along.x),
+            to_corner: 0.5 * length,
+            bow,
+            half: (0.5 * length - (END_CELLS * cell + END_PX).max(clear)).max(0.0),
+            width: (BAND_SHARE * free).min(free - clear).clamp(BAND_PX.0, BAND_PX.1),
+        }
+    }
+
+    /// Along the side and outwards from it, the bow taken off.
+    fn straightened(&self, d: &Vector2<f64>) -> (f64, f64) {
+        let (u, v) = (self.along().dot(d), self.outwards.dot(d));
+        (u, v - self.bow * (1.0 - (u / self.to_corner).powi(2)))
     }
 
     fn along(&self) -> Vector2<f64> {
@@ -237,21 +255,21 @@ struct Band {
 
 impl Band {
     fn gather(image: &GrayImage, place: &Place) -> Option<Self> {
-        let (middle, outwards, along) = (place.middle, place.outwards, place.along());
-        let reach = along.y.abs() * place.half + outwards.y.abs() * place.width;
+        let middle = place.middle;
+        let reach = place.along().y.abs() * place.half + place.outwards.y.abs() * place.width;
         let rows = range(middle.y, (-reach, reach), image.height());
         let mut band = Self { pixels: vec![], count: 0 };
         for y in rows {
             let dy = y as f64 - middle.y;
             for x in range(middle.x, place.columns(dy), image.width()) {
-                let d = Vector2::new(x as f64 - middle.x, dy);
-                band.push(along.dot(&d), outwards.dot(&d), image.at(x, y));
+                let at = place.straightened(&Vector2::new(x as f64 - middle.x, dy));
+                band.push(at, image.at(x, y));
             }
         }
         (band.count >= FEWEST_PIXELS).then_some(band)
     }
 
-    fn push(&mut self, u: f64, v: f64, grey: f32) {
+    fn push(&mut self, (u, v): (f64, f64), grey: f32) {
         let k = self.count % LANES;
         if k == 0 {
             self.pixels.push(Pixels::default());
@@ -442,10 +460,11 @@ mod tests {
         for turn in 0..12 {
             let (y, x) = (f64::from(turn) * std::f64::consts::FRAC_PI_6).sin_cos();
             let (middle, outwards) = (Vector2::new(29.3, 24.8), Vector2::new(x, y));
-            let place = Place { middle, outwards, half: 12.4, width: 3.3 };
+            let (half, width) = (12.41, 3.31);
+            let place = Place { middle, outwards, to_corner: 20.0, bow: 0.0, half, width };
             let inside = |k: usize| {
                 let d = Vector2::new((k % 60) as f64, (k / 60) as f64) - middle;
-                place.along().dot(&d).abs() <= 12.4 && outwards.dot(&d).abs() <= 3.3
+                place.along().dot(&d).abs() <= half && outwards.dot(&d).abs() <= width
             };
             let band = Band::gather(&image, &place).unwrap();
             assert_eq!(band.count, (0..3000).filter(|&k| inside(k)).count(), "{turn}");
