@@ -128,6 +128,8 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
         return board?.detect(image);
     }
     let family = Family::of(target)?;
+    let is_complete =
+        |outcome: &Outcome| outcome.as_ref().is_ok_and(|corners| corners.len() == target.len());
     let mut best = Err(NotFound::NoCorners);
     for level in levels(image) {
         let found: Vec<Grid> = mesh::grids(&smoothed(&level.image));
@@ -137,12 +139,14 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
         if improved {
             best = found;
         }
-        let complete = best.as_ref().is_ok_and(|corners| corners.len() == target.len());
-        if complete || (best.is_ok() && !improved) {
+        if is_complete(&best) || (best.is_ok() && !improved) {
             break;
         }
     }
-    best
+    match family {
+        Family::Coded(board) if !is_complete(&best) => board.with_tags(image, best),
+        _ => best,
+    }
 }
 
 /// Longest side of the smallest level, px, at most.
@@ -161,7 +165,7 @@ fn levels(image: &GrayImage) -> impl Iterator<Item = Scaled<'_>> {
 pub(super) type Outcome = Result<Vec<ImageCorner>, NotFound>;
 
 /// An outcome with more corners is worth more; of two failures the one that says more.
-fn worth(outcome: &Outcome) -> (u32, usize) {
+pub(super) fn worth(outcome: &Outcome) -> (u32, usize) {
     match outcome {
         Ok(corners) => (2, corners.len()),
         Err(NotFound::TooFew { found, .. }) => (1, *found),

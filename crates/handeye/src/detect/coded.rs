@@ -7,12 +7,13 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
-use super::board::{NotFound, Outcome};
+use super::board::{NotFound, Outcome, worth};
 use super::fits::{Fits, corner, sorted};
 use super::grid::Grid;
 use super::homography;
 use super::markers::{self, Dictionary};
-use crate::{GrayImage, TargetModel};
+use super::tags::Board;
+use crate::{GrayImage, ImageCorner, TargetModel};
 
 /// Fewer corners do not determine a pose.
 const FEWEST_CORNERS: usize = 4;
@@ -21,6 +22,10 @@ const FEWEST_CORNERS: usize = 4;
 const MOST_BORDER_ERRORS: u32 = 3;
 /// Least contrast of a marker, grey values.
 const LEAST_CONTRAST: f64 = 12.0;
+/// Corners of a grid and of tags are the same ones within this, px, or
+const AGREED_PX: f64 = 2.0;
+/// this share of the tag's side.
+const AGREED: f64 = 0.05;
 /// Markers with more bits than this do not occur by chance: one of them is proof enough.
 const PROOF_BITS: usize = 24;
 
@@ -161,7 +166,6 @@ fn lines(target: &TargetModel) -> [Vec<f64>; 2] {
 
 impl Coded<'_> {
     pub fn label(&self, image: &GrayImage, grids: &[Grid]) -> Outcome {
-        let fits = Fits { image, clean: self.clean, lines: Some(&self.lines) };
         let mut board = Grid::default();
         for grid in grids {
             if let Some(placing) = self.placing(image, grid) {
@@ -176,6 +180,33 @@ impl Coded<'_> {
             let corners = grids.first().map_or(0, |g| g.corners.len());
             return Err(NotFound::NoMarkers { corners, dictionary: self.name.clone() });
         }
+        self.measured(image, board)
+    }
+
+    /// Where the grid shows a part of the board only, tags that are read by themselves may show more
+    /// of it; unless they say otherwise where both see a corner.
+    pub fn with_tags(&self, image: &GrayImage, found: Outcome) -> Outcome {
+        let Some(Ok(tags)) = Board::of(self.target) else { return found };
+        let rough = tags.rough(image);
+        let known = found.iter().flatten().filter_map(|c| Some((c, rough.get(&c.id)?)));
+        let agrees = |(c, (pixel, side)): (&ImageCorner, &(Vector2<f64>, f64))| {
+            (c.pixel - pixel).norm() < AGREED_PX.max(AGREED * side)
+        };
+        let agreed: Vec<bool> = known.map(agrees).collect();
+        if found.is_ok() && (agreed.is_empty() || agreed.contains(&false)) {
+            return found;
+        }
+        let pixels = rough.iter().map(|(id, (pixel, _))| (*id, *pixel));
+        let exact = found.iter().flatten().map(|c| (c.id, c.pixel));
+        let all: BTreeMap<u32, Vector2<f64>> = pixels.chain(exact).collect();
+        let with_label = |k| Some((k, *all.get(&id_of(self.target, k)?)?));
+        let corners = labels(self.target).filter_map(with_label).collect();
+        let more = self.measured(image, Grid { corners });
+        if worth(&more) > worth(&found) { more } else { found }
+    }
+
+    fn measured(&self, image: &GrayImage, mut board: Grid) -> Outcome {
+        let fits = Fits { image, clean: self.clean, lines: Some(&self.lines) };
         self.fill(&mut board, &fits);
         let fitted = fits.all(&board);
         let with_id = fitted.iter().filter_map(|(k, f)| Some(corner(id_of(self.target, *k)?, f)));

@@ -90,10 +90,13 @@ impl<'a> Board<'a> {
         Ok(sorted(corners))
     }
 
-    /// The tags of the board that are found, their corners to about a pixel, by corner ids.
-    #[allow(dead_code)]
-    pub fn rough(&self, image: &GrayImage) -> BTreeMap<u32, Vector2<f64>> {
-        let corners = |tag: &SeenTag| self.tags[&tag.id].corners.into_iter().zip(tag.quad);
+    /// The tags of the board that are found, their corners to about a pixel, by corner ids; and
+    /// their sides, px.
+    pub fn rough(&self, image: &GrayImage) -> BTreeMap<u32, (Vector2<f64>, f64)> {
+        let corners = |tag: &SeenTag| {
+            let side = tag.area().sqrt();
+            self.tags[&tag.id].corners.into_iter().zip(tag.quad.map(|pixel| (pixel, side)))
+        };
         let found = self.search(&Levels::new(image), |_, group| {
             group.values().flat_map(corners).collect()
         });

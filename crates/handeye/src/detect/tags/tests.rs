@@ -188,3 +188,31 @@ fn pictures_without_tags_have_none() {
     let broken = GrayImage::new(64, 64, vec![f32::NAN; 4096]).unwrap();
     assert_eq!(detect(&broken, &target), none);
 }
+
+/// The picture with grey discs on the left and right side of every tag.
+fn with_broken_sides(scene: &Scene) -> GrayImage {
+    let picture = scene.picture(&Optics::default(), 4);
+    let at: BTreeMap<u32, Vector2<f64>> = scene.corners().into_iter().collect();
+    let sides = |tag: u32| [(0, 3), (1, 2)].map(|(a, b)| (at[&(4 * tag + a)] + at[&(4 * tag + b)]) * 0.5);
+    let discs: Vec<Vector2<f64>> = (0..at.len() as u32 / 4).flat_map(sides).collect();
+    let (width, height) = (picture.width(), picture.height());
+    let values = picture.values().iter().enumerate().map(|(k, v)| {
+        let p = Vector2::new((k % width) as f64, (k / width) as f64);
+        if discs.iter().any(|disc| (disc - p).norm() < 4.0) { 120.0 } else { *v }
+    });
+    GrayImage::new(width, height, values.collect()).unwrap()
+}
+
+#[test]
+fn an_aprilgrid_whose_edges_are_broken_is_found_by_its_tags() {
+    for border_bits in [1, 2] {
+        let target = aprilgrid(border_bits, true);
+        let scene = placed(&target, Vector3::new(0.2, -0.1, 0.3), 0.3, (0.0, 0.0));
+        let picture = with_broken_sides(&scene);
+        let rough = Board::of(&target).unwrap().unwrap().rough(&picture);
+        assert!(rough.len() >= 60, "{} corners of tags", rough.len());
+        let found = detect(&picture, &target).unwrap();
+        assert!(found.len() >= 70, "{}", found.len());
+        assert!(farthest(&scene, &found) < 0.1, "{}", farthest(&scene, &found));
+    }
+}
