@@ -19,7 +19,7 @@ const FITTED_SHARE: f64 = 0.8;
 
 /// The corners of a board of `columns` x `rows` in a grid.
 pub(super) fn label(image: &GrayImage, grid: &Grid, columns: i32, rows: i32) -> Outcome {
-    let fits = Fits { image, clean: 1.0, lines: None };
+    let fits = Fits { image, clean: 1.0, pairs: false, lines: None };
     let grown = grow(grid, &fits, (columns, rows));
     let fitted = fits.all(&grown);
     let known = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };

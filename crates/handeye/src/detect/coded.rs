@@ -206,7 +206,8 @@ impl Coded<'_> {
     }
 
     fn measured(&self, image: &GrayImage, mut board: Grid) -> Outcome {
-        let fits = Fits { image, clean: self.clean, lines: Some(&self.lines) };
+        let pairs = matches!(self.target, TargetModel::Aprilgrid { .. });
+        let fits = Fits { image, clean: self.clean, pairs, lines: Some(&self.lines) };
         self.fill(&mut board, &fits);
         let fitted = fits.all(&board);
         let with_id = fitted.iter().filter_map(|(k, f)| Some(corner(id_of(self.target, *k)?, f)));
@@ -275,3 +276,6 @@ impl Coded<'_> {
         Some(Placing { turns, shift: (x - a, y - b) })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -13,6 +13,8 @@ pub(super) struct Fits<'a> {
     pub image: &'a GrayImage,
     /// As in [`RoughCorner`].
     pub clean: f64,
+    /// Whether markers are only between columns, and rows, `2k` and `2k + 1`.
+    pub pairs: bool,
     /// Places of the columns and rows of labels on the board, in any unit; evenly spaced where there
     /// are none.
     pub lines: Option<&'a [Vec<f64>; 2]>,
@@ -39,6 +41,7 @@ impl Fits<'_> {
             along_x: step((1, 0))?,
             along_y: step((0, 1))?,
             clean: self.clean,
+            marker: self.pairs.then(|| [label.0, label.1].map(towards_pair)),
         })
     }
 
@@ -92,6 +95,11 @@ impl Fits<'_> {
         with.corners.insert(label, grid.predict(label, |k| self.place(k))?);
         subpixel::fit(self.image, &self.rough(&with, label)?).ok().map(|fitted| fitted.pixel)
     }
+}
+
+/// The direction from a column to the other one of its pair.
+fn towards_pair(column: i32) -> f64 {
+    if column % 2 == 0 { 1.0 } else { -1.0 }
 }
 
 /// A measured corner with its id.

@@ -28,6 +28,9 @@ const LEAST_TOUCHING_CELL_PX: f64 = 3.0;
 const LEAST_CONTRAST: f64 = 8.0;
 /// Share of the bits, and of the border's cells, that may be read wrong.
 const MOST_WRONG: f64 = 0.12;
+/// Rounds in which corners are measured, from a pixel away and from some tenths of one.
+const ROUNDS: usize = 3;
+const ROUNDS_WHEN_NEAR: usize = 2;
 /// Longest side of the smallest picture that is searched, px, at most.
 const COARSEST: usize = 900;
 
@@ -89,12 +92,7 @@ pub(super) struct Print {
 
 impl Print {
     /// Tags by the name of their dictionary.
-    pub fn new(
-        name: &str,
-        border: usize,
-        white: f64,
-        touching: bool,
-    ) -> Result<Self, NotFound> {
+    pub fn new(name: &str, border: usize, white: f64, touching: bool) -> Result<Self, NotFound> {
         let dictionary =
             Dictionary::named(name).ok_or_else(|| NotFound::UnknownDictionary(name.into()))?;
         Ok(Self { dictionary, border, white, touching })
@@ -205,19 +203,22 @@ impl Level<'_> {
     /// The corners of a quadrilateral of the original, measured in the original.
     pub fn refined(&self, quad: &Quad, print: &Print) -> Option<[ImageCorner; 4]> {
         let (original, smaller) = self.levels.all[self.at..].split_last()?;
-        refined(&original.image, &nearer(quad, smaller, print), &print.surroundings())
+        let near = nearer(quad, smaller, print);
+        refined(&original.image, &near, &print.surroundings(), ROUNDS)
     }
 
-    /// The corners of a quadrilateral of the original to some tenths of its pixel.
+    /// The corners of a quadrilateral that was approached here, to some tenths of the original's
+    /// pixel.
     pub fn nearer(&self, quad: &Quad, print: &Print) -> Quad {
-        nearer(quad, &self.levels.all[self.at..], print)
+        nearer(quad, &self.levels.all[self.at + 1..], print)
     }
 
     /// The corners of a quadrilateral of the original that is near already; the lens bends its
     /// sides by `bows`.
     pub fn measured(&self, quad: &Quad, print: &Print, bows: [f64; 4]) -> Option<[ImageCorner; 4]> {
         let original = self.levels.all.last()?;
-        refined(&original.image, quad, &Surroundings { bows, ..print.surroundings() })
+        let around = Surroundings { bows, ..print.surroundings() };
+        refined(&original.image, quad, &around, ROUNDS_WHEN_NEAR)
     }
 }
 

@@ -97,9 +97,8 @@ impl<'a> Board<'a> {
             let side = tag.area().sqrt();
             self.tags[&tag.id].corners.into_iter().zip(tag.quad.map(|pixel| (pixel, side)))
         };
-        let found = self.search(&Levels::new(image), |_, group| {
-            group.values().flat_map(corners).collect()
-        });
+        let found =
+            self.search(&Levels::new(image), |_, group| group.values().flat_map(corners).collect());
         found.unwrap_or_default()
     }
 
@@ -205,7 +204,8 @@ impl<'a> Board<'a> {
 
     /// The corners of a tag on the board, as those of its quadrilateral, in metres.
     fn places(&self, id: u32) -> Quad {
-        let place = |id: u32| self.target.corner(id).map_or_else(Vector2::zeros, |p| p.vector().xy());
+        let place =
+            |id: u32| self.target.corner(id).map_or_else(Vector2::zeros, |p| p.vector().xy());
         self.tags[&id].corners.map(place)
     }
 
@@ -213,8 +213,7 @@ impl<'a> Board<'a> {
     fn complete(&self, level: &Level, group: &mut Group) {
         loop {
             let beside = |id: u32| group.keys().any(|k| self.distance(*k, id) < BESIDE * self.step);
-            let missing =
-                self.tags.keys().filter(|id| !group.contains_key(id) && beside(**id));
+            let missing = self.tags.keys().filter(|id| !group.contains_key(id) && beside(**id));
             let read = |&id: &u32| {
                 let quad = level.reduced(&self.predicted(group, id)?);
                 let upright = |tag: &SeenTag| tag.quad == quad;
@@ -252,8 +251,7 @@ impl<'a> Board<'a> {
             let bows = view.as_ref().and_then(|view| self.bows(view, tag.id)).unwrap_or_default();
             Some((tag.id, level.measured(&tag.quad, &self.print, bows)?))
         };
-        let measured: BTreeMap<u32, [ImageCorner; 4]> =
-            near.values().filter_map(measure).collect();
+        let measured: BTreeMap<u32, [ImageCorner; 4]> = near.values().filter_map(measure).collect();
         let exact = |(id, corners): (&u32, &[ImageCorner; 4])| {
             (*id, SeenTag { quad: corners.each_ref().map(|c| c.pixel), ..near[id] })
         };
@@ -302,7 +300,8 @@ impl<'a> Board<'a> {
 
     /// The tag that is farthest from where the others say, if that is too far.
     fn out_of_place(&self, tags: &Group) -> Option<u32> {
-        let off = |tag: &SeenTag| (self.off(tags, tag.id, &tag.quad).unwrap_or(f64::INFINITY), tag.id);
+        let off =
+            |tag: &SeenTag| (self.off(tags, tag.id, &tag.quad).unwrap_or(f64::INFINITY), tag.id);
         let worst = tags.values().map(off).max_by(|a, b| a.0.total_cmp(&b.0))?;
         (!(worst.0 < IN_PLACE)).then_some(worst.1)
     }

@@ -61,7 +61,9 @@ fn dark(image: &GrayImage, radius: usize) -> Vec<bool> {
         sums[radius + 1 + width..].fill(sum);
         let rows = across(y, height) as u32;
         let ends = sums.iter().zip(&sums[2 * radius + 1..]);
-        for (((out, grey), count), (left, right)) in out.iter_mut().zip(row(y)).zip(&counts).zip(ends) {
+        for (((out, grey), count), (left, right)) in
+            out.iter_mut().zip(row(y)).zip(&counts).zip(ends)
+        {
             *out = (u32::from(*grey) + DARKER) * (count * rows) < right.wrapping_sub(*left);
         }
     }
@@ -216,9 +218,8 @@ mod tests {
         for radius in [1, 4, 11, 60] {
             let found = dark(&image, radius);
             for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {
-                let near = |k: usize, size: usize| {
-                    k.saturating_sub(radius)..(k + radius + 1).min(size)
-                };
+                let near =
+                    |k: usize, size: usize| k.saturating_sub(radius)..(k + radius + 1).min(size);
                 let all = near(y, height).flat_map(|j| near(x, width).map(move |i| (i, j)));
                 let (mut sum, mut count) = (0.0, 0.0);
                 all.for_each(|(i, j)| (sum, count) = (sum + image.at(i, j), count + 1.0));
@@ -229,7 +230,8 @@ mod tests {
     }
 
     fn picture(rows: &[&str]) -> GrayImage {
-        let values = rows.iter().flat_map(|r| r.bytes().map(|b| if b == b'#' { 0.0 } else { 200.0 }));
+        let values =
+            rows.iter().flat_map(|r| r.bytes().map(|b| if b == b'#' { 0.0 } else { 200.0 }));
         GrayImage::new(rows[0].len(), rows.len(), values.collect()).unwrap()
     }
 

@@ -29,8 +29,6 @@ const END_PX: f64 = 1.5;
 const CLEAR_BLURS: f64 = 3.0;
 /// Blur of a common picture, px, before it is measured.
 const USUAL_BLUR_PX: f64 = 0.6;
-/// Most rounds in which the band follows the edge.
-const ROUNDS: usize = 3;
 /// Most steps of a fit.
 const MOST_STEPS: usize = 30;
 /// A fit has converged when the edge moves less than this, px: the next step, were it taken, would
@@ -79,21 +77,14 @@ struct Wobble {
     freedom: f64,
 }
 
-/// The corners from the edges of all sides, their ids 0 to 3 as in `start`.
-pub(super) fn refined(
-    image: &GrayImage,
-    start: &Quad,
-    around: &Surroundings,
-) -> Option<[ImageCorner; 4]> {
-    in_rounds(image, start, around, ROUNDS)
-}
-
 /// The corners after one round: good enough to start from.
 pub(super) fn approached(image: &GrayImage, start: &Quad, around: &Surroundings) -> Option<Quad> {
-    Some(in_rounds(image, start, around, 1)?.map(|corner| corner.pixel))
+    Some(refined(image, start, around, 1)?.map(|corner| corner.pixel))
 }
 
-fn in_rounds(
+/// The corners from the edges of all sides, their ids 0 to 3 as in `start`. In every round the band
+/// follows the edges, and their blur.
+pub(super) fn refined(
     image: &GrayImage,
     start: &Quad,
     around: &Surroundings,
@@ -181,9 +172,9 @@ fn moved_back(mut at: Parameters) -> Parameters {
 struct Place {
     middle: Vector2<f64>,
     outwards: Vector2<f64>,
-    /// From the middle to a corner, px.
-    to_corner: f64,
+    /// How far the lens moves the middle outwards, px, and how that fades along the side, 1/px.
     bow: f64,
+    bend: f64,
     /// Half the band's length along the side and half its width across, px.
     half: f64,
     width: f64,
@@ -191,20 +182,15 @@ struct Place {
 
 impl Place {
     /// From corner `a` to corner `b`; the tag is on the right of that way.
-    fn new(
-        [a, b]: [&Vector2<f64>; 2],
-        around: &Surroundings,
-        bow: f64,
-        blur_px: f64,
-    ) -> Self {
+    fn new([a, b]: [&Vector2<f64>; 2], around: &Surroundings, bow: f64, blur_px: f64) -> Self {
         let (length, along) = ((b - a).norm(), (b - a).normalize());
         let cell = length / around.cells;
         let (free, clear) = (around.clear * cell, CLEAR_BLURS * blur_px);
         Self {
             middle: (a + b) * 0.5,
             outwards: Vector2::new(along.y, -along.x),
-            to_corner: 0.5 * length,
             bow,
+            bend: bow / (0.5 * length).powi(2),
             half: (0.5 * length - (END_CELLS * cell + END_PX).max(clear)).max(0.0),
             width: (BAND_SHARE * free).min(free - clear).clamp(BAND_PX.0, BAND_PX.1),
         }
@@ -213,7 +199,7 @@ impl Place {
     /// Along the side and outwards from it, the bow taken off.
     fn straightened(&self, d: &Vector2<f64>) -> (f64, f64) {
         let (u, v) = (self.along().dot(d), self.outwards.dot(d));
-        (u, v - self.bow * (1.0 - (u / self.to_corner).powi(2)))
+        (u, v - self.bow + self.bend * u * u)
     }
 
     fn along(&self) -> Vector2<f64> {
@@ -461,7 +447,7 @@ mod tests {
             let (y, x) = (f64::from(turn) * std::f64::consts::FRAC_PI_6).sin_cos();
             let (middle, outwards) = (Vector2::new(29.3, 24.8), Vector2::new(x, y));
             let (half, width) = (12.41, 3.31);
-            let place = Place { middle, outwards, to_corner: 20.0, bow: 0.0, half, width };
+            let place = Place { middle, outwards, bow: 0.0, bend: 0.0, half, width };
             let inside = |k: usize| {
                 let d = Vector2::new((k % 60) as f64, (k / 60) as f64) - middle;
                 place.along().dot(&d).abs() <= half && outwards.dot(&d).abs() <= width

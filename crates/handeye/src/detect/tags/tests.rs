@@ -124,8 +124,7 @@ fn tags_that_lie_otherwise_than_on_the_board_are_none() {
     let mut scene = placed(&tag("DICT_4X4_50", 4), Vector3::zeros(), 0.4, (0.0, 0.0));
     let other = (tag("DICT_4X4_50", 5), away(0.0, 0.05, 0.4));
     let conditions = Conditions { others: vec![other], ..Conditions::default() };
-    let picture =
-        |scene: &Scene| scene.picture_under(&conditions, &Optics::default(), 1);
+    let picture = |scene: &Scene| scene.picture_under(&conditions, &Optics::default(), 1);
     let board = grid("DICT_4X4_50", 3, 2);
     let error = detect(&picture(&scene), &board).unwrap_err();
     assert_eq!(error, NotFound::NoTags { dictionary: "DICT_4X4_50".into() });
@@ -175,7 +174,11 @@ fn errors_stay_inside_the_covariance() {
         }
     }
     println!("normalised error squared {:.2}", normalised / count);
-    assert!(count > 1800.0 && (0.85..1.2).contains(&(normalised / count)), "{}", normalised / count);
+    assert!(
+        count > 1800.0 && (0.85..1.2).contains(&(normalised / count)),
+        "{}",
+        normalised / count
+    );
 }
 
 #[test]
@@ -193,7 +196,8 @@ fn pictures_without_tags_have_none() {
 fn with_broken_sides(scene: &Scene) -> GrayImage {
     let picture = scene.picture(&Optics::default(), 4);
     let at: BTreeMap<u32, Vector2<f64>> = scene.corners().into_iter().collect();
-    let sides = |tag: u32| [(0, 3), (1, 2)].map(|(a, b)| (at[&(4 * tag + a)] + at[&(4 * tag + b)]) * 0.5);
+    let sides =
+        |tag: u32| [(0, 3), (1, 2)].map(|(a, b)| (at[&(4 * tag + a)] + at[&(4 * tag + b)]) * 0.5);
     let discs: Vec<Vector2<f64>> = (0..at.len() as u32 / 4).flat_map(sides).collect();
     let (width, height) = (picture.width(), picture.height());
     let values = picture.values().iter().enumerate().map(|(k, v)| {
