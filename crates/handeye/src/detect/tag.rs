@@ -178,6 +178,11 @@ impl Level<'_> {
         &self.levels.all[self.at]
     }
 
+    /// This picture and the larger ones.
+    pub fn and_larger(&self) -> impl Iterator<Item = Level<'_>> {
+        (self.at..self.levels.all.len()).map(|at| Level { levels: self.levels, at })
+    }
+
     /// The picture.
     pub fn image(&self) -> &GrayImage {
         &self.scaled().image

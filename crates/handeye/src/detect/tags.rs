@@ -209,25 +209,32 @@ impl<'a> Board<'a> {
         self.tags[&id].corners.map(place)
     }
 
-    /// Adds the tags beside those of the group that can be read where they should be.
+    /// Adds the tags beside those of the group that can be read where they should be, in this picture
+    /// or in a larger one.
     fn complete(&self, level: &Level, group: &mut Group) {
-        loop {
-            let beside = |id: u32| group.keys().any(|k| self.distance(*k, id) < BESIDE * self.step);
-            let missing = self.tags.keys().filter(|id| !group.contains_key(id) && beside(**id));
-            let read = |&id: &u32| {
-                let quad = level.reduced(&self.predicted(group, id)?);
-                let upright = |tag: &SeenTag| tag.quad == quad;
-                let tag = self.print.read(level.image(), &quad, [id]).filter(upright)?;
-                let quad = level.approached(&tag.quad, &self.print);
-                let in_place = self.off(group, id, &quad)? < NEAR;
-                in_place.then_some((id, SeenTag { quad, ..tag }))
-            };
-            let added: Vec<(u32, SeenTag)> = missing.filter_map(read).collect();
-            if added.is_empty() {
-                return;
+        for level in level.and_larger() {
+            loop {
+                let added = self.beside(&level, group);
+                if added.is_empty() {
+                    break;
+                }
+                group.extend(added);
             }
-            group.extend(added);
         }
+    }
+
+    fn beside(&self, level: &Level, group: &Group) -> Group {
+        let beside = |id: u32| group.keys().any(|k| self.distance(*k, id) < BESIDE * self.step);
+        let read = |&id: &u32| {
+            let quad = level.reduced(&self.predicted(group, id)?);
+            let upright = |tag: &SeenTag| tag.quad == quad;
+            let tag = self.print.read(level.image(), &quad, [id]).filter(upright)?;
+            let quad = level.approached(&tag.quad, &self.print);
+            let in_place = self.off(group, id, &quad)? < NEAR;
+            in_place.then_some((id, SeenTag { quad, ..tag }))
+        };
+        let missing = self.tags.keys().filter(|id| !group.contains_key(id) && beside(**id));
+        missing.filter_map(read).collect()
     }
 
     /// Whether a tag is hardly read by chance: `ids × turns × ways to err / codes`.

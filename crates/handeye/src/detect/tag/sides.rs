@@ -25,8 +25,10 @@ const BAND_PX: (f64, f64) = (1.5, 6.0);
 /// The band ends this much before the corners, in cells, and in px more.
 const END_CELLS: f64 = 0.5;
 const END_PX: f64 = 1.5;
-/// Other edges are farther from the band than this many blurs.
+/// Other edges are farther from the band than this many blurs, unless it becomes narrower than so
+/// many: then black and white themselves are not seen, and nothing is known.
 const CLEAR_BLURS: f64 = 3.0;
+const LEAST_BLURS: f64 = 1.7;
 /// Blur of a common picture, px, before it is measured.
 const USUAL_BLUR_PX: f64 = 0.6;
 /// Most steps of a fit.
@@ -96,8 +98,7 @@ pub(super) fn refined(
     let mut blur_px = USUAL_BLUR_PX;
     for _ in 0..rounds {
         let one = |k: usize| {
-            let (a, b) = (&quad[k], &quad[(k + 1) % 4]);
-            let place = Place::new([a, b], around, around.bows[k], blur_px);
+            let place = Place::new(&quad, k, around, blur_px);
             side(image, &place, shapes[k])
         };
         let mut sides = [one(0)?, one(1)?, one(2)?, one(3)?];
@@ -181,18 +182,22 @@ struct Place {
 }
 
 impl Place {
-    /// From corner `a` to corner `b`; the tag is on the right of that way.
-    fn new([a, b]: [&Vector2<f64>; 2], around: &Surroundings, bow: f64, blur_px: f64) -> Self {
+    /// From corner `k` to the next one.
+    fn new(quad: &Quad, k: usize, around: &Surroundings, blur_px: f64) -> Self {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|i| quad[(k + i) % 4]);
         let (length, along) = ((b - a).norm(), (b - a).normalize());
-        let cell = length / around.cells;
-        let (free, clear) = (around.clear * cell, CLEAR_BLURS * blur_px);
+        let outwards = Vector2::new(along.y, -along.x);
+        let across = outwards.dot(&(a - (c + d) * 0.5));
+        let (cell, free) = (length / around.cells, around.clear * across / around.cells);
+        let clear = CLEAR_BLURS * blur_px;
+        let width = (free - clear).max(LEAST_BLURS * blur_px).min(BAND_SHARE * free);
         Self {
             middle: (a + b) * 0.5,
-            outwards: Vector2::new(along.y, -along.x),
-            bow,
-            bend: bow / (0.5 * length).powi(2),
+            outwards,
+            bow: around.bows[k],
+            bend: around.bows[k] / (0.5 * length).powi(2),
             half: (0.5 * length - (END_CELLS * cell + END_PX).max(clear)).max(0.0),
-            width: (BAND_SHARE * free).min(free - clear).clamp(BAND_PX.0, BAND_PX.1),
+            width: width.clamp(BAND_PX.0, BAND_PX.1),
         }
     }
 

@@ -220,3 +220,22 @@ fn an_aprilgrid_whose_edges_are_broken_is_found_by_its_tags() {
         assert!(farthest(&scene, &found) < 0.1, "{}", farthest(&scene, &found));
     }
 }
+
+#[test]
+fn grids_of_tags_are_found_out_of_focus_and_from_the_side() {
+    let target = grid("DICT_5X5_100", 5, 4);
+    let defocused = Optics { blur_px: 0.3, defocus_px: 4.0, ..Optics::default() };
+    // tilt, optics, corners, farthest px
+    let cases = [
+        (0.2, defocused, 76, 0.5),
+        (1.1, Optics::default(), 76, 0.2),
+        (1.2, Optics::default(), 76, 0.3),
+    ];
+    for (tilt, optics, least, most) in cases {
+        let scene = placed(&target, Vector3::new(tilt, -0.1, 0.1), 0.32, (0.0, 0.0));
+        let found = detect(&scene.picture(&optics, 4), &target).unwrap();
+        let farthest = farthest(&scene, &found);
+        println!("{tilt}: {} corners, {farthest:.3} px", found.len());
+        assert!(found.len() >= least && farthest < most, "{tilt}: {} {farthest}", found.len());
+    }
+}
