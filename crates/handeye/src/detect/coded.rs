@@ -22,6 +22,9 @@ const FEWEST_CORNERS: usize = 4;
 const MOST_BORDER_ERRORS: u32 = 3;
 /// Least contrast of a marker, grey values.
 const LEAST_CONTRAST: f64 = 12.0;
+/// A corner that was looked for where it should be is none if its variance is this many times the
+/// usual one.
+const UNUSUAL: f64 = 30.0;
 /// Corners of a grid and of tags are the same ones within this, px, or
 const AGREED_PX: f64 = 2.0;
 /// this share of the tag's side.
@@ -226,11 +229,23 @@ impl Coded<'_> {
         self.first..self.first + self.cells.len() as u32
     }
 
+    /// Adds corners where their neighbours say they are; what is much less sure than the others is
+    /// something else.
     fn fill(&self, board: &mut Grid, fits: &Fits) {
+        let missing = |board: &Grid| -> Vec<(i32, i32)> {
+            labels(self.target).filter(|k| !board.corners.contains_key(k)).collect()
+        };
+        if missing(board).is_empty() {
+            return;
+        }
+        let most = UNUSUAL * fits.usual_variance(board);
+        let found = |board: &Grid, k: (i32, i32)| {
+            let fitted = fits.predicted_fit(board, k)?;
+            (fitted.covariance.trace() < most).then_some((k, fitted.pixel))
+        };
         loop {
-            let missing = labels(self.target).filter(|k| !board.corners.contains_key(k));
             let mut added: BTreeMap<_, _> =
-                missing.filter_map(|k| Some((k, fits.predicted(board, k)?))).collect();
+                missing(board).into_iter().filter_map(|k| found(board, k)).collect();
             if added.is_empty() {
                 return;
             }

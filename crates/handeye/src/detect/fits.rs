@@ -8,6 +8,9 @@ use super::grid::Grid;
 use super::subpixel::{self, FittedCorner, NearCorner, RoughCorner};
 use crate::{GrayImage, ImageCorner};
 
+/// About so many corners tell how sure corners usually are.
+const SAMPLES: usize = 16;
+
 /// Sub-pixel fits in one picture.
 pub(super) struct Fits<'a> {
     pub image: &'a GrayImage,
@@ -91,9 +94,24 @@ impl Fits<'_> {
 
     /// The corner that the neighbours predict, if the picture has one there.
     pub fn predicted(&self, grid: &Grid, label: (i32, i32)) -> Option<Vector2<f64>> {
+        self.predicted_fit(grid, label).map(|fitted| fitted.pixel)
+    }
+
+    /// The same with its covariance.
+    pub fn predicted_fit(&self, grid: &Grid, label: (i32, i32)) -> Option<FittedCorner> {
         let mut with = grid.clone();
         with.corners.insert(label, grid.predict(label, |k| self.place(k))?);
-        subpixel::fit(self.image, &self.rough(&with, label)?).ok().map(|fitted| fitted.pixel)
+        subpixel::fit(self.image, &self.rough(&with, label)?).ok()
+    }
+
+    /// The variance (px², both axes) that a corner of the grid usually has: the median of some.
+    pub fn usual_variance(&self, grid: &Grid) -> f64 {
+        let apart = grid.corners.len() / SAMPLES + 1;
+        let fit = |label: &(i32, i32)| subpixel::fit(self.image, &self.rough(grid, *label)?).ok();
+        let some = grid.corners.keys().step_by(apart).filter_map(fit);
+        let mut variances: Vec<f64> = some.map(|c| c.covariance.trace()).collect();
+        variances.sort_by(f64::total_cmp);
+        variances.get(variances.len() / 2).copied().unwrap_or(f64::INFINITY)
     }
 }
 

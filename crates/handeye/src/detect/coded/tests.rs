@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Matrix2, Vector3};
 
 use super::*;
 use crate::detect::detect;
-use crate::simulate::{Optics, Random, Scene};
+use crate::simulate::{Conditions, Occlusion, Optics, Random, Scene, Shape};
 use crate::target::AprilTagFamily;
 use crate::{Intrinsics, Pose};
 
@@ -66,5 +66,27 @@ fn corners_of_aprilgrids_are_as_sure_as_they_say() {
         let case = format!("{tag_px} {border_bits} {blur_px} {noise}: {count} {rms:.4} {ratio:.3}");
         assert!(count > 430.0 && rms < goal, "{case}");
         assert!((0.9..1.15).contains(&ratio), "{case}");
+    }
+}
+
+#[test]
+fn what_hides_a_half_of_an_aprilgrid_is_no_part_of_it() {
+    let mut random = Random::new(7);
+    for k in 0..4_u32 {
+        let scene = scene(80.0, 1, &mut random);
+        let shape = Shape::Side { share: 0.5, towards_rad: 1.5 * f64::from(k) };
+        let occlusion = Some(Occlusion { shape, grey: 120.0, seed: u64::from(k) });
+        let conditions = Conditions { occlusion, ..Conditions::default() };
+        let optics = Optics::default();
+        let found = detect(&scene.picture_under(&conditions, &optics, 1), &scene.target).unwrap();
+        let truth: BTreeMap<u32, Vector2<f64>> = scene.corners().into_iter().collect();
+        let visible = scene.corners_under(&conditions, &optics);
+        let visible = visible.iter().filter(|c| c.visible == Some(true)).count();
+        let wrong = found.iter().filter(|c| (c.pixel - truth[&c.id]).norm() > 1.0).count();
+        assert!(
+            found.len() + 4 >= visible && wrong == 0,
+            "{k}: {} of {visible}, {wrong}",
+            found.len()
+        );
     }
 }
