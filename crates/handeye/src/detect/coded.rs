@@ -145,6 +145,12 @@ fn aprilgrid(target: &TargetModel) -> Result<Coded<'_>, NotFound> {
     })
 }
 
+/// Whether a place has two corners or more around it: far from all others nothing is foreseen.
+fn is_beside(board: &Grid, (i, j): (i32, i32)) -> bool {
+    let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| (i + di, j + dj)));
+    around.filter(|k| board.corners.contains_key(k)).count() >= 2
+}
+
 /// All columns and rows of a board, row by row.
 fn labels(target: &TargetModel) -> impl Iterator<Item = (i32, i32)> + use<> {
     let (columns, rows) = target.grid();
@@ -211,8 +217,10 @@ impl Coded<'_> {
     fn measured(&self, image: &GrayImage, mut board: Grid) -> Outcome {
         let pairs = matches!(self.target, TargetModel::Aprilgrid { .. });
         let fits = Fits { image, clean: self.clean, pairs, lines: Some(&self.lines) };
-        self.fill(&mut board, &fits);
-        let fitted = fits.all(&board);
+        let seen = board.clone();
+        let most = self.fill(&mut board, &fits);
+        let mut fitted = fits.all(&board);
+        fitted.retain(|k, c| seen.corners.contains_key(k) || c.covariance.trace() < most);
         let with_id = fitted.iter().filter_map(|(k, f)| Some(corner(id_of(self.target, *k)?, f)));
         let corners: Vec<_> = with_id.collect();
         if corners.len() < FEWEST_CORNERS {
@@ -229,14 +237,14 @@ impl Coded<'_> {
         self.first..self.first + self.cells.len() as u32
     }
 
-    /// Adds corners where their neighbours say they are; what is much less sure than the others is
-    /// something else.
-    fn fill(&self, board: &mut Grid, fits: &Fits) {
+    /// Adds corners where the ones beside them say they are; what is much less sure than the others
+    /// is something else. Returns the variance (px²) that what was added may have.
+    fn fill(&self, board: &mut Grid, fits: &Fits) -> f64 {
         let missing = |board: &Grid| -> Vec<(i32, i32)> {
             labels(self.target).filter(|k| !board.corners.contains_key(k)).collect()
         };
         if missing(board).is_empty() {
-            return;
+            return f64::INFINITY;
         }
         let most = UNUSUAL * fits.usual_variance(board);
         let found = |board: &Grid, k: (i32, i32)| {
@@ -244,10 +252,10 @@ impl Coded<'_> {
             (fitted.covariance.trace() < most).then_some((k, fitted.pixel))
         };
         loop {
-            let mut added: BTreeMap<_, _> =
-                missing(board).into_iter().filter_map(|k| found(board, k)).collect();
+            let beside = missing(board).into_iter().filter(|k| is_beside(board, *k));
+            let mut added: BTreeMap<_, _> = beside.filter_map(|k| found(board, k)).collect();
             if added.is_empty() {
-                return;
+                return most;
             }
             board.corners.append(&mut added);
         }
