@@ -7,6 +7,7 @@ use handeye::{
     simulate::{
         Clutter, Conditions, Glare, Occlusion, Optics, Pattern, Random, Scene, Shape, TrueCorner,
     },
+    target::AprilTagFamily,
 };
 use image::{ExtendedColorType, ImageEncoder, codecs::png};
 use serde_json::{Value, json};
@@ -44,9 +45,38 @@ fn charuco() -> TargetModel {
     }
 }
 
+fn aprilgrid() -> TargetModel {
+    TargetModel::Aprilgrid {
+        tags_x: 6,
+        tags_y: 6,
+        tag_mm: 24.0,
+        spacing: 0.3,
+        family: AprilTagFamily::Tag36h11,
+        first_id: 0,
+        corner_squares: true,
+        border_bits: 1,
+    }
+}
+
+fn tag_grid() -> TargetModel {
+    TargetModel::TagGrid {
+        dictionary: "DICT_5X5_100".into(),
+        tags_x: 7,
+        tags_y: 5,
+        tag_mm: 24.0,
+        gap_mm: 8.0,
+        first_id: 0,
+    }
+}
+
 /// Boards that are measured. A new kind is one more line here and one in `run.py`.
-fn targets() -> [(&'static str, TargetModel); 2] {
-    [("checkerboard", checkerboard()), ("charuco", charuco())]
+fn targets() -> [(&'static str, TargetModel); 4] {
+    [
+        ("checkerboard", checkerboard()),
+        ("charuco", charuco()),
+        ("aprilgrid", aprilgrid()),
+        ("tag-grid", tag_grid()),
+    ]
 }
 
 /// Point spreads of the accuracy tables; the noise is `Optics`' own, 2 grey values.
@@ -174,7 +204,7 @@ const HARD: [&str; 8] = [
     "two boards",
     "clutter",
 ];
-/// Small squares, px: a marker takes more.
+/// Small squares, px: markers take more.
 const SMALL_PX: [f64; 2] = [12.0, 22.0];
 
 fn hard(count: usize) -> Vec<Picture> {
@@ -190,7 +220,7 @@ fn hard(count: usize) -> Vec<Picture> {
 
 fn hard_one(case: &'static str, target: &TargetModel, seed: u64, i: usize) -> Picture {
     let mut random = Random::new(seed);
-    let markers = matches!(target, TargetModel::Charuco { .. });
+    let markers = !matches!(target, TargetModel::Checkerboard { .. });
     let tilt = match case {
         "tilt 70 degrees" => 70.0,
         _ => random.between(0.0, 40.0),
@@ -249,10 +279,10 @@ fn two_boards(picture: &mut Picture, random: &mut Random, twin: bool) {
 
 fn smaller(target: &TargetModel) -> TargetModel {
     match target {
-        TargetModel::Charuco { .. } => {
-            TargetModel::Checkerboard { columns: 7, rows: 6, square_mm: 20.0 }
+        TargetModel::Checkerboard { .. } => {
+            TargetModel::Checkerboard { columns: 8, rows: 5, square_mm: 20.0 }
         }
-        _ => TargetModel::Checkerboard { columns: 8, rows: 5, square_mm: 20.0 },
+        _ => TargetModel::Checkerboard { columns: 7, rows: 6, square_mm: 20.0 },
     }
 }
 

@@ -11,6 +11,7 @@ Cargo builds handeye. Without --full it takes ten minutes of processor time.
 
 import argparse
 import collections
+import functools
 import json
 import multiprocessing
 import pathlib
@@ -89,12 +90,31 @@ def saddles(multiscale):
     return find
 
 
-def april_tags(image, target):
+@functools.cache
+def april_tag_detector(family, decimate):
     import pupil_apriltags
 
-    family = target["dictionary"].replace("DICT_APRILTAG_", "tag")
-    detector = pupil_apriltags.Detector(families=family, nthreads=1, quad_decimate=1.0)
-    return points([tag.corners for tag in detector.detect(image)] or None)
+    return pupil_apriltags.Detector(families=f"tag{family}", nthreads=1, quad_decimate=decimate)
+
+
+def april_tags(decimate):
+    def find(image, target):
+        tags = april_tag_detector(target["family"], decimate).detect(image)
+        first, count = target["first_id"], target["tags_x"] * target["tags_y"]
+        return points([tag.corners for tag in tags if 0 <= tag.tag_id - first < count] or None)
+    return find
+
+
+def markers(refinement):
+    def find(image, target):
+        dictionary = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, target["dictionary"]))
+        parameters = cv2.aruco.DetectorParameters()
+        parameters.cornerRefinementMethod = refinement
+        corners, ids, _ = cv2.aruco.ArucoDetector(dictionary, parameters).detectMarkers(image)
+        first, count = target["first_id"], target["tags_x"] * target["tags_y"]
+        own = [c for c, k in zip(corners, [] if ids is None else ids.ravel()) if 0 <= k - first < count]
+        return points(own or None)
+    return find
 
 
 Peer = collections.namedtuple("Peer", "find finishes boards", defaults=[False, True])
@@ -109,7 +129,17 @@ PEERS = {
         "chess-corners multiscale": Peer(saddles(True), boards=False),
     },
     "charuco": {"OpenCV": Peer(charuco), "OpenCV" + SUB_PIX.strip(): Peer(charuco, finishes=True)},
-    "april-grid": {"pupil-apriltags": Peer(april_tags)},
+    "aprilgrid": {
+        "pupil-apriltags": Peer(april_tags(1.0)),
+        "pupil-apriltags decimate 2": Peer(april_tags(2.0)),
+    },
+    "tag-grid": {
+        "OpenCV": Peer(markers(cv2.aruco.CORNER_REFINE_NONE)),
+        "OpenCV REFINE_SUBPIX": Peer(markers(cv2.aruco.CORNER_REFINE_SUBPIX)),
+        "OpenCV REFINE_CONTOUR": Peer(markers(cv2.aruco.CORNER_REFINE_CONTOUR)),
+        "OpenCV REFINE_APRILTAG": Peer(markers(cv2.aruco.CORNER_REFINE_APRILTAG)),
+        "OpenCV" + SUB_PIX.strip(): Peer(markers(cv2.aruco.CORNER_REFINE_NONE), finishes=True),
+    },
 }
 
 
@@ -315,7 +345,7 @@ def searched(pictures, folder, own, server):
 
         count(OWN, own[file]["corners"], True)
         for name, peer in PEERS[kind].items():
-            if not peer.boards or (kind == "charuco" and peer.finishes):
+            if not peer.boards or (kind != "checkerboard" and peer.finishes):
                 continue
             reply = server.ask(kind, name, str(folder / file), picture["target"], False)
             late[group, name] += reply is None

@@ -7,6 +7,7 @@ use super::grid::Grid;
 use super::mesh;
 use super::pyramid::{Scaled, smoothed};
 use super::tag;
+use super::tags;
 use crate::{GrayImage, ImageCorner, TargetModel};
 
 /// Why no target was found.
@@ -77,6 +78,15 @@ pub enum NotFound {
         /// The declared tag.
         id: u32,
     },
+    /// No tags that lie to one another as the board's do.
+    #[error(
+        "no tags of {dictionary} that lie as on the board: check dictionary, first_id, numbers of \
+         tags and border_bits"
+    )]
+    NoTags {
+        /// The declared dictionary.
+        dictionary: String,
+    },
     /// The tag was read, but one of its edges is no straight line.
     #[error("tag {id} of {dictionary} is there, but its edges are too blurred or covered")]
     BlurredTag {
@@ -125,7 +135,12 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     if target.has_circles() {
         return circles::detect(image, target);
     }
+    if let Some(board) = tags::Board::apart(target) {
+        return board?.detect(image);
+    }
     let family = Family::of(target)?;
+    let is_complete =
+        |outcome: &Outcome| outcome.as_ref().is_ok_and(|corners| corners.len() == target.len());
     let mut best = Err(NotFound::NoCorners);
     for level in levels(image) {
         let found: Vec<Grid> = mesh::grids(&smoothed(&level.image));
@@ -135,12 +150,14 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
         if improved {
             best = found;
         }
-        let complete = best.as_ref().is_ok_and(|corners| corners.len() == target.len());
-        if complete || (best.is_ok() && !improved) {
+        if is_complete(&best) || (best.is_ok() && !improved) {
             break;
         }
     }
-    best
+    match family {
+        Family::Coded(board) if !is_complete(&best) => board.with_tags(image, best),
+        _ => best,
+    }
 }
 
 /// Longest side of the smallest level, px, at most.
@@ -159,7 +176,7 @@ fn levels(image: &GrayImage) -> impl Iterator<Item = Scaled<'_>> {
 pub(super) type Outcome = Result<Vec<ImageCorner>, NotFound>;
 
 /// An outcome with more corners is worth more; of two failures the one that says more.
-fn worth(outcome: &Outcome) -> (u32, usize) {
+pub(super) fn worth(outcome: &Outcome) -> (u32, usize) {
     match outcome {
         Ok(corners) => (2, corners.len()),
         Err(NotFound::TooFew { found, .. } | NotFound::PartOfBoard { found, .. }) => (1, *found),
@@ -183,11 +200,8 @@ impl<'a> Family<'a> {
         match target {
             TargetModel::Checkerboard { .. } => Ok(Self::Checkerboard(target)),
             TargetModel::Sphere { .. } => Err(NotFound::ScansOnly),
-            TargetModel::Aprilgrid { .. } => {
-                Err(NotFound::Unsupported("an aprilgrid without corner squares"))
-            }
-            // a single tag and circles were looked for before
-            _ => Err(NotFound::Unsupported("a grid of tags")),
+            // the others were looked for before
+            _ => Err(NotFound::Unsupported("this target")),
         }
     }
 

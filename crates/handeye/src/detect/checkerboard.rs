@@ -22,7 +22,7 @@ const FITTED_SHARE: f64 = 0.8;
 pub(super) fn label(image: &GrayImage, grids: &[Grid], target: &TargetModel) -> Outcome {
     let (columns, rows) = target.grid();
     let size = (columns as i32, rows as i32);
-    let fits = Fits { image, clean: 1.0, lines: None };
+    let fits = Fits { image, clean: 1.0, pairs: false, lines: None };
     let seen = joined(image, grids);
     let fitted = fits.all(&grow(&seen, &fits, size), &seen);
     let known = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };

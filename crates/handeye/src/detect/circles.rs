@@ -10,7 +10,7 @@
 mod blobs;
 mod ellipse;
 mod lattice;
-mod view;
+pub(super) mod view;
 
 use std::collections::BTreeMap;
 

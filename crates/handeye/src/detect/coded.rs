@@ -7,12 +7,13 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
-use super::board::{NotFound, Outcome};
+use super::board::{NotFound, Outcome, worth};
 use super::fits::{Fits, corner, sorted};
 use super::grid::Grid;
 use super::homography;
 use super::markers::{self, Dictionary};
-use crate::{GrayImage, TargetModel};
+use super::tags::Board;
+use crate::{GrayImage, ImageCorner, TargetModel};
 
 /// Fewer corners do not determine a pose.
 const FEWEST_CORNERS: usize = 4;
@@ -21,6 +22,13 @@ const FEWEST_CORNERS: usize = 4;
 const MOST_BORDER_ERRORS: u32 = 3;
 /// Least contrast of a marker, grey values.
 const LEAST_CONTRAST: f64 = 12.0;
+/// A corner that was looked for where it should be is none if its variance is this many times the
+/// usual one.
+const UNUSUAL: f64 = 30.0;
+/// Corners of a grid and of tags are the same ones within this, px, or
+const AGREED_PX: f64 = 2.0;
+/// this share of the tag's side.
+const AGREED: f64 = 0.05;
 /// Markers with more bits than this do not occur by chance: one of them is proof enough.
 const PROOF_BITS: usize = 24;
 
@@ -137,6 +145,12 @@ fn aprilgrid(target: &TargetModel) -> Result<Coded<'_>, NotFound> {
     })
 }
 
+/// Whether a place has two corners or more around it: far from all others nothing is foreseen.
+fn is_beside(board: &Grid, (i, j): (i32, i32)) -> bool {
+    let around = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| (i + di, j + dj)));
+    around.filter(|k| board.corners.contains_key(k)).count() >= 2
+}
+
 /// All columns and rows of a board, row by row.
 fn labels(target: &TargetModel) -> impl Iterator<Item = (i32, i32)> + use<> {
     let (columns, rows) = target.grid();
@@ -161,7 +175,6 @@ fn lines(target: &TargetModel) -> [Vec<f64>; 2] {
 
 impl Coded<'_> {
     pub fn label(&self, image: &GrayImage, grids: &[Grid]) -> Outcome {
-        let fits = Fits { image, clean: self.clean, lines: Some(&self.lines) };
         let mut board = Grid::default();
         for grid in grids {
             if let Some(placing) = self.placing(image, grid) {
@@ -176,9 +189,38 @@ impl Coded<'_> {
             let corners = grids.first().map_or(0, |g| g.corners.len());
             return Err(NotFound::NoMarkers { corners, dictionary: self.name.clone() });
         }
+        self.measured(image, board)
+    }
+
+    /// Where the grid shows a part of the board only, tags that are read by themselves may show more
+    /// of it; unless they say otherwise where both see a corner.
+    pub fn with_tags(&self, image: &GrayImage, found: Outcome) -> Outcome {
+        let Some(Ok(tags)) = Board::of(self.target) else { return found };
+        let rough = tags.rough(image);
+        let known = found.iter().flatten().filter_map(|c| Some((c, rough.get(&c.id)?)));
+        let agrees = |(c, (pixel, side)): (&ImageCorner, &(Vector2<f64>, f64))| {
+            (c.pixel - pixel).norm() < AGREED_PX.max(AGREED * side)
+        };
+        let agreed: Vec<bool> = known.map(agrees).collect();
+        if found.is_ok() && (agreed.is_empty() || agreed.contains(&false)) {
+            return found;
+        }
+        let pixels = rough.iter().map(|(id, (pixel, _))| (*id, *pixel));
+        let exact = found.iter().flatten().map(|c| (c.id, c.pixel));
+        let all: BTreeMap<u32, Vector2<f64>> = pixels.chain(exact).collect();
+        let with_label = |k| Some((k, *all.get(&id_of(self.target, k)?)?));
+        let corners = labels(self.target).filter_map(with_label).collect();
+        let more = self.measured(image, Grid { corners });
+        if worth(&more) > worth(&found) { more } else { found }
+    }
+
+    fn measured(&self, image: &GrayImage, mut board: Grid) -> Outcome {
+        let pairs = matches!(self.target, TargetModel::Aprilgrid { .. });
+        let fits = Fits { image, clean: self.clean, pairs, lines: Some(&self.lines) };
         let seen = board.clone();
-        self.fill(&mut board, &fits);
-        let fitted = fits.all(&board, &seen);
+        let most = self.fill(&mut board, &fits);
+        let mut fitted = fits.all(&board, &seen);
+        fitted.retain(|k, c| seen.corners.contains_key(k) || c.covariance.trace() < most);
         let with_id = fitted.iter().filter_map(|(k, f)| Some(corner(id_of(self.target, *k)?, f)));
         let corners: Vec<_> = with_id.collect();
         if corners.len() < FEWEST_CORNERS {
@@ -195,13 +237,25 @@ impl Coded<'_> {
         self.first..self.first + self.cells.len() as u32
     }
 
-    fn fill(&self, board: &mut Grid, fits: &Fits) {
+    /// Adds corners where the ones beside them say they are; what is much less sure than the others
+    /// is something else. Returns the variance (px²) that what was added may have.
+    fn fill(&self, board: &mut Grid, fits: &Fits) -> f64 {
+        let missing = |board: &Grid| -> Vec<(i32, i32)> {
+            labels(self.target).filter(|k| !board.corners.contains_key(k)).collect()
+        };
+        if missing(board).is_empty() {
+            return f64::INFINITY;
+        }
+        let most = UNUSUAL * fits.usual_variance(board);
+        let found = |board: &Grid, k: (i32, i32)| {
+            let fitted = fits.predicted_fit(board, k)?;
+            (fitted.covariance.trace() < most).then_some((k, fitted.pixel))
+        };
         loop {
-            let missing = labels(self.target).filter(|k| !board.corners.contains_key(k));
-            let mut added: BTreeMap<_, _> =
-                missing.filter_map(|k| Some((k, fits.predicted(board, k)?))).collect();
+            let beside = missing(board).into_iter().filter(|k| is_beside(board, *k));
+            let mut added: BTreeMap<_, _> = beside.filter_map(|k| found(board, k)).collect();
             if added.is_empty() {
-                return;
+                return most;
             }
             board.corners.append(&mut added);
         }
@@ -245,3 +299,6 @@ impl Coded<'_> {
         Some(Placing { turns, shift: (x - a, y - b) })
     }
 }
+
+#[cfg(test)]
+mod tests;

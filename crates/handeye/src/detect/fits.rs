@@ -21,12 +21,16 @@ const NOT_STRAY_PX: f64 = 0.75;
 const UNSURE: f64 = 30.0;
 /// A predicted corner may be off by this share of a cell: lenses bend boards.
 const OFF_SHARE: f64 = 0.12;
+/// About so many corners tell how sure corners usually are.
+const SAMPLES: usize = 16;
 
 /// Sub-pixel fits in one picture.
 pub(super) struct Fits<'a> {
     pub image: &'a GrayImage,
     /// As in [`RoughCorner`].
     pub clean: f64,
+    /// Whether markers are only between columns, and rows, `2k` and `2k + 1`.
+    pub pairs: bool,
     /// Places of the columns and rows of labels on the board, in any unit; evenly spaced where there
     /// are none.
     pub lines: Option<&'a [Vec<f64>; 2]>,
@@ -53,6 +57,7 @@ impl Fits<'_> {
             along_x: step((1, 0))?,
             along_y: step((0, 1))?,
             clean: self.clean,
+            marker: self.pairs.then(|| [label.0, label.1].map(towards_pair)),
         })
     }
 
@@ -148,14 +153,34 @@ impl Fits<'_> {
 
     /// The corner that the neighbours predict, if the picture has one there.
     pub fn predicted(&self, grid: &Grid, label: (i32, i32)) -> Option<Vector2<f64>> {
+        self.predicted_fit(grid, label).map(|fitted| fitted.pixel)
+    }
+
+    /// The same with its covariance.
+    pub fn predicted_fit(&self, grid: &Grid, label: (i32, i32)) -> Option<FittedCorner> {
         let there = self.predict(grid, label)?;
         let mut with = grid.clone();
         with.corners.insert(label, there);
         let rough = self.rough(&with, label)?;
         let fitted = subpixel::fit(self.image, &rough).ok()?;
         let cell = rough.along_x.norm().min(rough.along_y.norm());
-        ((fitted.pixel - there).norm() < OFF_SHARE * cell).then_some(fitted.pixel)
+        ((fitted.pixel - there).norm() < OFF_SHARE * cell).then_some(fitted)
     }
+
+    /// The variance (px², both axes) that a corner of the grid usually has: the median of some.
+    pub fn usual_variance(&self, grid: &Grid) -> f64 {
+        let apart = grid.corners.len() / SAMPLES + 1;
+        let fit = |label: &(i32, i32)| subpixel::fit(self.image, &self.rough(grid, *label)?).ok();
+        let some = grid.corners.keys().step_by(apart).filter_map(fit);
+        let mut variances: Vec<f64> = some.map(|c| c.covariance.trace()).collect();
+        variances.sort_by(f64::total_cmp);
+        variances.get(variances.len() / 2).copied().unwrap_or(f64::INFINITY)
+    }
+}
+
+/// The direction from a column to the other one of its pair.
+fn towards_pair(column: i32) -> f64 {
+    if column % 2 == 0 { 1.0 } else { -1.0 }
 }
 
 fn median(values: impl Iterator<Item = f64>) -> f64 {

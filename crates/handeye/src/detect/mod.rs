@@ -2,7 +2,7 @@
 //!
 //! A picture goes through three steps: `crossings` and `mesh` find grids of corners, [`board`] decides
 //! which corner of the target each one is, and [`subpixel`] measures where exactly they are; grids
-//! of [`circles`] and single tags have ways of their own. From the corners, [`planar_pose`] has the
+//! of [`circles`], single tags and boards of tags have ways of their own. From the corners, [`planar_pose`] has the
 //! target's pose, and [`surface`] their places on a scan.
 
 pub mod board;
@@ -23,6 +23,7 @@ pub mod sight;
 pub mod subpixel;
 pub mod surface;
 pub mod tag;
+mod tags;
 
 pub use board::{NotFound, detect};
 pub use planar_pose::{

@@ -73,6 +73,11 @@ impl<'a> Scaled<'a> {
     pub fn original(&self, at: &Vector2<f64>) -> Vector2<f64> {
         at.add_scalar(0.5) * self.factor - Vector2::repeat(0.5)
     }
+
+    /// A pixel of the original, in this picture.
+    pub fn reduced(&self, at: &Vector2<f64>) -> Vector2<f64> {
+        at.add_scalar(0.5) / self.factor - Vector2::repeat(0.5)
+    }
 }
 
 /// Smoothed with the binomial kernel 1 4 6 4 1 in both directions (standard deviation 1 px).
@@ -144,6 +149,7 @@ mod tests {
             let original = scaled.original(&at);
             let expected = 5.0 * original.x + 3.0 * original.y;
             assert!((f64::from(scaled.image.at(5, 4)) - expected).abs() < 1e-4);
+            assert!((scaled.reduced(&original) - at).norm() < 1e-12);
         }
     }
 

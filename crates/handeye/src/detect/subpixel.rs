@@ -33,9 +33,12 @@ pub struct RoughCorner {
     pub along_x: Vector2<f64>,
     /// From this corner to the next one along the board's y, px.
     pub along_y: Vector2<f64>,
-    /// Half the width of the clean cross between the markers of a ChArUco board, as a share of the
+    /// Half the width of the clean cross between the markers around the corner, as a share of the
     /// cell; 1 where there are no markers.
     pub clean: f64,
+    /// Where the only marker is, as the signs of its steps along x and y; none if there may be one in
+    /// every cell.
+    pub marker: Option<[f64; 2]>,
 }
 
 /// A corner after the fit.
@@ -550,9 +553,13 @@ fn markers_around(
     let into_cells = cells.try_inverse().ok_or(Unfit::NoCorner)?;
     let margin = MARKER_MARGIN_PX / rough.along_x.norm().min(rough.along_y.norm());
     let clean = rough.clean - margin;
+    let marker = rough.marker;
     Ok(Some(move |d: &Vector2<f64>| {
         let q = into_cells * d;
-        q.x.abs().min(q.y.abs()) > clean
+        match marker {
+            Some([x, y]) => (x * q.x).min(y * q.y) > clean,
+            None => q.x.abs().min(q.y.abs()) > clean,
+        }
     }))
 }
 
@@ -636,6 +643,7 @@ mod tests {
                 along_x: next(1, id % 10 == 9)?,
                 along_y: next(10, id / 10 == 6)?,
                 clean: 1.0,
+                marker: None,
             };
             Some((rough, truth))
         };
@@ -691,6 +699,7 @@ mod tests {
             along_x: Vector2::new(20.0, 0.0),
             along_y: Vector2::new(0.0, 20.0),
             clean: 1.0,
+            marker: None,
         };
         assert_eq!(fit(&flat, &rough), Err(Unfit::NoCorner));
         let rough = RoughCorner { pixel: Vector2::new(3.0, 30.0), ..rough };
@@ -720,6 +729,7 @@ mod tests {
                         along_x: Vector2::new(cell, 0.0),
                         along_y: Vector2::new(0.0, cell),
                         clean: 1.0,
+                        marker: None,
                     };
                     let error = fit(&image, &rough).map(|f| (f.pixel - truth).norm());
                     assert!(error.is_ok_and(|e| e < 0.05), "{cell} {i} {j} {off:?}: {error:?}");

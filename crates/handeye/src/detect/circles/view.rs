@@ -28,7 +28,7 @@ use crate::detect::homography;
 
 /// A circle's centre on the board and in the picture.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sighting {
+pub struct Sighting {
     /// On the board, in units of its pitch.
     pub on_board: Vector2<f64>,
     /// px
@@ -48,7 +48,7 @@ enum Lens<'a> {
 
 /// From the board's plane to the picture.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct View<'a> {
+pub struct View<'a> {
     h: Matrix3<f64>,
     lens: Lens<'a>,
 }
