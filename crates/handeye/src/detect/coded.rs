@@ -22,9 +22,6 @@ const FEWEST_CORNERS: usize = 4;
 const MOST_BORDER_ERRORS: u32 = 3;
 /// Least contrast of a marker, grey values.
 const LEAST_CONTRAST: f64 = 12.0;
-/// A corner that was looked for where it should be is none if its variance is this many times the
-/// usual one.
-const UNUSUAL: f64 = 30.0;
 /// Corners of a grid and of tags are the same ones within this, px, or
 const AGREED_PX: f64 = 2.0;
 /// this share of the tag's side.
@@ -218,9 +215,8 @@ impl Coded<'_> {
         let pairs = matches!(self.target, TargetModel::Aprilgrid { .. });
         let fits = Fits { image, clean: self.clean, pairs, lines: Some(&self.lines) };
         let seen = board.clone();
-        let most = self.fill(&mut board, &fits);
-        let mut fitted = fits.all(&board, &seen);
-        fitted.retain(|k, c| seen.corners.contains_key(k) || c.covariance.trace() < most);
+        self.fill(&mut board, &fits);
+        let fitted = fits.all(&board, &seen);
         let with_id = fitted.iter().filter_map(|(k, f)| Some(corner(id_of(self.target, *k)?, f)));
         let corners: Vec<_> = with_id.collect();
         if corners.len() < FEWEST_CORNERS {
@@ -237,25 +233,15 @@ impl Coded<'_> {
         self.first..self.first + self.cells.len() as u32
     }
 
-    /// Adds corners where the ones beside them say they are; what is much less sure than the others
-    /// is something else. Returns the variance (px²) that what was added may have.
-    fn fill(&self, board: &mut Grid, fits: &Fits) -> f64 {
-        let missing = |board: &Grid| -> Vec<(i32, i32)> {
-            labels(self.target).filter(|k| !board.corners.contains_key(k)).collect()
-        };
-        if missing(board).is_empty() {
-            return f64::INFINITY;
-        }
-        let most = UNUSUAL * fits.usual_variance(board);
-        let found = |board: &Grid, k: (i32, i32)| {
-            let fitted = fits.predicted_fit(board, k)?;
-            (fitted.covariance.trace() < most).then_some((k, fitted.pixel))
-        };
+    /// Adds corners where the ones beside them say they are.
+    fn fill(&self, board: &mut Grid, fits: &Fits) {
         loop {
-            let beside = missing(board).into_iter().filter(|k| is_beside(board, *k));
-            let mut added: BTreeMap<_, _> = beside.filter_map(|k| found(board, k)).collect();
+            let missing = labels(self.target).filter(|k| !board.corners.contains_key(k));
+            let beside = missing.filter(|k| is_beside(board, *k));
+            let mut added: BTreeMap<_, _> =
+                beside.filter_map(|k| Some((k, fits.predicted(board, k)?))).collect();
             if added.is_empty() {
-                return most;
+                return;
             }
             board.corners.append(&mut added);
         }

@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use super::grid::Grid;
 use super::subpixel::{self, FittedCorner, NearCorner, RoughCorner};
-use crate::{GrayImage, ImageCorner};
+use crate::{GrayImage, ImageCorner, linalg::median};
 
 /// Measured corners by label.
 pub(super) type Fitted = BTreeMap<(i32, i32), FittedCorner>;
@@ -21,8 +21,6 @@ const NOT_STRAY_PX: f64 = 0.75;
 const UNSURE: f64 = 30.0;
 /// A predicted corner may be off by this share of a cell: lenses bend boards.
 const OFF_SHARE: f64 = 0.12;
-/// About so many corners tell how sure corners usually are.
-const SAMPLES: usize = 16;
 
 /// Sub-pixel fits in one picture.
 pub(super) struct Fits<'a> {
@@ -153,40 +151,19 @@ impl Fits<'_> {
 
     /// The corner that the neighbours predict, if the picture has one there.
     pub fn predicted(&self, grid: &Grid, label: (i32, i32)) -> Option<Vector2<f64>> {
-        self.predicted_fit(grid, label).map(|fitted| fitted.pixel)
-    }
-
-    /// The same with its covariance.
-    pub fn predicted_fit(&self, grid: &Grid, label: (i32, i32)) -> Option<FittedCorner> {
         let there = self.predict(grid, label)?;
         let mut with = grid.clone();
         with.corners.insert(label, there);
         let rough = self.rough(&with, label)?;
         let fitted = subpixel::fit(self.image, &rough).ok()?;
         let cell = rough.along_x.norm().min(rough.along_y.norm());
-        ((fitted.pixel - there).norm() < OFF_SHARE * cell).then_some(fitted)
-    }
-
-    /// The variance (px², both axes) that a corner of the grid usually has: the median of some.
-    pub fn usual_variance(&self, grid: &Grid) -> f64 {
-        let apart = grid.corners.len() / SAMPLES + 1;
-        let fit = |label: &(i32, i32)| subpixel::fit(self.image, &self.rough(grid, *label)?).ok();
-        let some = grid.corners.keys().step_by(apart).filter_map(fit);
-        let mut variances: Vec<f64> = some.map(|c| c.covariance.trace()).collect();
-        variances.sort_by(f64::total_cmp);
-        variances.get(variances.len() / 2).copied().unwrap_or(f64::INFINITY)
+        ((fitted.pixel - there).norm() < OFF_SHARE * cell).then_some(fitted.pixel)
     }
 }
 
 /// The direction from a column to the other one of its pair.
 fn towards_pair(column: i32) -> f64 {
     if column % 2 == 0 { 1.0 } else { -1.0 }
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    let middle = values.len() / 2;
-    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
 /// A measured corner with its id.
