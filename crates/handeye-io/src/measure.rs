@@ -14,6 +14,7 @@ use std::{
 use handeye::{
     Camera, ImageCorner, Intrinsics, Observation, Placement, Pose, Session, SurfaceCorner, Target,
     TargetPose, Warning,
+    calibration::{CaptureStep, ColourStepResult},
     detect::{self, surface},
     intrinsics, lens,
 };
@@ -26,6 +27,8 @@ pub struct Measured {
     pub session: Session,
     /// Calibration of the camera from the views, where the dataset gave none.
     pub camera_rms_px: Option<f64>,
+    /// How depths on the two colours of the print differ, where scans tell it.
+    pub colour_step: Option<ColourStepResult>,
     /// Why captures show no target, by name.
     pub not_found: Vec<(String, String)>,
     /// What to know.
@@ -63,6 +66,7 @@ struct Seen {
     corners: Vec<ImageCorner>,
     surface: Vec<SurfaceCorner>,
     missing: Vec<surface::Missing>,
+    lifted: surface::Lifted,
     size: Option<(usize, usize)>,
     not_found: Option<String>,
 }
@@ -83,6 +87,7 @@ pub fn measure(
         .collect();
     let mut seen = look_at_all(dataset, &shots, progress)?;
     let mut warnings = dataset.warnings.clone();
+    let colour_step = settle_step(&shots, &mut seen, &mut warnings);
     let (camera, camera_rms_px) = camera(dataset, &shots, &seen, &mut warnings)?;
     shots.iter().zip(&seen).for_each(|(shot, s)| warn_missing(shot, s, &mut warnings));
     let excess = typical_excess(dataset, &seen, camera.as_ref());
@@ -95,7 +100,7 @@ pub fn measure(
     let not_found = captures.filter_map(|(c, s)| Some((c.id.clone(), s.not_found.clone()?)));
     let not_found = not_found.collect();
     let session = session(dataset, seen, poses, camera);
-    Ok(Measured { session, camera_rms_px, not_found, warnings })
+    Ok(Measured { session, camera_rms_px, colour_step, not_found, warnings })
 }
 
 /// Pictures larger than this (pixels) are worked on by two threads at most: each takes some
@@ -160,10 +165,68 @@ fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
     }
     if let (Some(path), Some(size), false) = (shot.scan, seen.size, seen.corners.is_empty()) {
         let scan = dataset.scan(path)?;
-        (seen.surface, seen.missing) =
-            surface::lift(&seen.corners, size, &scan, dataset.intrinsics.as_ref());
+        let camera = dataset.intrinsics.as_ref();
+        seen.lifted = surface::lift_coloured(&seen.corners, size, &scan, camera, target);
     }
     Ok(seen)
+}
+
+/// Takes the step between black and white, as all captures show it, off the corners in the scans.
+fn settle_step(
+    shots: &[Shot],
+    seen: &mut [Seen],
+    warnings: &mut Vec<Warning>,
+) -> Option<ColourStepResult> {
+    let lifted: Vec<surface::Lifted> =
+        seen.iter_mut().map(|s| std::mem::take(&mut s.lifted)).collect();
+    let (pooled, settled) = surface::settle(&lifted);
+    for (s, (surface, missing)) in seen.iter_mut().zip(settled) {
+        (s.surface, s.missing) = (surface, missing);
+    }
+    let pooled = pooled?;
+    let noise = corner_noise(seen);
+    if pooled.is_significant() && pooled.value_m.abs() > noise {
+        warnings.push(step_warning(&pooled, noise));
+    }
+    let captures = shots.iter().zip(&lifted).filter_map(|(shot, l)| {
+        let step = l.coloured.as_ref()?.step;
+        Some(CaptureStep {
+            id: shot.id.to_owned(),
+            black_minus_white_mm: step.value_m * 1e3,
+            sigma_mm: step.sigma_m * 1e3,
+        })
+    });
+    Some(ColourStepResult {
+        black_minus_white_mm: pooled.value_m * 1e3,
+        sigma_mm: pooled.sigma_m * 1e3,
+        spread_mm: pooled.spread_m * 1e3,
+        applied: pooled.is_significant(),
+        captures: captures.collect(),
+    })
+}
+
+/// Typical standard deviation of a corner along the optical axis, m.
+fn corner_noise(seen: &[Seen]) -> f64 {
+    let depth = |c: &SurfaceCorner| c.covariance[(2, 2)].sqrt();
+    let mut all: Vec<f64> = seen.iter().flat_map(|s| &s.surface).map(depth).collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(0.0)
+}
+
+fn step_warning(step: &surface::PooledStep, noise: f64) -> Warning {
+    let farther = if step.value_m > 0.0 { "farther" } else { "nearer" };
+    Warning::new(
+        "depth-by-colour",
+        format!(
+            "scans read black {:.2} +- {:.2} mm {farther} than white, against {:.2} mm of noise in \
+             a corner: it is taken off the points on black. Which colour is right, a flat board \
+             cannot tell; white is taken to be, so the answer holds for surfaces that the camera \
+             reads as it reads white",
+            step.value_m.abs() * 1e3,
+            step.sigma_m * 1e3,
+            noise * 1e3
+        ),
+    )
 }
 
 fn warn_missing(shot: &Shot, seen: &Seen, warnings: &mut Vec<Warning>) {

@@ -5,7 +5,8 @@
 //! `candidates` (touches of other corners taken out: `wrong_touches`; closed forms, least squares,
 //! maximum likelihood, registration of touches, each judged on what it has not seen; the choice by
 //! predicted error; methods by name: `named`; what rests on a given position: `known_position`) →
-//! `captures` (misfit of every capture and touch) → `verdict`. Point pairs alone take the short way
+//! `captures` (misfit of every capture and touch) → `verdict` → `scans` (what they say of board and
+//! frames). Point pairs alone take the short way
 //! through `points`.
 
 mod agreement;
@@ -24,6 +25,7 @@ mod optics;
 mod points;
 mod reach;
 mod rejected;
+mod scans;
 pub(crate) mod settle;
 mod sources;
 pub(crate) mod unknown;
@@ -130,6 +132,7 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
         verdict::conclude(config, &mut result);
         result
     });
+    scans::report(&session, &mut result);
     result.warnings.extend(repeated);
     Ok(result)
 }
@@ -267,6 +270,7 @@ fn empty(session: &Session) -> Calibration {
         target_scale: None,
         camera: None,
         depth: None,
+        scans: None,
         tip: None,
         arm: None,
         certificate: None,

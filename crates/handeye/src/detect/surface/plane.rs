@@ -22,7 +22,7 @@ pub(super) const TUKEY_COST: f64 = 0.9633;
 /// Rounds of re-weighting.
 const ROUNDS: usize = 6;
 /// Median absolute value of a unit normal deviate.
-pub(super) const MAD: f64 = 0.6745;
+pub(crate) const MAD: f64 = 0.6745;
 /// The scatter is never taken below this share of the depth: single precision.
 const LEAST_SCATTER: f64 = 1e-7;
 /// Correlation of neighbouring residuals is believed up to this.
@@ -177,7 +177,7 @@ impl Plane {
 }
 
 /// Tukey's biweight.
-pub(super) fn tukey(r: f64) -> f64 {
+pub(crate) fn tukey(r: f64) -> f64 {
     let q = r / TUKEY;
     if q.abs() < 1.0 { (1.0 - q * q).powi(2) } else { 0.0 }
 }
