@@ -55,6 +55,9 @@ pub struct SimulateArgs {
     /// One tag of this id.
     #[arg(long, value_name = "ID")]
     pub tag: Option<u32>,
+    /// A ball of this diameter, in scans alone; nothing is touched.
+    #[arg(long, value_name = "MM", conflicts_with_all = ["checkerboard", "charuco", "tag", "no_images"])]
+    pub sphere: Option<f64>,
     /// Side of a square; of a tag with --tag.
     #[arg(long, default_value_t = 30.0)]
     pub square_mm: f64,
@@ -204,6 +207,7 @@ fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
     let usual = Cell::new(setup, args.seed);
     let placements = args.placements.unwrap_or(usual.placements);
     let touches = args.touches.unwrap_or(usual.touches);
+    let touches = if args.sphere.is_some() { 0 } else { touches };
     check(args, placements, touches)?;
     let placements = if setup == Setup::EyeInHand || touches == 0 { 0 } else { placements };
     let depth = DepthSensor {
@@ -212,6 +216,8 @@ fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
         scale: args.scan_scale_percent * 1e-2,
         turn_rad: Vector3::x() * args.scan_tilt_deg.to_radians(),
         shift_m: Vector3::x() * args.scan_shift_mm * 1e-3,
+        // a ball lies on the table
+        table_behind_m: args.sphere.map_or(usual_table(), |mm| 0.5e-3 * mm),
         ..DepthSensor::default()
     };
     Ok(Cell {
@@ -224,7 +230,7 @@ fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
         },
         noise: noise(args),
         arm: args.arm.then(|| arm(args)),
-        depth: args.scans.then_some(depth),
+        depth: (args.scans || args.sphere.is_some()).then_some(depth),
         scan_scale: args.scan_scale,
         bow_mm: args.bow_mm,
         optics: Optics { noise: zero_if(args.exact, args.image_noise), ..usual.optics },
@@ -284,6 +290,10 @@ fn check(args: &SimulateArgs, placements: usize, touches: usize) -> Result<(), F
     }
 }
 
+fn usual_table() -> f64 {
+    DepthSensor::default().table_behind_m
+}
+
 fn zero_if(exact: bool, value: f64) -> f64 {
     if exact { 0.0 } else { value }
 }
@@ -322,7 +332,9 @@ fn intrinsics(args: &SimulateArgs) -> Intrinsics {
 fn target(args: &SimulateArgs) -> Result<TargetModel, Failure> {
     let dictionary = args.dictionary.clone();
     let square_mm = args.square_mm;
-    let target = if let Some(id) = args.tag {
+    let target = if let Some(mm) = args.sphere {
+        TargetModel::Sphere { diameter_mm: Some(mm) }
+    } else if let Some(id) = args.tag {
         TargetModel::Tag { dictionary, id, size_mm: square_mm }
     } else if let Some(size) = &args.charuco {
         let (squares_x, squares_y) = size_of(size)?;

@@ -13,9 +13,9 @@ use std::{
 
 use handeye::{
     Camera, ImageCorner, Intrinsics, Observation, Placement, Pose, Session, SurfaceCorner, Target,
-    TargetPose, Warning,
+    TargetModel, TargetPose, Warning,
     calibration::{CaptureStep, ColourStepResult},
-    detect::{self, surface},
+    detect::{self, sphere, surface},
     intrinsics, lens,
 };
 
@@ -67,6 +67,7 @@ struct Seen {
     surface: Vec<SurfaceCorner>,
     missing: Vec<surface::Missing>,
     lifted: surface::Lifted,
+    ball: Option<sphere::Ball>,
     size: Option<(usize, usize)>,
     not_found: Option<String>,
 }
@@ -88,6 +89,7 @@ pub fn measure(
     let mut seen = look_at_all(dataset, &shots, progress)?;
     let mut warnings = dataset.warnings.clone();
     let colour_step = settle_step(&shots, &mut seen, &mut warnings);
+    tell_diameter(dataset, &seen, &mut warnings);
     let (camera, camera_rms_px) = camera(dataset, &shots, &seen, &mut warnings)?;
     shots.iter().zip(&seen).for_each(|(shot, s)| warn_missing(shot, s, &mut warnings));
     let excess = typical_excess(dataset, &seen, camera.as_ref());
@@ -151,6 +153,9 @@ fn of_capture(shot: &Shot, source: Error) -> Error {
 
 fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
     let Some(target) = &dataset.target else { return Ok(Seen::default()) };
+    if let TargetModel::Sphere { diameter_mm } = target {
+        return look_for_ball(dataset, shot, *diameter_mm);
+    }
     let mut seen = Seen::default();
     if let Some(corners) = shot.corners {
         seen.corners = corners.to_vec();
@@ -171,12 +176,51 @@ fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
     Ok(seen)
 }
 
+/// The centre of a ball, as the one corner of its scan.
+fn look_for_ball(dataset: &Dataset, shot: &Shot, diameter_mm: Option<f64>) -> Result<Seen, Error> {
+    let mut seen = Seen::default();
+    let Some(path) = shot.scan else {
+        seen.not_found = Some("a ball is found in scans, and there is none".into());
+        return Ok(seen);
+    };
+    match sphere::find(&dataset.scan(path)?, diameter_mm.map(|mm| mm * 1e-3)) {
+        Ok(ball) => {
+            let (in_camera, covariance) = (ball.centre, ball.covariance);
+            seen.surface = vec![SurfaceCorner { id: 0, in_camera, covariance }];
+            seen.ball = Some(ball);
+        }
+        Err(reason) => seen.not_found = Some(reason.to_string()),
+    }
+    Ok(seen)
+}
+
+/// Tells the diameter that the scans find, where none was given.
+fn tell_diameter(dataset: &Dataset, seen: &[Seen], warnings: &mut Vec<Warning>) {
+    let unknown = matches!(dataset.target, Some(TargetModel::Sphere { diameter_mm: None }));
+    let mut all: Vec<f64> =
+        seen.iter().filter_map(|s| Some(s.ball.as_ref()?.diameter_m * 1e3)).collect();
+    all.sort_by(f64::total_cmp);
+    let (Some(least), Some(most), true) = (all.first(), all.last(), unknown) else { return };
+    warnings.push(Warning::new(
+        "ball-diameter-found",
+        format!(
+            "no diameter_mm given: {} scans find {:.2} mm (median, from {least:.2} to {most:.2}); \
+             declared, it makes the centres surer",
+            all.len(),
+            all[all.len() / 2]
+        ),
+    ));
+}
+
 /// Takes the step between black and white, as all captures show it, off the corners in the scans.
 fn settle_step(
     shots: &[Shot],
     seen: &mut [Seen],
     warnings: &mut Vec<Warning>,
 ) -> Option<ColourStepResult> {
+    if seen.iter().any(|s| s.ball.is_some()) {
+        return None;
+    }
     let lifted: Vec<surface::Lifted> =
         seen.iter_mut().map(|s| std::mem::take(&mut s.lifted)).collect();
     let (pooled, settled) = surface::settle(&lifted);

@@ -108,7 +108,9 @@ fn write_aside(
             folder.add(&format!("corners/{name}.csv"), corners.as_bytes())?;
             continue;
         }
-        folder.add(&format!("images/{name}.png"), &pictures::picture(&recording.picture(k)))?;
+        if !cell.target.is_empty() {
+            folder.add(&format!("images/{name}.png"), &pictures::picture(&recording.picture(k)))?;
+        }
         if let Some(scan) = recording.scan(k) {
             let file = format!("scans/{name}.{}", writing.scans.ending());
             folder.add(&file, &pictures::scan(&scan, writing.scans))?;

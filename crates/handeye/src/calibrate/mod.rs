@@ -7,10 +7,11 @@
 //! predicted error; methods by name: `named`; what rests on a given position: `known_position`) →
 //! `captures` (misfit of every capture and touch) → `verdict` → `scans` (what they say of board and
 //! frames). Point pairs alone take the short way
-//! through `points`.
+//! through `points`, captures of a ball through `balls`.
 
 mod agreement;
 mod arm;
+mod balls;
 mod boards;
 mod budget;
 mod candidates;
@@ -123,6 +124,12 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
     if session.observations.is_empty() {
         let mut result = empty(&session);
         points::from_points(&session, &mut result);
+        verdict::conclude(config, &mut result);
+        return Ok(result);
+    }
+    if let Some(TargetModel::Sphere { .. }) = session.target {
+        let mut result = empty(&session);
+        balls::from_balls(&session, config, &mut result);
         verdict::conclude(config, &mut result);
         return Ok(result);
     }

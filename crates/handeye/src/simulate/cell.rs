@@ -260,6 +260,9 @@ impl Cell {
 
     fn centre(&self) -> Vector3<f64> {
         let corners = self.target.corners();
+        if corners.is_empty() {
+            return Vector3::zeros();
+        }
         corners.iter().map(Point::vector).sum::<Vector3<f64>>() / corners.len() as f64
     }
 

@@ -242,13 +242,27 @@ impl Scene {
         (texture, paper): (Option<&Texture>, Option<&Paper>),
         s: &DepthSensor,
     ) -> Option<f64> {
-        let colour = |print: &Vector2<f64>| texture.and_then(|t| t.is_black_at(print));
-        let on_board = self.on_board(ray, paper).and_then(|(print, z)| Some((colour(&print)?, z)));
-        let on_table = || Some((false, self.meet(ray, s.table_behind_m)?.1));
-        let (is_black, depth) = on_board.or_else(on_table)?;
         let normal = self.camera_from_target.rotation().column(2).into_owned();
+        let colour = |print: &Vector2<f64>| texture.and_then(|t| t.is_black_at(print));
+        let on_board =
+            || self.on_board(ray, paper).and_then(|(p, z)| Some((colour(&p)?, z, normal)));
+        let on_ball = || self.on_ball(ray).map(|(z, normal)| (false, z, normal));
+        let on_table = || Some((false, self.meet(ray, s.table_behind_m)?.1, normal));
+        let (is_black, depth, normal) = on_board().or_else(on_ball).or_else(on_table)?;
         let cosine = normal.dot(ray).abs() / ray.norm();
         (cosine > s.steepest_rad.cos()).then(|| s.reads(depth, is_black))
+    }
+
+    /// Depth (m) where a ray meets a ball, and the normal there.
+    fn on_ball(&self, ray: &Vector3<f64>) -> Option<(f64, Vector3<f64>)> {
+        let TargetModel::Sphere { diameter_mm: Some(diameter_mm) } = self.target else {
+            return None;
+        };
+        let (radius, centre) = (0.5e-3 * diameter_mm, self.camera_from_target.translation());
+        let along = ray.dot(&centre) / ray.norm_squared();
+        let root = along.powi(2) - (centre.norm_squared() - radius * radius) / ray.norm_squared();
+        let depth = (root > 0.0).then(|| along - root.sqrt()).filter(|z| *z > 0.0)?;
+        Some((depth, (ray * depth - centre) / radius))
     }
 
     /// Where a ray meets the board: place of the faultless print (m), and depth (m).

@@ -31,7 +31,7 @@ pub use colours::{Coloured, ColouredCorner};
 pub use step::{PooledStep, Step, pool, settle};
 
 use crate::{ImageCorner, Intrinsics, Scan, SurfaceCorner, TargetModel};
-pub(crate) use plane::{MAD, tukey};
+pub(crate) use plane::{MAD, TUKEY, TUKEY_COST, inflation, tukey};
 use plane::{Plane, Rays};
 use samples::{Source, Window};
 

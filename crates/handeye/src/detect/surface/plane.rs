@@ -12,13 +12,13 @@ const TRIES: usize = 40;
 /// At most this many samples judge a try.
 const JUDGES: usize = 150;
 /// Tukey's bound, standard deviations.
-pub(super) const TUKEY: f64 = 4.685;
+pub(crate) const TUKEY: f64 = 4.685;
 /// Mean of Tukey's weight of unit normal deviates.
 const TUKEY_MEAN: f64 = 0.9151;
 /// `Σ w r² / Σ w` of unit normal deviates: the weights make the scatter look smaller.
 const TUKEY_SHRINK: f64 = 0.8281;
 /// Variance of the fit over `scatter² (AᵀWA)⁻¹`, for unit normal deviates: `E[w² r²] E[w] / E[ψ']²`.
-pub(super) const TUKEY_COST: f64 = 0.9633;
+pub(crate) const TUKEY_COST: f64 = 0.9633;
 /// Rounds of re-weighting.
 const ROUNDS: usize = 6;
 /// Median absolute value of a unit normal deviate.
@@ -26,7 +26,7 @@ pub(crate) const MAD: f64 = 0.6745;
 /// The scatter is never taken below this share of the depth: single precision.
 const LEAST_SCATTER: f64 = 1e-7;
 /// Correlation of neighbouring residuals is believed up to this.
-pub(super) const MOST_CORRELATED: f64 = 0.85;
+const MOST_CORRELATED: f64 = 0.85;
 /// Added to the covariance, m²: (1 µm)², so that it can be inverted.
 const FLOOR: f64 = 1e-12;
 /// Less than this share of the points in one plane is an edge.
@@ -147,33 +147,41 @@ impl Plane {
         SurfaceCorner { id, in_camera: Point::from_vector(ray * z), covariance }
     }
 
-    /// Correlation of the residuals of neighbours.
-    pub fn correlation(&self, samples: &[Sample], step: (i64, i64)) -> f64 {
-        let residuals = self.residuals(samples);
-        let good = |k: usize| self.weights[k] > 0.0;
-        let places: BTreeMap<(i64, i64), usize> = samples
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| good(*k))
-            .map(|(k, s)| (s.cell, k))
-            .collect();
-        let (mut product, mut square, mut pairs, mut count) = (0.0, 0.0, 0.0, 0.0);
-        for (&(x, y), &k) in &places {
-            square += residuals[k] * residuals[k];
-            count += 1.0;
-            if let Some(&next) = places.get(&(x + step.0, y + step.1)) {
-                product += residuals[k] * residuals[next];
-                pairs += 1.0;
-            }
-        }
-        if pairs < 1.0 || square <= 0.0 {
-            return 0.0;
-        }
-        let correlation = (product / pairs) / (square / count);
-        // taking the plane off makes neighbours look opposed; and below twice its own error it is zero
-        let bias = 3.0 / count;
-        if correlation + bias > 2.0 / f64::sqrt(pairs) { correlation + bias } else { 0.0 }
+    /// Residuals of the points that carry weight, with their places in the grid.
+    pub fn placed_residuals(&self, samples: &[Sample]) -> Vec<((i64, i64), f64)> {
+        let all = self.residuals(samples).into_iter().zip(samples).zip(&self.weights);
+        all.filter(|(_, w)| **w > 0.0).map(|((r, s), _)| (s.cell, r)).collect()
     }
+}
+
+/// By how much fewer independent points of a grid there are than points; `unknowns` were fitted.
+pub(crate) fn inflation(residuals: &[((i64, i64), f64)], unknowns: f64) -> f64 {
+    let places: BTreeMap<(i64, i64), f64> = residuals.iter().copied().collect();
+    let along = |step| {
+        let r = correlation(&places, unknowns, step).clamp(0.0, MOST_CORRELATED);
+        (1.0 + r) / (1.0 - r)
+    };
+    along((1, 0)) * along((0, 1))
+}
+
+/// Correlation of the residuals of neighbours.
+fn correlation(places: &BTreeMap<(i64, i64), f64>, unknowns: f64, step: (i64, i64)) -> f64 {
+    let (mut product, mut square, mut pairs, mut count) = (0.0, 0.0, 0.0, 0.0);
+    for (&(x, y), residual) in places {
+        square += residual * residual;
+        count += 1.0;
+        if let Some(next) = places.get(&(x + step.0, y + step.1)) {
+            product += residual * next;
+            pairs += 1.0;
+        }
+    }
+    if pairs < 1.0 || square <= 0.0 {
+        return 0.0;
+    }
+    let correlation = (product / pairs) / (square / count);
+    // taking the fit off makes neighbours look opposed; and below twice its own error it is zero
+    let bias = unknowns / count;
+    if correlation + bias > 2.0 / f64::sqrt(pairs) { correlation + bias } else { 0.0 }
 }
 
 /// Tukey's biweight.

@@ -6,7 +6,7 @@ use nalgebra::{Vector2, Vector3};
 
 use super::{
     Reason,
-    plane::{MOST_CORRELATED, Plane},
+    plane::{Plane, inflation},
 };
 use crate::{ImageCorner, Intrinsics, Scan};
 
@@ -34,6 +34,9 @@ pub(super) struct Sample {
     pub cell: (i64, i64),
 }
 
+/// Unknowns of a plane.
+const PLANE: f64 = 3.0;
+
 /// The points around one corner.
 pub(super) struct Window {
     pub samples: Vec<Sample>,
@@ -50,14 +53,7 @@ pub(super) struct Window {
 impl Window {
     /// By how much fewer independent points there are than points.
     pub fn inflation(&self, samples: &[Sample], plane: &Plane) -> f64 {
-        if !self.is_grid {
-            return 1.0;
-        }
-        let along = |step| {
-            let r = plane.correlation(samples, step).clamp(0.0, MOST_CORRELATED);
-            (1.0 + r) / (1.0 - r)
-        };
-        along((1, 0)) * along((0, 1))
+        if self.is_grid { inflation(&plane.placed_residuals(samples), PLANE) } else { 1.0 }
     }
 }
 
