@@ -262,7 +262,7 @@ fn step_warning(step: &surface::PooledStep, noise: f64) -> Warning {
     Warning::new(
         "depth-by-colour",
         format!(
-            "scans read black {:.2} +- {:.2} mm {farther} than white, against {:.2} mm of noise in \
+            "scans read black {:.3} +- {:.3} mm {farther} than white, against {:.3} mm of noise in \
              a corner: it is taken off the points on black. Which colour is right, a flat board \
              cannot tell; white is taken to be, so the answer holds for surfaces that the camera \
              reads as it reads white",

@@ -83,7 +83,7 @@ fn not_flat(bend: &Bend, captures: usize) -> Warning {
     Warning::new(
         "board-not-flat",
         format!(
-            "in the scans of {captures} captures the board is bent by {:.2} +- {:.2} mm from its \
+            "in the scans of {captures} captures the board is bent by {:.3} +- {:.3} mm from its \
              highest to its lowest corner: lay it on a flat plate and check it with a straight \
              edge; if it is flat, the 3D camera bends what is flat",
             bend.peak_to_valley_m * 1e3,
@@ -174,14 +174,14 @@ fn frames_result(found: &Frames) -> FramesResult {
 fn disagreement(part: Part, found: &Frames) -> Warning {
     let (v, s) = (&found.values, &found.sigmas);
     let axes = |first: usize, unit: f64| {
-        let one = |k: usize| format!("{:+.2} +- {:.2}", v[first + k] * unit, s[first + k] * unit);
+        let one = |k: usize| format!("{:+.3} +- {:.3}", v[first + k] * unit, s[first + k] * unit);
         format!("({}, {}, {})", one(0), one(1), one(2))
     };
     let (code, message) = match part {
         Part::Scale => (
             "picture-and-scan-scale",
             format!(
-                "scans put the board {:+.2} +- {:.2} % farther away than pictures do: the focal \
+                "scans put the board {:+.3} +- {:.3} % farther away than pictures do: the focal \
                  length, the board's size or the depth's scale is wrong; which one, the robot's \
                  motions tell if anything does",
                 v[0] * 100.0,

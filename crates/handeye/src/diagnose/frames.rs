@@ -13,7 +13,7 @@
 //! enter one after the other, the one that explains most first, for as long as one explains more than
 //! noise can: so that a shift is not spread over all three.
 
-use nalgebra::{Matrix3, Matrix3x6, SMatrix, SVector, Vector3};
+use nalgebra::{Matrix3, Matrix3x6, Rotation3, SMatrix, SVector, Vector3};
 
 use crate::{Camera, Pose, Target, TargetPose, chance, lie};
 
@@ -67,6 +67,8 @@ pub struct Frames {
 const FEWEST: usize = 4;
 /// Chance of noise below which a part is proven.
 const IMPROBABLE: f64 = 1e-5;
+/// Times that the equations are made anew where the answer is.
+const RELOOKS: usize = 3;
 /// An unknown that nothing tells has this standard deviation (1, rad, m).
 const FREE: f64 = 10.0;
 
@@ -98,7 +100,22 @@ impl Normal {
 
 /// How the frames of pictures and scans differ; `None` where captures are too few.
 pub fn frames(captures: &[TwoPlanes]) -> Option<Frames> {
-    let normal = normal(captures)?;
+    let mut near = SVector::zeros();
+    let mut found = about(captures, &near)?;
+    for _ in 0..RELOOKS {
+        near = found.values;
+        Part::ALL
+            .into_iter()
+            .filter(|p| !found.proven.contains(p))
+            .for_each(|p| p.range().for_each(|k| near[k] = 0.0));
+        found = about(captures, &near)?;
+    }
+    Some(found)
+}
+
+/// The same from equations about `near`.
+fn about(captures: &[TwoPlanes], near: &SVector<f64, 7>) -> Option<Frames> {
+    let normal = normal(captures, near)?;
     let all: Vec<usize> = (0..7).collect();
     let (_, _, gain) = normal.solve(&all)?;
     let freedom = 3.0 * captures.len() as f64 - 7.0;
@@ -141,24 +158,31 @@ pub fn frames(captures: &[TwoPlanes]) -> Option<Frames> {
     Some(Frames { values, sigmas, proven, chance })
 }
 
-fn normal(captures: &[TwoPlanes]) -> Option<Normal> {
+/// The equations about a difference of the frames that is near.
+fn normal(captures: &[TwoPlanes], near: &SVector<f64, 7>) -> Option<Normal> {
     if captures.len() < FEWEST {
         return None;
     }
     let mut sum = Normal { h: Seven::zeros(), g: SVector::zeros(), cost: 0.0 };
     for c in captures {
-        let m = c.picture.0;
-        let r = c.scan.0 - m;
+        let m = moved(&c.picture.0, near);
         let w = (c.scan.1 + c.picture.1).cholesky()?.inverse();
         let mut j = SMatrix::<f64, 3, 7>::zeros();
         j.fixed_view_mut::<3, 1>(0, 0).copy_from(&-m);
         j.fixed_view_mut::<3, 3>(0, 1).copy_from(&-lie::hat(&m));
         j.fixed_view_mut::<3, 3>(0, 4).copy_from(&(-m * m.transpose()));
+        let r = c.scan.0 - m + j * near;
         sum.h += j.transpose() * w * j;
         sum.g += j.transpose() * (w * r);
         sum.cost += r.dot(&(w * r));
     }
     sum.cost.is_finite().then_some(sum)
+}
+
+/// The plane as the scan has it: `R m/(1 + σ + t·R m)`.
+fn moved(m: &Vector3<f64>, by: &SVector<f64, 7>) -> Vector3<f64> {
+    let turned = Rotation3::new(by.fixed_rows::<3>(1).into_owned()) * m;
+    turned / (1.0 + by[0] + turned.dot(&by.fixed_rows::<3>(4)))
 }
 
 /// The plane of a board in the pose that a picture tells; `None` without covariance.
@@ -206,7 +230,7 @@ pub fn plane_of_points(
 mod tests {
     use super::*;
     use crate::simulate::Random;
-    use nalgebra::{Matrix6, Rotation3};
+    use nalgebra::Matrix6;
 
     /// Boards seen by a picture and a scan whose frame differs by `x`.
     fn captures(x: &SVector<f64, 7>, count: usize, seed: u64) -> Vec<TwoPlanes> {
@@ -268,6 +292,13 @@ mod tests {
                 assert!(off.abs() < 4.5 * found.sigmas[k], "{seed}: {off} {found:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_large_tilt_does_not_pass_for_a_scale() {
+        let found = frames(&captures(&shifted(1, 0.1), 14, 1)).unwrap();
+        assert_eq!(found.proven, [Part::Tilt], "{found:?}");
+        assert!((found.values[1] - 0.1).abs() < 4.0 * found.sigmas[1], "{found:?}");
     }
 
     #[test]
