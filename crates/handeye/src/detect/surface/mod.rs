@@ -28,7 +28,7 @@ mod step;
 mod tests;
 
 pub use colours::{Coloured, ColouredCorner};
-pub use step::{PooledStep, Step, pool, settle};
+pub use step::{OnScan, PooledStep, Step, pool, settle};
 
 use crate::{ImageCorner, Intrinsics, Scan, SurfaceCorner, TargetModel};
 pub(crate) use plane::{MAD, TUKEY, TUKEY_COST, inflation, tukey};
@@ -93,7 +93,7 @@ pub fn lift(
     size: (usize, usize),
     scan: &Scan,
     intrinsics: Option<&Intrinsics>,
-) -> (Vec<SurfaceCorner>, Vec<Missing>) {
+) -> OnScan {
     lift_plain(&windows(corners, size, scan, intrinsics))
 }
 
@@ -130,7 +130,7 @@ fn windows<'a>(
     corners.iter().map(one).collect()
 }
 
-fn lift_plain(windows: &Windows) -> (Vec<SurfaceCorner>, Vec<Missing>) {
+fn lift_plain(windows: &Windows) -> OnScan {
     lift_all(windows, |corner, window| {
         let plane = Plane::fit(&window.samples, corner.id.into())?;
         on_plane(corner, window, &window.samples, &plane)

@@ -76,11 +76,12 @@ pub fn pool(steps: &[Step]) -> Option<PooledStep> {
     Some(PooledStep { value_m, sigma_m: total.sqrt().recip(), spread_m: between.sqrt() })
 }
 
+/// A capture's corners on its scan, and those that are not on it.
+pub type OnScan = (Vec<SurfaceCorner>, Vec<Missing>);
+
 /// The corners of every capture with the step of all taken off, where it is significant; otherwise
 /// as if all points were measured alike.
-pub fn settle(
-    captures: &[Lifted],
-) -> (Option<PooledStep>, Vec<(Vec<SurfaceCorner>, Vec<Missing>)>) {
+pub fn settle(captures: &[Lifted]) -> (Option<PooledStep>, Vec<OnScan>) {
     let steps: Vec<Step> =
         captures.iter().filter_map(|c| Some(c.coloured.as_ref()?.step)).collect();
     let pooled = pool(&steps);
