@@ -13,6 +13,8 @@ pub(super) struct Candidate {
     pub radius: f64,
 }
 
+/// No 3D camera measures farther, m.
+const FARTHEST: f64 = 1000.0;
 /// Points that stand for the scan.
 const THINNED: usize = 60_000;
 /// Side of a cell, of the radius that is looked for.
@@ -49,7 +51,7 @@ const STEPS: usize = 6;
 pub(super) fn thinned(scan: &Scan) -> Vec<Vector3<f64>> {
     let sound = |p: &[f32; 3]| {
         let v = Vector3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2]));
-        (v.iter().all(|x| x.is_finite()) && v.z > 0.0).then_some(v)
+        (v.norm() < FARTHEST && v.z > 0.0).then_some(v)
     };
     let count = scan.points().iter().filter(|p| sound(p).is_some()).count();
     let step = count.div_ceil(THINNED).max(1);

@@ -164,6 +164,8 @@ fn reasons_are_named() {
     let table = board.scan(&sensor(0.5, d), 7);
     assert_eq!(find(&table, Some(0.05)).unwrap_err(), NoBall::None);
     assert_eq!(find(&table, None).unwrap_err(), NoBall::None);
+    let wild = with_points(&scan, |x, y, _| [1e30, (x + y) as f32 * 1e28, 1e30]);
+    assert_eq!(find(&wild, Some(0.05)).unwrap_err(), NoBall::Empty(0));
     let nothing = with_points(&scan, |_, _, _| [f32::NAN; 3]);
     assert_eq!(find(&nothing, None).unwrap_err(), NoBall::Empty(0));
 }
