@@ -131,6 +131,10 @@ fn check_workspace(dataset: &Dataset) -> Result<(), Failure> {
 /// Adds to the result what reading the files told.
 fn explain(calibration: &mut Calibration, measured: &Measured) {
     calibration.warnings.extend(measured.warnings.iter().cloned());
+    if measured.colour_step.is_some() {
+        let scans = calibration.scans.get_or_insert_default();
+        scans.colour_step = measured.colour_step.clone();
+    }
     for (id, reason) in &measured.not_found {
         if let Some(capture) = calibration.captures.iter_mut().find(|c| c.id == *id) {
             capture.reason = Some(reason.clone());

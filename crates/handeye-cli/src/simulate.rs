@@ -8,6 +8,7 @@ use handeye::{
     simulate::{ArmErrors, Cell, CellNoise, DepthSensor, Optics, Viewing},
 };
 use handeye_io::simulated::{self, ScanFormat, Writing};
+use nalgebra::Vector3;
 use serde_json::json;
 
 use crate::{args::Manners, failure::Failure, output};
@@ -54,6 +55,9 @@ pub struct SimulateArgs {
     /// One tag of this id.
     #[arg(long, value_name = "ID")]
     pub tag: Option<u32>,
+    /// A ball of this diameter, in scans alone; nothing is touched.
+    #[arg(long, value_name = "MM", conflicts_with_all = ["checkerboard", "charuco", "tag", "no_images"])]
+    pub sphere: Option<f64>,
     /// Side of a square; of a tag with --tag.
     #[arg(long, default_value_t = 30.0)]
     pub square_mm: f64,
@@ -104,6 +108,21 @@ pub struct SimulateArgs {
     /// Noise of a depth at 1 m; it grows with the square of the distance.
     #[arg(long, default_value_t = 0.3)]
     pub depth_mm: f64,
+    /// Scans read black farther than white by this, along the optical axis.
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub black_step_mm: f64,
+    /// The ends of the board lie this far behind its middle: it is bent.
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub bow_mm: f64,
+    /// Distances in scans are too large by this.
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub scan_scale_percent: f64,
+    /// Scans are turned against pictures by this, about the camera's x.
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub scan_tilt_deg: f64,
+    /// Scans are shifted against pictures by this, along the camera's x.
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub scan_shift_mm: f64,
     /// No noise at all, of nothing.
     #[arg(long)]
     pub exact: bool,
@@ -156,6 +175,8 @@ impl From<ScanFormatArg> for ScanFormat {
 
 /// Most captures, placements or touches: more are mistakes.
 const MOST: usize = 999;
+/// Largest step, bow or shift of a scan, mm.
+const MOST_FAULT_MM: f64 = 100.0;
 /// Largest side of a picture, px.
 const LARGEST_PX: u32 = 10_000;
 
@@ -186,10 +207,17 @@ fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
     let usual = Cell::new(setup, args.seed);
     let placements = args.placements.unwrap_or(usual.placements);
     let touches = args.touches.unwrap_or(usual.touches);
+    let touches = if args.sphere.is_some() { 0 } else { touches };
     check(args, placements, touches)?;
     let placements = if setup == Setup::EyeInHand || touches == 0 { 0 } else { placements };
     let depth = DepthSensor {
         sigma_at_1m: zero_if(args.exact, args.depth_mm) * 1e-3,
+        black_step_m: args.black_step_mm * 1e-3,
+        scale: args.scan_scale_percent * 1e-2,
+        turn_rad: Vector3::x() * args.scan_tilt_deg.to_radians(),
+        shift_m: Vector3::x() * args.scan_shift_mm * 1e-3,
+        // a ball lies on the table
+        table_behind_m: args.sphere.map_or(usual_table(), |mm| 0.5e-3 * mm),
         ..DepthSensor::default()
     };
     Ok(Cell {
@@ -202,8 +230,9 @@ fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
         },
         noise: noise(args),
         arm: args.arm.then(|| arm(args)),
-        depth: args.scans.then_some(depth),
+        depth: (args.scans || args.sphere.is_some()).then_some(depth),
         scan_scale: args.scan_scale,
+        bow_mm: args.bow_mm,
         optics: Optics { noise: zero_if(args.exact, args.image_noise), ..usual.optics },
         captures: args.captures,
         placements,
@@ -245,10 +274,24 @@ fn check(args: &SimulateArgs, placements: usize, touches: usize) -> Result<(), F
         ("image-noise", args.image_noise),
         ("depth-mm", args.depth_mm),
     ];
+    let faults = [
+        ("black-step-mm", args.black_step_mm, MOST_FAULT_MM),
+        ("bow-mm", args.bow_mm, MOST_FAULT_MM),
+        ("scan-scale-percent", args.scan_scale_percent, 50.0),
+        ("scan-tilt-deg", args.scan_tilt_deg, 45.0),
+        ("scan-shift-mm", args.scan_shift_mm, MOST_FAULT_MM),
+    ];
+    if let Some((name, value, most)) = faults.iter().find(|(_, v, most)| !(v.abs() <= *most)) {
+        return usage(format!("--{name} {value}: at most {most} either way"));
+    }
     match noise.iter().find(|(_, v)| !(v.is_finite() && *v >= 0.0)) {
         Some((name, value)) => usage(format!("--{name} {value}: must not be negative")),
         None => Ok(()),
     }
+}
+
+fn usual_table() -> f64 {
+    DepthSensor::default().table_behind_m
 }
 
 fn zero_if(exact: bool, value: f64) -> f64 {
@@ -289,7 +332,9 @@ fn intrinsics(args: &SimulateArgs) -> Intrinsics {
 fn target(args: &SimulateArgs) -> Result<TargetModel, Failure> {
     let dictionary = args.dictionary.clone();
     let square_mm = args.square_mm;
-    let target = if let Some(id) = args.tag {
+    let target = if let Some(mm) = args.sphere {
+        TargetModel::Sphere { diameter_mm: Some(mm) }
+    } else if let Some(id) = args.tag {
         TargetModel::Tag { dictionary, id, size_mm: square_mm }
     } else if let Some(size) = &args.charuco {
         let (squares_x, squares_y) = size_of(size)?;

@@ -1,6 +1,6 @@
 //! The commands that need no data of the user.
 
-#![allow(clippy::unwrap_used, reason = "a test fails loudly")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
 use std::{fs, path::PathBuf, process::Command};
 
@@ -164,4 +164,79 @@ fn impossible_cells_are_refused_with_a_reason() {
         assert!(code == 2 && said.starts_with("error: "), "{wrong:?}: {code} {said}");
         assert!(!out.exists(), "{wrong:?}");
     }
+}
+
+/// Result of a small simulated cell with a 3D camera, and its report.
+fn scanned(name: &str, options: &[&str]) -> (Value, String) {
+    let out = folder(name);
+    let cell = out.to_str().unwrap();
+    let small = ["--width", "640", "--height", "480", "--captures", "9", "--touches", "0"];
+    let arguments = [&["simulate", cell, "--quiet"], &small[..], options].concat();
+    let (code, _, said) = handeye(&arguments);
+    assert_eq!(code, 0, "{said}");
+    let answer = out.join("answer");
+    let (_, json, said) =
+        handeye(&["calibrate", cell, "--out", answer.to_str().unwrap(), "--json"]);
+    let told = serde_json::from_str(&json).unwrap_or_else(|e| panic!("{e}: {said}"));
+    let page = fs::read_to_string(answer.join("report.html")).unwrap();
+    fs::remove_dir_all(out).unwrap();
+    (told, page)
+}
+
+fn warned(told: &Value) -> Vec<&str> {
+    let all = told["warnings"].as_array().unwrap();
+    all.iter().filter_map(|w| w["code"].as_str()).collect()
+}
+
+#[test]
+fn what_is_wrong_with_scans_and_board_is_named() {
+    let board = ["--scans", "--checkerboard", "9x6", "--square-mm", "25"];
+    let told = |name, more: &[&str]| scanned(name, &[&board[..], more].concat());
+    let number = |v: &Value| v.as_f64().unwrap();
+    let (sound, _) = told("sound", &[]);
+    let own = ["depth-by-colour", "board-not-flat", "picture-and-scan"];
+    let any = |code: &&str| own.iter().any(|own| code.starts_with(own));
+    assert!(!warned(&sound).iter().any(any), "{:?}", warned(&sound));
+
+    let (step, page) = told("step", &["--black-step-mm", "0.6"]);
+    let found = &step["scans"]["colour_step"];
+    assert!(warned(&step).contains(&"depth-by-colour") && found["applied"] == true, "{found}");
+    assert!((number(&found["black_minus_white_mm"]) - 0.6).abs() < 0.02, "{found}");
+    assert!(page.contains("<h3>Black and white</h3>"));
+
+    let (bow, page) = told("bow", &["--bow-mm", "0.8"]);
+    let found = &bow["scans"]["flatness"]["peak_to_valley_mm"];
+    assert!(warned(&bow).contains(&"board-not-flat") && (number(found) - 0.8).abs() < 0.03);
+    assert!(page.contains("Mean deviation of every corner"), "the map");
+
+    for (part, option, value) in [
+        ("scale", "--scan-scale-percent", "0.8"),
+        ("tilt", "--scan-tilt-deg", "0.5"),
+        ("shift", "--scan-shift-mm", "3"),
+    ] {
+        let (frames, page) = told(part, &[option, value]);
+        let code = format!("picture-and-scan-{part}");
+        assert!(warned(&frames).contains(&code.as_str()), "{:?}", warned(&frames));
+        let found = &frames["scans"]["frames"];
+        assert_eq!(found["proven"], serde_json::json!([part]), "{found}");
+        assert!(page.contains("<h3>Pictures against scans</h3>"));
+    }
+}
+
+#[test]
+fn a_ball_calibrates_a_3d_camera() {
+    for setup in ["eye-in-hand", "eye-to-hand"] {
+        let options = ["--sphere", "50", "--setup", setup, "--robot-mm", "0.1"];
+        let (told, page) = scanned(setup, &options);
+        assert_eq!(told["verdict"], "accepted", "{}", told["reasons"]);
+        assert_eq!(told["method"], "ball-least-squares");
+        assert!(told["predicted_tre_mm"]["rms"].as_f64().unwrap() < 1.0);
+        assert!(told["held_out"]["translation_rms_mm"].as_f64().unwrap() < 2.0);
+        assert!(page.contains("ball-least-squares"));
+    }
+    // cameras that only shift see nothing of what turns the camera about
+    let still = ["--sphere", "50", "--tilt-deg", "0", "--spin-deg", "0"];
+    let (told, _) = scanned("still", &still);
+    assert_eq!(told["verdict"], "undetermined", "{}", told["reasons"]);
+    assert!(told["hand_eye"]["mount_from_camera"].is_null());
 }

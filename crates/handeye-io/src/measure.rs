@@ -13,8 +13,9 @@ use std::{
 
 use handeye::{
     Camera, ImageCorner, Intrinsics, Observation, Placement, Pose, Session, SurfaceCorner, Target,
-    TargetPose, Warning,
-    detect::{self, surface},
+    TargetModel, TargetPose, Warning,
+    calibration::{CaptureStep, ColourStepResult},
+    detect::{self, sphere, surface},
     intrinsics, lens,
 };
 
@@ -26,6 +27,8 @@ pub struct Measured {
     pub session: Session,
     /// Calibration of the camera from the views, where the dataset gave none.
     pub camera_rms_px: Option<f64>,
+    /// How depths on the two colours of the print differ, where scans tell it.
+    pub colour_step: Option<ColourStepResult>,
     /// Why captures show no target, by name.
     pub not_found: Vec<(String, String)>,
     /// What to know.
@@ -63,6 +66,8 @@ struct Seen {
     corners: Vec<ImageCorner>,
     surface: Vec<SurfaceCorner>,
     missing: Vec<surface::Missing>,
+    lifted: surface::Lifted,
+    ball: Option<sphere::Ball>,
     size: Option<(usize, usize)>,
     not_found: Option<String>,
 }
@@ -83,6 +88,8 @@ pub fn measure(
         .collect();
     let mut seen = look_at_all(dataset, &shots, progress)?;
     let mut warnings = dataset.warnings.clone();
+    let colour_step = settle_step(&shots, &mut seen, &mut warnings);
+    tell_diameter(dataset, &seen, &mut warnings);
     let (camera, camera_rms_px) = camera(dataset, &shots, &seen, &mut warnings)?;
     shots.iter().zip(&seen).for_each(|(shot, s)| warn_missing(shot, s, &mut warnings));
     let excess = typical_excess(dataset, &seen, camera.as_ref());
@@ -95,7 +102,7 @@ pub fn measure(
     let not_found = captures.filter_map(|(c, s)| Some((c.id.clone(), s.not_found.clone()?)));
     let not_found = not_found.collect();
     let session = session(dataset, seen, poses, camera);
-    Ok(Measured { session, camera_rms_px, not_found, warnings })
+    Ok(Measured { session, camera_rms_px, colour_step, not_found, warnings })
 }
 
 /// Pictures larger than this (pixels) are worked on by two threads at most: each takes some
@@ -146,6 +153,9 @@ fn of_capture(shot: &Shot, source: Error) -> Error {
 
 fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
     let Some(target) = &dataset.target else { return Ok(Seen::default()) };
+    if let TargetModel::Sphere { diameter_mm } = target {
+        return look_for_ball(dataset, shot, *diameter_mm);
+    }
     let mut seen = Seen::default();
     if let Some(corners) = shot.corners {
         seen.corners = corners.to_vec();
@@ -160,10 +170,107 @@ fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
     }
     if let (Some(path), Some(size), false) = (shot.scan, seen.size, seen.corners.is_empty()) {
         let scan = dataset.scan(path)?;
-        (seen.surface, seen.missing) =
-            surface::lift(&seen.corners, size, &scan, dataset.intrinsics.as_ref());
+        let camera = dataset.intrinsics.as_ref();
+        seen.lifted = surface::lift_coloured(&seen.corners, size, &scan, camera, target);
     }
     Ok(seen)
+}
+
+/// The centre of a ball, as the one corner of its scan.
+fn look_for_ball(dataset: &Dataset, shot: &Shot, diameter_mm: Option<f64>) -> Result<Seen, Error> {
+    let mut seen = Seen::default();
+    let Some(path) = shot.scan else {
+        seen.not_found = Some("a ball is found in scans, and there is none".into());
+        return Ok(seen);
+    };
+    match sphere::find(&dataset.scan(path)?, diameter_mm.map(|mm| mm * 1e-3)) {
+        Ok(ball) => {
+            let (in_camera, covariance) = (ball.centre, ball.covariance);
+            seen.surface = vec![SurfaceCorner { id: 0, in_camera, covariance }];
+            seen.ball = Some(ball);
+        }
+        Err(reason) => seen.not_found = Some(reason.to_string()),
+    }
+    Ok(seen)
+}
+
+/// Tells the diameter that the scans find, where none was given.
+fn tell_diameter(dataset: &Dataset, seen: &[Seen], warnings: &mut Vec<Warning>) {
+    let unknown = matches!(dataset.target, Some(TargetModel::Sphere { diameter_mm: None }));
+    let mut all: Vec<f64> =
+        seen.iter().filter_map(|s| Some(s.ball.as_ref()?.diameter_m * 1e3)).collect();
+    all.sort_by(f64::total_cmp);
+    let (Some(least), Some(most), true) = (all.first(), all.last(), unknown) else { return };
+    warnings.push(Warning::new(
+        "ball-diameter-found",
+        format!(
+            "no diameter_mm given: {} scans find {:.2} mm (median, from {least:.2} to {most:.2}); \
+             declared, it makes the centres surer",
+            all.len(),
+            all[all.len() / 2]
+        ),
+    ));
+}
+
+/// Takes the step between black and white, as all captures show it, off the corners in the scans.
+fn settle_step(
+    shots: &[Shot],
+    seen: &mut [Seen],
+    warnings: &mut Vec<Warning>,
+) -> Option<ColourStepResult> {
+    if seen.iter().any(|s| s.ball.is_some()) {
+        return None;
+    }
+    let lifted: Vec<surface::Lifted> =
+        seen.iter_mut().map(|s| std::mem::take(&mut s.lifted)).collect();
+    let (pooled, settled) = surface::settle(&lifted);
+    for (s, (surface, missing)) in seen.iter_mut().zip(settled) {
+        (s.surface, s.missing) = (surface, missing);
+    }
+    let pooled = pooled?;
+    let noise = corner_noise(seen);
+    if pooled.is_significant() && pooled.value_m.abs() > noise {
+        warnings.push(step_warning(&pooled, noise));
+    }
+    let captures = shots.iter().zip(&lifted).filter_map(|(shot, l)| {
+        let step = l.coloured.as_ref()?.step;
+        Some(CaptureStep {
+            id: shot.id.to_owned(),
+            black_minus_white_mm: step.value_m * 1e3,
+            sigma_mm: step.sigma_m * 1e3,
+        })
+    });
+    Some(ColourStepResult {
+        black_minus_white_mm: pooled.value_m * 1e3,
+        sigma_mm: pooled.sigma_m * 1e3,
+        spread_mm: pooled.spread_m * 1e3,
+        applied: pooled.is_significant(),
+        captures: captures.collect(),
+    })
+}
+
+/// Typical standard deviation of a corner along the optical axis, m.
+fn corner_noise(seen: &[Seen]) -> f64 {
+    let depth = |c: &SurfaceCorner| c.covariance[(2, 2)].sqrt();
+    let mut all: Vec<f64> = seen.iter().flat_map(|s| &s.surface).map(depth).collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(0.0)
+}
+
+fn step_warning(step: &surface::PooledStep, noise: f64) -> Warning {
+    let farther = if step.value_m > 0.0 { "farther" } else { "nearer" };
+    Warning::new(
+        "depth-by-colour",
+        format!(
+            "scans read black {:.3} +- {:.3} mm {farther} than white, against {:.3} mm of noise in \
+             a corner: it is taken off the points on black. Which colour is right, a flat board \
+             cannot tell; white is taken to be, so the answer holds for surfaces that the camera \
+             reads as it reads white",
+            step.value_m.abs() * 1e3,
+            step.sigma_m * 1e3,
+            noise * 1e3
+        ),
+    )
 }
 
 fn warn_missing(shot: &Shot, seen: &Seen, warnings: &mut Vec<Warning>) {

@@ -7,9 +7,10 @@ use std::{collections::BTreeSet, fs};
 use handeye::{
     Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
     calibration::{
-        Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BudgetEntry, CameraResult, Candidate,
-        CaptureResult, Certificate, DepthResult, Determined, Diversity, Misfit, PoseCovariance,
-        Scale, TipResult, TouchResult,
+        Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BoardDeviation, BudgetEntry,
+        CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep, Certificate,
+        ColourStepResult, DepthResult, Determined, Diversity, FlatnessResult, FramesResult, Misfit,
+        PoseCovariance, Scale, ScanResult, TipResult, TouchResult,
     },
     kinematics::{Arm, DhConvention, Joint, Parameter},
     predict::{PredictedTre, TreMap, TreSlice},
@@ -124,6 +125,48 @@ fn full() -> Calibration {
             sigma_cy: 0.0,
         }),
         depth: Some(DepthResult { scale: 1.0, sigma_scale: 0.0, bias_mm: 0.0, sigma_bias_mm: 0.0 }),
+        scans: Some(ScanResult {
+            colour_step: Some(ColourStepResult {
+                black_minus_white_mm: 0.0,
+                sigma_mm: 0.0,
+                spread_mm: 0.0,
+                applied: false,
+                captures: vec![CaptureStep {
+                    id: "01".into(),
+                    black_minus_white_mm: 0.0,
+                    sigma_mm: 0.0,
+                }],
+            }),
+            flatness: Some(FlatnessResult {
+                rms_mm: 0.0,
+                peak_to_valley_mm: 0.0,
+                sigma_mm: 0.0,
+                chance: 1.0,
+                map: vec![BoardDeviation {
+                    x_mm: 0.0,
+                    y_mm: 0.0,
+                    deviation_mm: 0.0,
+                    sigma_mm: 0.0,
+                }],
+                captures: vec![CaptureFlatness {
+                    id: "01".into(),
+                    rms_mm: 0.0,
+                    peak_to_valley_mm: 0.0,
+                    sigma_mm: 0.0,
+                    chance: 1.0,
+                }],
+            }),
+            frames: Some(FramesResult {
+                scale: 0.0,
+                sigma_scale: 0.0,
+                tilt_deg: [0.0; 3],
+                sigma_tilt_deg: [0.0; 3],
+                shift_mm: [0.0; 3],
+                sigma_shift_mm: [0.0; 3],
+                proven: vec!["tilt".into()],
+                chance: 1.0,
+            }),
+        }),
         tip: Some(TipResult { offset_mm: [0.0; 3], sigma_mm: [0.0; 3], frame: "flange".into() }),
         arm: Some(ArmResult {
             model: Arm { convention: DhConvention::Standard, joints: vec![Joint::default()] },

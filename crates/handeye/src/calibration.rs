@@ -1,5 +1,7 @@
 //! The result of a calibration: everything that files and reports show.
 
+mod scans;
+
 use nalgebra::{Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -7,6 +9,11 @@ use crate::{
     Anchor, Base, Camera, Flange, HandEye, Intrinsics, Mount, Pose, Setup, Target, Warning,
     kinematics::{Arm, Parameter},
     predict::PredictedTre,
+};
+
+pub use scans::{
+    BoardDeviation, CaptureFlatness, CaptureStep, ColourStepResult, FlatnessResult, FramesResult,
+    ScanResult,
 };
 
 /// Whether the answer can be used.
@@ -393,6 +400,9 @@ pub struct Calibration {
     /// The depth of scans, where it was part of the fit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth: Option<DepthResult>,
+    /// What the scans say of the board and of themselves, where there are scans.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scans: Option<ScanResult>,
     /// The tool's tip, where the data show that it is not where the robot believes it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip: Option<TipResult>,

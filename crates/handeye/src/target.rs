@@ -128,8 +128,9 @@ pub enum TargetModel {
     },
     /// A ball. It has no corners and is found in 3D scans only.
     Sphere {
-        /// Its diameter.
-        diameter_mm: f64,
+        /// Its diameter; every scan finds it for itself where it is not told.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        diameter_mm: Option<f64>,
     },
 }
 
@@ -208,7 +209,7 @@ impl TargetModel {
     }
 
     /// The length that tells the target's scale, in metres: between neighbouring corners, circles
-    /// or rows of circles, along a tag's side, across a ball.
+    /// or rows of circles, along a tag's side, across a ball (0 where that is not known).
     pub fn pitch_m(&self) -> f64 {
         1e-3 * match *self {
             Self::Checkerboard { square_mm, .. } | Self::Charuco { square_mm, .. } => square_mm,
@@ -217,7 +218,7 @@ impl TargetModel {
             | Self::AsymmetricCircleGrid { pitch_mm, .. }
             | Self::ModifiedCircleGrid { pitch_mm, .. } => pitch_mm,
             Self::Aprilgrid { tag_mm, .. } | Self::TagGrid { tag_mm, .. } => tag_mm,
-            Self::Sphere { diameter_mm } => diameter_mm,
+            Self::Sphere { diameter_mm } => diameter_mm.unwrap_or(0.0),
         }
     }
 
@@ -437,7 +438,7 @@ mod tests {
             (modified, 1),
             (aprilgrid(6, 6), 1),
             (tag_grid(3, 3), 1),
-            (TargetModel::Sphere { diameter_mm: 50.0 }, 1),
+            (TargetModel::Sphere { diameter_mm: Some(50.0) }, 1),
         ] {
             let maps = board.symmetries();
             assert_eq!(maps.len(), count, "{board:?}");
@@ -503,7 +504,7 @@ mod tests {
         }
         assert!(message(board).contains("must be 1, or 2"));
         assert!(message(asymmetric(4, 1)).contains("one row of circles"));
-        assert!(message(TargetModel::Sphere { diameter_mm: f64::NAN }).contains("positive"));
+        assert!(message(TargetModel::Sphere { diameter_mm: Some(f64::NAN) }).contains("positive"));
     }
 
     #[test]

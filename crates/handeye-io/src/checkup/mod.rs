@@ -119,6 +119,10 @@ pub fn check(
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Checkup, Error> {
     let dataset = Dataset::open_with_root(manifest, root)?;
+    if let Some(TargetModel::Sphere { .. }) = dataset.target {
+        let what = "a ball shows no rotation, and that is what tells mistakes apart";
+        return Err(malformed(Place::file(manifest), what, "take some captures of a board"));
+    }
     let measured = measure::measure(&dataset, progress)?;
     let session = measured.session;
     let robot = rereadings(manifest, root, &dataset)?;

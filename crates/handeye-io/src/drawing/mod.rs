@@ -243,7 +243,8 @@ pub fn caption(target: &TargetModel) -> String {
             "Tag grid, {tags_x} x {tags_y} tags of {tag_mm} mm, gaps of {gap_mm} mm, {dictionary} \
              from {first_id}"
         ),
-        TargetModel::Sphere { diameter_mm } => format!("Ball of {diameter_mm} mm"),
+        TargetModel::Sphere { diameter_mm: Some(d) } => format!("Ball of {d} mm"),
+        TargetModel::Sphere { diameter_mm: None } => "Ball".into(),
     }
 }
 

@@ -7,6 +7,7 @@ mod arm;
 mod map;
 mod picture;
 mod plot;
+mod scans;
 mod scene;
 mod touch_test;
 
@@ -53,6 +54,7 @@ pub fn html(report: &Report) -> String {
     body += &view(report);
     body += &budget(c);
     body += &arm::arm(c);
+    body += &scans::scans(c);
     body += &diversity(c);
     body += &pictures(report);
     format!(

@@ -27,7 +27,9 @@ pub(super) fn manifest(recording: &Recording, writing: Writing) -> String {
         None => "notation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n".into(),
     };
     let scans = with_images && cell.depth.is_some();
-    text += if with_images {
+    text += if cell.target.is_empty() {
+        "" // a ball is seen in scans alone
+    } else if with_images {
         "\n[images]\nfiles = \"images/[captures].png\"\n"
     } else {
         "\n[corners]\nfiles = \"corners/[captures].csv\"\npixel_origin = \"centre\"\n"

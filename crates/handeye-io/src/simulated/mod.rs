@@ -108,7 +108,9 @@ fn write_aside(
             folder.add(&format!("corners/{name}.csv"), corners.as_bytes())?;
             continue;
         }
-        folder.add(&format!("images/{name}.png"), &pictures::picture(&recording.picture(k)))?;
+        if !cell.target.is_empty() {
+            folder.add(&format!("images/{name}.png"), &pictures::picture(&recording.picture(k)))?;
+        }
         if let Some(scan) = recording.scan(k) {
             let file = format!("scans/{name}.{}", writing.scans.ending());
             folder.add(&file, &pictures::scan(&scan, writing.scans))?;
@@ -277,6 +279,11 @@ fn truth(recording: &Recording, folder: &Folder) -> Value {
             "touch_mm": n.touch_m * 1e3,
             "tip_mm": n.tip_m * 1e3,
             "depth_mm_at_1_m": cell.depth.map(|d| d.sigma_at_1m * 1e3),
+            "black_step_mm": cell.depth.map(|d| d.black_step_m * 1e3),
+            "scan_scale": cell.depth.map(|d| 1.0 + d.scale),
+            "scan_tilt_deg": cell.depth.map(|d| d.turn_rad.map(f64::to_degrees)),
+            "scan_shift_mm": cell.depth.map(|d| d.shift_m * 1e3),
+            "bow_mm": cell.bow_mm,
             "picture_grey_values": cell.optics.noise,
             "picture_blur_px": cell.optics.blur_px,
         },

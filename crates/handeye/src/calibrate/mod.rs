@@ -5,11 +5,13 @@
 //! `candidates` (touches of other corners taken out: `wrong_touches`; closed forms, least squares,
 //! maximum likelihood, registration of touches, each judged on what it has not seen; the choice by
 //! predicted error; methods by name: `named`; what rests on a given position: `known_position`) →
-//! `captures` (misfit of every capture and touch) → `verdict`. Point pairs alone take the short way
-//! through `points`.
+//! `captures` (misfit of every capture and touch) → `verdict` → `scans` (what they say of board and
+//! frames). Point pairs alone take the short way
+//! through `points`, captures of a ball through `balls`.
 
 mod agreement;
 mod arm;
+mod balls;
 mod boards;
 mod budget;
 mod candidates;
@@ -24,6 +26,7 @@ mod optics;
 mod points;
 mod reach;
 mod rejected;
+mod scans;
 pub(crate) mod settle;
 mod sources;
 pub(crate) mod unknown;
@@ -124,12 +127,19 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
         verdict::conclude(config, &mut result);
         return Ok(result);
     }
+    if let Some(TargetModel::Sphere { .. }) = session.target {
+        let mut result = empty(&session);
+        balls::from_balls(&session, config, &mut result);
+        verdict::conclude(config, &mut result);
+        return Ok(result);
+    }
     let mut result = sources::best_source(&session, |session| {
         let mut result = empty(session);
         from_views(session, (session, &Optics::default(), 0), config, &mut result);
         verdict::conclude(config, &mut result);
         result
     });
+    scans::report(&session, &mut result);
     result.warnings.extend(repeated);
     Ok(result)
 }
@@ -267,6 +277,7 @@ fn empty(session: &Session) -> Calibration {
         target_scale: None,
         camera: None,
         depth: None,
+        scans: None,
         tip: None,
         arm: None,
         certificate: None,

@@ -1,6 +1,9 @@
-//! Which mistake explains bad data: inversion, scale, exchange, stale poses.
+//! Which mistake explains bad data: inversion, scale, exchange, stale poses; a board that is not
+//! flat; pictures and scans that do not agree.
 
 pub mod explain;
+pub mod flatness;
+pub mod frames;
 mod size;
 mod strays;
 

@@ -108,6 +108,8 @@ pub struct Cell {
     pub depth: Option<DepthSensor>,
     /// Pixels of a scan per pixel of a picture, along each side.
     pub scan_scale: f64,
+    /// How far the ends of the board's x lie behind its middle, mm.
+    pub bow_mm: f64,
     /// What lens and sensor do to pictures.
     pub optics: Optics,
     /// Robot poses with a picture.
@@ -161,6 +163,7 @@ impl Cell {
             arm: None,
             depth: None,
             scan_scale: 1.0,
+            bow_mm: 0.0,
             optics: Optics::default(),
             captures: 15,
             placements: if setup == Setup::EyeToHand { 3 } else { 0 },
@@ -257,6 +260,9 @@ impl Cell {
 
     fn centre(&self) -> Vector3<f64> {
         let corners = self.target.corners();
+        if corners.is_empty() {
+            return Vector3::zeros();
+        }
         corners.iter().map(Point::vector).sum::<Vector3<f64>>() / corners.len() as f64
     }
 

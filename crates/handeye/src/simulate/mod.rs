@@ -13,7 +13,7 @@ pub mod render;
 mod robot_error;
 #[cfg(test)]
 mod tests;
-mod texture;
+pub(crate) mod texture;
 
 pub use arm::{ArmErrors, BuiltArm};
 pub use cell::{Cell, CellNoise, Viewing};

@@ -3,8 +3,9 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::{
-    Cell, Scene,
+    Cell, Conditions, PrintErrors, Scene, TrueCorner,
     cell::{CORNERS, PICTURES, SCANS, random},
+    conditions::Paper,
 };
 use crate::{
     Base, Camera, Flange, GrayImage, HandEye, ImageCorner, Observation, Placement, Point, Pose,
@@ -61,16 +62,23 @@ impl Recording<'_> {
         }
     }
 
+    /// What is wrong with the board.
+    fn conditions(&self) -> Conditions {
+        let print = PrintErrors { bend_mm: self.cell.bow_mm, ..PrintErrors::default() };
+        Conditions { print, ..Conditions::default() }
+    }
+
     /// Renders picture `k`.
     pub fn picture(&self, k: usize) -> GrayImage {
-        self.scene(k).picture(&self.cell.optics, random(self.seed, PICTURES, k).bits())
+        let seed = random(self.seed, PICTURES, k).bits();
+        self.scene(k).picture_under(&self.conditions(), &self.cell.optics, seed)
     }
 
     /// Renders scan `k`, pixel-aligned with the picture; `None` without a 3D camera.
     pub fn scan(&self, k: usize) -> Option<Scan> {
         let sensor = self.cell.depth?;
         let scene = Scene { intrinsics: self.cell.scan_intrinsics(), ..self.scene(k) };
-        Some(scene.scan(&sensor, random(self.seed, SCANS, k).bits()))
+        Some(scene.scan_under(&self.conditions(), &sensor, random(self.seed, SCANS, k).bits()))
     }
 
     /// Corners of picture `k`, projected, with their noise.
@@ -78,21 +86,26 @@ impl Recording<'_> {
         let mut random = random(self.seed, CORNERS, k);
         let sigma = self.cell.noise.corner_px;
         let stated = Matrix2::identity() * sigma.max(LEAST_CORNER_PX).powi(2);
-        let mut corner = |(id, exact): (u32, Vector2<f64>)| {
+        let mut corner = |c: TrueCorner| {
+            let TrueCorner { id, pixel: exact, .. } = c;
             let pixel = exact + Vector2::new(random.normal(), random.normal()) * sigma;
             ImageCorner { id, pixel, covariance: stated }
         };
-        self.scene(k).corners().into_iter().map(&mut corner).collect()
+        let seen = self.scene(k).corners_under(&self.conditions(), &self.cell.optics);
+        seen.into_iter().map(&mut corner).collect()
     }
 
     /// Corners of scan `k`: the depth, with its noise, on the rays of the corners in the picture.
     pub fn surface(&self, k: usize, corners: &[ImageCorner]) -> Vec<SurfaceCorner> {
         let Some(sensor) = self.cell.depth else { return vec![] };
         let mut random = random(self.seed, SCANS, k);
-        let view = self.truth.camera_from_target[k];
+        let scene = self.scene(k);
+        let scene = Scene { camera_from_target: sensor.sees(&scene.camera_from_target), ..scene };
+        let paper = Paper::new(&self.cell.target, &self.conditions().print);
         let mut felt = |c: &ImageCorner| {
             let ray = self.cell.intrinsics.ray(&c.pixel)?;
-            let z = depth_on(&view, &ray);
+            let (_, depth) = scene.on_board(&ray, paper.as_ref())?;
+            let z = sensor.reads(depth, false);
             let sigma = sensor.sigma_at_1m * z * z;
             let in_camera = Point::from_vector(ray * (z + sigma * random.normal()));
             let covariance = self.felt_covariance(&ray, z, sigma, c);
@@ -156,10 +169,4 @@ impl Recording<'_> {
 /// Name of placement `k`.
 pub fn placement_name(k: usize) -> String {
     format!("place-{}", k + 1)
-}
-
-/// Depth (m) at which a ray `(x, y, 1)` meets the target's plane.
-fn depth_on(view: &Pose<Camera, Target>, ray: &Vector3<f64>) -> f64 {
-    let normal = view.rotation().column(2).into_owned();
-    normal.dot(&view.translation()) / normal.dot(ray)
 }

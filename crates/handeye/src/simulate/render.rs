@@ -6,7 +6,7 @@
 //! field of one colour, over a Fibonacci lattice across an edge); point spread and sensitive area of
 //! a pixel are one kernel on these cells (`psf`).
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Rotation3, Vector2, Vector3};
 
 use super::canvas::{Canvas, Window};
 use super::conditions::{Cover, Glow, Paper, WHITEST, meet_bent, on_paper, texture_of};
@@ -103,11 +103,42 @@ pub struct DepthSensor {
     pub steepest_rad: f64,
     /// Distance (m) from the board's plane to the table behind it.
     pub table_behind_m: f64,
+    /// Black is read farther by this along the optical axis, m.
+    pub black_step_m: f64,
+    /// All distances are too large by this share.
+    pub scale: f64,
+    /// The scan's frame is turned against the picture's by this rotation vector (rad) ...
+    pub turn_rad: Vector3<f64>,
+    /// ... and moved by this (m): a point `p` of the picture's frame is read at `R p + shift`.
+    pub shift_m: Vector3<f64>,
 }
 
 impl Default for DepthSensor {
     fn default() -> Self {
-        Self { sigma_at_1m: 0.5e-3, step_m: 0.0, steepest_rad: 1.3, table_behind_m: 0.05 }
+        Self {
+            sigma_at_1m: 0.5e-3,
+            step_m: 0.0,
+            steepest_rad: 1.3,
+            table_behind_m: 0.05,
+            black_step_m: 0.0,
+            scale: 0.0,
+            turn_rad: Vector3::zeros(),
+            shift_m: Vector3::zeros(),
+        }
+    }
+}
+
+impl DepthSensor {
+    /// Where the scan's own frame has what the picture's has at `camera_from_target`.
+    pub(super) fn sees(&self, camera_from_target: &Pose<Camera, Target>) -> Pose<Camera, Target> {
+        let moved: Pose<Camera, Camera> =
+            Pose::from_parts(Rotation3::new(self.turn_rad).matrix(), self.shift_m);
+        moved * *camera_from_target
+    }
+
+    /// What it reads, without noise, for a true depth (m).
+    pub(super) fn reads(&self, depth: f64, is_black: bool) -> f64 {
+        (1.0 + self.scale) * depth + if is_black { self.black_step_m } else { 0.0 }
     }
 }
 
@@ -172,16 +203,25 @@ impl Scene {
 
     /// The scan, one point per pixel, with noise from `seed`.
     pub fn scan(&self, sensor: &DepthSensor, seed: u64) -> Scan {
+        self.scan_under(&Conditions::default(), sensor, seed)
+    }
+
+    /// The scan of a print with errors, with noise from `seed`; light has no say.
+    pub fn scan_under(&self, conditions: &Conditions, sensor: &DepthSensor, seed: u64) -> Scan {
         let (width, height) = (self.intrinsics.width as usize, self.intrinsics.height as usize);
         let mut random = Random::new(seed);
+        let scene =
+            Self { camera_from_target: sensor.sees(&self.camera_from_target), ..self.clone() };
         let texture = Texture::of(&self.target);
-        let mut ray = RayGrid::new(self);
+        let paper = Paper::new(&self.target, &conditions.print);
+        let mut ray = RayGrid::new(&scene);
         let mut points = Vec::with_capacity(width * height);
         for v in 0..height {
             for u in 0..width {
                 let noise = random.normal();
                 let direction = ray.at(u as f64, v as f64);
-                let depth = direction.and_then(|d| self.depth(&d, texture.as_ref(), sensor));
+                let depth = direction
+                    .and_then(|d| scene.depth(&d, (texture.as_ref(), paper.as_ref()), sensor));
                 points.push(match (direction, depth) {
                     (Some(d), Some(z)) => {
                         let z = rounded(z + noise * sensor.sigma_at_1m * z * z, sensor.step_m);
@@ -194,14 +234,46 @@ impl Scene {
         Scan::new(width, height, points).expect("as many points as pixels")
     }
 
-    /// True depth (m) along the ray `(x, y, 1)`: of the board, or else of the table behind it.
-    fn depth(&self, ray: &Vector3<f64>, texture: Option<&Texture>, s: &DepthSensor) -> Option<f64> {
-        let on_board = self.meet(ray, 0.0);
-        let hit = on_board.filter(|(at, _)| texture.is_some_and(|t| t.covers(at)));
-        let (_, depth) = hit.or_else(|| self.meet(ray, s.table_behind_m))?;
+    /// What is read, without noise, along the ray `(x, y, 1)` (m): of the board, or else of the
+    /// table behind it.
+    fn depth(
+        &self,
+        ray: &Vector3<f64>,
+        (texture, paper): (Option<&Texture>, Option<&Paper>),
+        s: &DepthSensor,
+    ) -> Option<f64> {
         let normal = self.camera_from_target.rotation().column(2).into_owned();
+        let colour = |print: &Vector2<f64>| texture.and_then(|t| t.is_black_at(print));
+        let on_board =
+            || self.on_board(ray, paper).and_then(|(p, z)| Some((colour(&p)?, z, normal)));
+        let on_ball = || self.on_ball(ray).map(|(z, normal)| (false, z, normal));
+        let on_table = || Some((false, self.meet(ray, s.table_behind_m)?.1, normal));
+        let (is_black, depth, normal) = on_board().or_else(on_ball).or_else(on_table)?;
         let cosine = normal.dot(ray).abs() / ray.norm();
-        (cosine > s.steepest_rad.cos()).then_some(depth)
+        (cosine > s.steepest_rad.cos()).then(|| s.reads(depth, is_black))
+    }
+
+    /// Depth (m) where a ray meets a ball, and the normal there.
+    fn on_ball(&self, ray: &Vector3<f64>) -> Option<(f64, Vector3<f64>)> {
+        let TargetModel::Sphere { diameter_mm: Some(diameter_mm) } = self.target else {
+            return None;
+        };
+        let (radius, centre) = (0.5e-3 * diameter_mm, self.camera_from_target.translation());
+        let along = ray.dot(&centre) / ray.norm_squared();
+        let root = along.powi(2) - (centre.norm_squared() - radius * radius) / ray.norm_squared();
+        let depth = (root > 0.0).then(|| along - root.sqrt()).filter(|z| *z > 0.0)?;
+        Some((depth, (ray * depth - centre) / radius))
+    }
+
+    /// Where a ray meets the board: place of the faultless print (m), and depth (m).
+    pub(super) fn on_board(
+        &self,
+        ray: &Vector3<f64>,
+        paper: Option<&Paper>,
+    ) -> Option<(Vector2<f64>, f64)> {
+        let Some(paper) = paper else { return self.meet(ray, 0.0) };
+        let at = meet_bent(paper, |height| self.meet(ray, height).map(|(at, _)| at))?;
+        Some((paper.print(&at), self.meet(ray, paper.height(&at))?.1))
     }
 
     /// Where a ray meets the plane `z = height` of the target: point there, and depth (m).
@@ -231,11 +303,7 @@ impl Scene {
 
     /// Which place of the faultless print is seen along a ray.
     fn on_print(&self, ray: &Vector3<f64>, paper: Option<&Paper>) -> Option<Vector2<f64>> {
-        let meet = |height: f64| self.meet(ray, height).map(|(at, _)| at);
-        match paper {
-            Some(paper) => meet_bent(paper, meet).map(|at| paper.print(&at)),
-            None => meet(0.0),
-        }
+        self.on_board(ray, paper).map(|(print, _)| print)
     }
 
     fn draw(&self, canvas: &mut Canvas, texture: &Texture, paper: Option<&Paper>, optics: &Optics) {

@@ -10,7 +10,7 @@ use crate::{
 
 /// The print on a board. Lengths in units of a cell: a square, a bit of a single tag, a tag of a
 /// grid, the distance between circles (or rows of circles).
-pub(super) struct Texture {
+pub(crate) struct Texture {
     columns: f64,
     rows: f64,
     margin: f64,
@@ -30,7 +30,7 @@ enum Print {
 
 impl Texture {
     /// `None` for targets that are not drawn, and unknown dictionaries.
-    pub(super) fn of(target: &TargetModel) -> Option<Self> {
+    pub(crate) fn of(target: &TargetModel) -> Option<Self> {
         match target {
             TargetModel::Checkerboard { columns, rows, square_mm } => Some(Self {
                 columns: f64::from(columns + 1),
@@ -164,6 +164,11 @@ impl Texture {
         within(q.x, self.columns) && within(q.y, self.rows)
     }
 
+    /// Whether a point of the target's plane is black; `None` beside the paper.
+    pub(crate) fn is_black_at(&self, at: &Vector2<f64>) -> Option<bool> {
+        self.covers(at).then(|| self.is_black(&self.in_cells(at)))
+    }
+
     pub(super) fn grey(&self, at: &Vector2<f64>, optics: &Optics) -> f64 {
         let q = self.in_cells(at);
         match (self.covers(at), self.is_black(&q)) {
@@ -202,7 +207,7 @@ impl Texture {
     }
 
     /// A lower bound of the distance (m) to the nearest edge of the print.
-    pub(super) fn clearance(&self, at: &Vector2<f64>) -> f64 {
+    pub(crate) fn clearance(&self, at: &Vector2<f64>) -> f64 {
         let q = self.in_cells(at);
         let to_line = |x: f64| (x - x.round()).abs();
         let lines = to_line(q.x).min(to_line(q.y));

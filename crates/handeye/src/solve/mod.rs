@@ -21,6 +21,7 @@ mod lu_chou;
 mod moments;
 pub mod motions;
 mod park_martin;
+pub mod points;
 mod shah;
 mod shiu_ahmad;
 mod tabb;

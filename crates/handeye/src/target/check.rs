@@ -69,7 +69,9 @@ impl TargetModel {
             | Self::ModifiedCircleGrid { pitch_mm, .. } => vec![("pitch_mm", pitch_mm)],
             Self::Aprilgrid { tag_mm, .. } => vec![("tag_mm", tag_mm)],
             Self::TagGrid { tag_mm, gap_mm, .. } => vec![("tag_mm", tag_mm), ("gap_mm", gap_mm)],
-            Self::Sphere { diameter_mm } => vec![("diameter_mm", diameter_mm)],
+            Self::Sphere { diameter_mm } => {
+                diameter_mm.map(|d| ("diameter_mm", d)).into_iter().collect()
+            }
         }
     }
 

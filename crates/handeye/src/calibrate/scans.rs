@@ -1,0 +1,211 @@
+//! What the scans say of the board, and whether pictures and scans agree.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{Session, captures::relabelling, optics};
+use crate::{
+    Camera, Observation, Pose, SurfaceCorner, Target, TargetModel, Warning,
+    calibration::{
+        BoardDeviation, Calibration, CaptureFlatness, FlatnessResult, FramesResult, ScanResult,
+    },
+    detect,
+    diagnose::{
+        flatness::{Bend, Felt, Flatness, flatness},
+        frames::{Frames, Part, TwoPlanes, frames, plane_of_points, plane_of_pose},
+    },
+};
+
+/// One capture with its scan's corners under the names that the chosen reading gives them.
+struct Seen<'a> {
+    id: &'a str,
+    observation: &'a Observation,
+    pose: Pose<Camera, Target>,
+    names: Vec<u32>,
+    surface: Vec<SurfaceCorner>,
+}
+
+/// Fills in what the scans say, and warns of what is wrong.
+pub(super) fn report(session: &Session, result: &mut Calibration) {
+    let Some(target) = session.target.as_ref().filter(|t| !t.is_empty()) else { return };
+    let seen = seen(session, target, result);
+    if seen.is_empty() {
+        return;
+    }
+    let found = ScanResult {
+        colour_step: None,
+        flatness: flat(&seen, target, &mut result.warnings),
+        frames: agreement(session, &seen, target, &mut result.warnings),
+    };
+    result.scans = Some(found);
+}
+
+fn seen<'a>(session: &'a Session, target: &TargetModel, result: &Calibration) -> Vec<Seen<'a>> {
+    let one = |(o, c): (&'a Observation, &crate::calibration::CaptureResult)| {
+        let pose = c.camera_from_target.filter(|_| c.used && !o.surface.is_empty())?;
+        let names = relabelling(o, &pose, target);
+        let renamed =
+            |c: &SurfaceCorner| Some(SurfaceCorner { id: *names.get(c.id as usize)?, ..*c });
+        let surface = o.surface.iter().filter_map(renamed).collect();
+        Some(Seen { id: &o.capture, observation: o, pose, names, surface })
+    };
+    session.observations.iter().zip(&result.captures).filter_map(one).collect()
+}
+
+/// Chance of noise below which a board is called bent.
+const IMPROBABLE: f64 = 1e-4;
+/// A bend below this part of the board's size is what boards are sold with.
+const LEAST_BEND: f64 = 5e-4;
+
+fn flat(
+    seen: &[Seen],
+    target: &TargetModel,
+    warnings: &mut Vec<Warning>,
+) -> Option<FlatnessResult> {
+    let felt = |s: &Seen| -> Vec<Felt> {
+        let one = |c: &SurfaceCorner| {
+            Some((target.corner(c.id)?.vector().xy(), c.in_camera.vector(), c.covariance))
+        };
+        s.surface.iter().filter_map(one).collect()
+    };
+    let found = flatness(&seen.iter().map(felt).collect::<Vec<_>>())?;
+    let size = target.corners().iter().map(|c| c.vector()).fold(
+        (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)),
+        |(low, high), p| (low.inf(&p), high.sup(&p)),
+    );
+    let bend = &found.board;
+    if bend.chance < IMPROBABLE && bend.peak_to_valley_m > LEAST_BEND * (size.1 - size.0).norm() {
+        warnings.push(not_flat(bend, seen.len()));
+    }
+    Some(as_result(&found, seen))
+}
+
+fn not_flat(bend: &Bend, captures: usize) -> Warning {
+    Warning::new(
+        "board-not-flat",
+        format!(
+            "in the scans of {captures} captures the board is bent by {:.3} +- {:.3} mm from its \
+             highest to its lowest corner: lay it on a flat plate and check it with a straight \
+             edge; if it is flat, the 3D camera bends what is flat",
+            bend.peak_to_valley_m * 1e3,
+            bend.sigma_m * 1e3
+        ),
+    )
+}
+
+fn as_result(found: &Flatness, seen: &[Seen]) -> FlatnessResult {
+    let own = |(s, bend): (&Seen, &Option<Bend>)| {
+        let bend = bend.as_ref()?;
+        Some(CaptureFlatness {
+            id: s.id.to_owned(),
+            rms_mm: bend.rms_m * 1e3,
+            peak_to_valley_mm: bend.peak_to_valley_m * 1e3,
+            sigma_mm: bend.sigma_m * 1e3,
+            chance: bend.chance,
+        })
+    };
+    let place = |d: &crate::diagnose::flatness::Deviation| BoardDeviation {
+        x_mm: d.at.x * 1e3,
+        y_mm: d.at.y * 1e3,
+        deviation_mm: d.height_m * 1e3,
+        sigma_mm: d.sigma_m * 1e3,
+    };
+    FlatnessResult {
+        rms_mm: found.board.rms_m * 1e3,
+        peak_to_valley_mm: found.board.peak_to_valley_m * 1e3,
+        sigma_mm: found.board.sigma_m * 1e3,
+        chance: found.board.chance,
+        map: found.map.iter().map(place).collect(),
+        captures: seen.iter().zip(&found.captures).filter_map(own).collect(),
+    }
+}
+
+/// Differences between picture and scan that no answer notices are not worth a word: scale, rad, m.
+const LEAST: (f64, f64, f64) = (5e-4, 5e-4, 2e-4);
+
+fn agreement(
+    session: &Session,
+    seen: &[Seen],
+    target: &TargetModel,
+    warnings: &mut Vec<Warning>,
+) -> Option<FramesResult> {
+    let camera = session.camera.as_ref()?;
+    let excess = optics::excess(session, target, camera);
+    let planes = |s: &Seen| {
+        let corners = detect::relabelled(&s.observation.corners, &s.names);
+        let (posed, _) = detect::sighted(&corners, &[], target, camera, excess, &s.pose)?;
+        let points: Vec<(Vector3<f64>, Matrix3<f64>)> =
+            s.surface.iter().map(|c| (c.in_camera.vector(), c.covariance)).collect();
+        Some(TwoPlanes { picture: plane_of_pose(&posed.pose)?, scan: plane_of_points(&points)? })
+    };
+    let found = frames(&seen.iter().filter_map(planes).collect::<Vec<_>>())?;
+    let worth = |part: Part| match part {
+        Part::Scale => found.values[0].abs() > LEAST.0,
+        Part::Tilt => found.values.fixed_rows::<3>(1).norm() > LEAST.1,
+        Part::Shift => found.values.fixed_rows::<3>(4).norm() > LEAST.2,
+    };
+    let named = found.proven.iter().filter(|p| worth(**p));
+    warnings.extend(named.map(|p| disagreement(*p, &found)));
+    Some(frames_result(&found))
+}
+
+fn frames_result(found: &Frames) -> FramesResult {
+    let word = |p: &Part| match p {
+        Part::Scale => "scale".to_owned(),
+        Part::Tilt => "tilt".to_owned(),
+        Part::Shift => "shift".to_owned(),
+    };
+    let three = |v: &nalgebra::SVector<f64, 7>, first: usize, unit: f64| {
+        [v[first] * unit, v[first + 1] * unit, v[first + 2] * unit]
+    };
+    let (v, s) = (&found.values, &found.sigmas);
+    let degrees = 1f64.to_degrees();
+    FramesResult {
+        scale: v[0],
+        sigma_scale: s[0],
+        tilt_deg: three(v, 1, degrees),
+        sigma_tilt_deg: three(s, 1, degrees),
+        shift_mm: three(v, 4, 1e3),
+        sigma_shift_mm: three(s, 4, 1e3),
+        proven: found.proven.iter().map(word).collect(),
+        chance: found.chance,
+    }
+}
+
+fn disagreement(part: Part, found: &Frames) -> Warning {
+    let (v, s) = (&found.values, &found.sigmas);
+    let axes = |first: usize, unit: f64| {
+        let one = |k: usize| format!("{:+.3} +- {:.3}", v[first + k] * unit, s[first + k] * unit);
+        format!("({}, {}, {})", one(0), one(1), one(2))
+    };
+    let (code, message) = match part {
+        Part::Scale => (
+            "picture-and-scan-scale",
+            format!(
+                "scans put the board {:+.3} +- {:.3} % farther away than pictures do: the focal \
+                 length, the board's size or the depth's scale is wrong; which one, the robot's \
+                 motions tell if anything does",
+                v[0] * 100.0,
+                s[0] * 100.0
+            ),
+        ),
+        Part::Tilt => (
+            "picture-and-scan-tilt",
+            format!(
+                "scans are turned against pictures by {} degrees about x, y, z of the camera: \
+                 check the calibration between picture and depth, and which of the frames the \
+                 points are given in",
+                axes(1, 1f64.to_degrees())
+            ),
+        ),
+        Part::Shift => (
+            "picture-and-scan-shift",
+            format!(
+                "scans are shifted against pictures by {} mm along x, y, z of the camera: check \
+                 the calibration between picture and depth, which of the frames the points are \
+                 given in, and whether depth has an offset",
+                axes(4, 1e3)
+            ),
+        ),
+    };
+    Warning::new(code, message)
+}
