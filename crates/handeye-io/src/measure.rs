@@ -294,6 +294,7 @@ fn camera(
 ) -> Result<(Option<Intrinsics>, Option<f64>), Error> {
     if let Some(given) = dataset.intrinsics {
         check_size(&given, shots, seen)?;
+        warnings.extend(cross_checked(&given, dataset, seen));
         return Ok((Some(unbent(given, dataset, seen, warnings)), None));
     }
     let Some(target) = &dataset.target else { return Ok((None, None)) };
@@ -303,18 +304,55 @@ fn camera(
     if views.is_empty() {
         return Ok((None, None));
     }
-    let found = intrinsics::calibrate(&views, target, width as u32, height as u32)
-        .map_err(|e| uncalibrated(dataset, &e))?;
+    let found = intrinsics::calibrate(
+        &views,
+        target,
+        width as u32,
+        height as u32,
+        dataset.lens.unwrap_or_default(),
+    )
+    .map_err(|e| uncalibrated(dataset, &e))?;
     warnings.push(Warning::new(
         "camera-calibrated-from-views",
         format!(
-            "no [camera] given: calibrated from {} views, {:.3} px RMS, fx = {:.2} px, fy = {:.2} px; \
+            "no intrinsics given: calibrated from {} views, {:.3} px RMS, fx = {:.2} px, fy = {:.2} px; \
              a camera calibrated beforehand, with the board all over the picture, is better",
             views.len(), found.rms_px, found.intrinsics.fx, found.intrinsics.fy
         ),
     ));
     warnings.extend(found.warnings);
     Ok((Some(found.intrinsics), Some(found.rms_px)))
+}
+
+/// Views that differ from a right camera as much are rarer than this.
+const DISAGREEING: f64 = 1e-3;
+
+/// Where the manifest asks for it: whether the views agree with the camera that is given.
+fn cross_checked(given: &Intrinsics, dataset: &Dataset, seen: &[Seen]) -> Option<Warning> {
+    let (target, _) = (dataset.target.as_ref()?, dataset.lens?);
+    let views: Vec<Vec<ImageCorner>> =
+        seen.iter().map(|s| s.corners.clone()).filter(|c| !c.is_empty()).collect();
+    let check = match intrinsics::cross_check(&views, target, given) {
+        Ok(check) => check,
+        Err(error) => {
+            let text = format!("the given camera cannot be checked by the views: {error}");
+            return Some(Warning::new("camera-not-checked", text));
+        }
+    };
+    let (name, value, views_value, sigma) = check.farthest;
+    let (rms, own) = (check.rms_given_px, check.found.rms_px);
+    (check.chance < DISAGREEING).then(|| {
+        Warning::new(
+            "camera-disagrees",
+            format!(
+                "the camera as given and what the views show of it differ by more than their \
+                 uncertainty (chance {:.0e}): {name} is given as {value:.5}, the views have \
+                 {views_value:.5} +- {sigma:.5}; corners fit to {rms:.3} px as given, to {own:.3} px \
+                 with the views' own; is it this camera, at this resolution and focus?",
+                check.chance
+            ),
+        )
+    })
 }
 
 /// The camera as given, or with the radial distortion that was not declared and that the corners
@@ -341,7 +379,7 @@ fn unbent(
 }
 
 fn uncalibrated(dataset: &Dataset, error: &handeye::Error) -> Error {
-    let what = format!("no [camera] given, and the views do not give it either: {error}");
+    let what = format!("no intrinsics given, and the views do not give them either: {error}");
     malformed(Place::file(&dataset.manifest), what, "add the camera's intrinsics to the manifest")
 }
 

@@ -52,6 +52,8 @@ pub struct Intrinsics {
 
 /// Parameters that a calibration fits: `fx fy cx cy k1 k2 p1 p2 k3`.
 pub const PARAMETERS: usize = 9;
+/// All of a camera's parameters: `fx fy cx cy` and up to twelve coefficients of its lens.
+pub const LENS_PARAMETERS: usize = 16;
 
 /// Undistortion stops when the step is below this (normalised units, about 1e-9 px).
 const UNDISTORT_STEP: f64 = 1e-13;
@@ -161,40 +163,82 @@ impl Intrinsics {
     /// Derivative of a point's pixel by `fx fy cx cy k1 k2 p1 p2 k3`; those of the distortion are
     /// Brown-Conrady's, and zero for a lens of another model.
     pub fn by_parameters(&self, point: &Vector3<f64>) -> SMatrix<f64, 2, PARAMETERS> {
+        let all = self.by_lens(point);
+        let mut j = all.fixed_columns::<PARAMETERS>(0).into_owned();
+        if let Distortion::KannalaBrandt(_) = self.distortion {
+            j.columns_mut(4, 5).fill(0.0);
+        }
+        j
+    }
+
+    /// Derivative of a point's pixel by `fx fy cx cy` and the coefficients of the lens in the order
+    /// of [`Distortion`]; of a pinhole as if it were of Brown-Conrady's model.
+    pub fn by_lens(&self, point: &Vector3<f64>) -> SMatrix<f64, 2, LENS_PARAMETERS> {
         let n = Vector2::new(point.x / point.z, point.y / point.z);
         let (d, _) = self.distort(&n);
-        let mut j = SMatrix::<f64, 2, PARAMETERS>::zeros();
+        let mut j = SMatrix::<f64, 2, LENS_PARAMETERS>::zeros();
         (j[(0, 0)], j[(1, 1)], j[(0, 2)], j[(1, 3)]) = (d.x, d.y, 1.0, 1.0);
-        if let Distortion::KannalaBrandt(_) = self.distortion {
-            return j;
-        }
+        let (x, y, r2) = (n.x, n.y, n.norm_squared());
+        let (fx, fy) = (self.fx, self.fy);
+        let outward = Vector2::new(fx * x, fy * y);
         let k = match self.distortion {
             Distortion::BrownConrady(k) => k,
-            _ => [0.0; 12],
+            Distortion::None => [0.0; 12],
+            Distortion::KannalaBrandt(_) => {
+                let r = r2.sqrt();
+                let theta = r.atan();
+                // θ/r is 1 in the middle
+                let mut power = if r > 0.0 { theta / r } else { 1.0 };
+                for column in 4..8 {
+                    power *= theta * theta;
+                    j.set_column(column, &(outward * power));
+                }
+                return j;
+            }
         };
-        let (x, y, r2) = (n.x, n.y, n.norm_squared());
+        let top = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
         let bottom = 1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
-        let (fx, fy) = (self.fx, self.fy);
-        let radial = Vector2::new(fx * x, fy * y) * (r2 / bottom);
-        j.set_column(4, &radial);
-        j.set_column(5, &(radial * r2));
+        let radial = outward * (r2 / bottom);
+        for (column, power) in [(4, 1.0), (5, r2), (8, r2 * r2)] {
+            j.set_column(column, &(radial * power));
+            let below = if column == 8 { 11 } else { column + 5 };
+            j.set_column(below, &(radial * (-power * top / bottom)));
+        }
         j.set_column(6, &Vector2::new(fx * 2.0 * x * y, fy * (r2 + 2.0 * y * y)));
         j.set_column(7, &Vector2::new(fx * (r2 + 2.0 * x * x), fy * 2.0 * x * y));
-        j.set_column(8, &(radial * r2 * r2));
+        (j[(0, 12)], j[(0, 13)]) = (fx * r2, fx * r2 * r2);
+        (j[(1, 14)], j[(1, 15)]) = (fy * r2, fy * r2 * r2);
         j
+    }
+
+    /// The values of [`Self::by_lens`]' parameters; zeros where the lens has none.
+    pub fn values(&self) -> SVector<f64, LENS_PARAMETERS> {
+        let plain = [self.fx, self.fy, self.cx, self.cy];
+        let mut all = plain.iter().chain(self.coefficients());
+        SVector::from_fn(|_, _| all.next().copied().unwrap_or(0.0))
     }
 
     /// The camera with these differences added to [`Self::by_parameters`]' parameters.
     pub fn moved(&self, d: &SVector<f64, PARAMETERS>) -> Self {
-        let added = |mut k: [f64; 12]| {
-            (0..5).for_each(|i| k[i] += d[4 + i]);
+        let mut all = SVector::<f64, LENS_PARAMETERS>::zeros();
+        all.rows_mut(0, PARAMETERS).copy_from(d);
+        if let Distortion::KannalaBrandt(_) = self.distortion {
+            all.rows_mut(4, 5).fill(0.0);
+        }
+        self.moved_lens(&all)
+    }
+
+    /// The camera with these differences added to [`Self::by_lens`]' parameters.
+    pub fn moved_lens(&self, d: &SVector<f64, LENS_PARAMETERS>) -> Self {
+        fn added<const N: usize>(mut k: [f64; N], d: &SVector<f64, LENS_PARAMETERS>) -> [f64; N] {
+            k.iter_mut().zip(d.iter().skip(4)).for_each(|(k, d)| *k += d);
             k
-        };
+        }
         let distortion = match self.distortion {
-            Distortion::None if d.rows(4, 5).iter().all(|x| *x == 0.0) => Distortion::None,
-            Distortion::None => Distortion::BrownConrady(added([0.0; 12])),
-            Distortion::BrownConrady(k) => Distortion::BrownConrady(added(k)),
-            Distortion::KannalaBrandt(k) => Distortion::KannalaBrandt(k),
+            Distortion::None if d.rows(4, 12).iter().all(|x| *x == 0.0) => Distortion::None,
+            Distortion::None => Distortion::BrownConrady(added([0.0; 12], d)),
+            Distortion::BrownConrady(k) => Distortion::BrownConrady(added(k, d)),
+            Distortion::KannalaBrandt(k) => Distortion::KannalaBrandt(added(k, d)),
         };
         Self {
             fx: self.fx + d[0],

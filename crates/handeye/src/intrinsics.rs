@@ -5,7 +5,7 @@
 //! are adjusted together,
 //!
 //! ```text
-//! min Σᵢⱼ wᵢⱼ |π(k, Tᵢ pⱼ) - uᵢⱼ|²,      k = (fx, fy, cx, cy, k1, k2, p1, p2, k3)
+//! min Σᵢⱼ wᵢⱼ |π(k, Tᵢ pⱼ) - uᵢⱼ|²,      k = (fx, fy, cx, cy, k1, k2, p1, p2, k3 ...)
 //! ```
 //!
 //! by Levenberg-Marquardt; the normal equations have the shape of an arrow, so each pose is
@@ -17,8 +17,14 @@
 //! B. Triggs et al., *Bundle adjustment: a modern synthesis*, 2000; G. Schwarz, *Estimating the
 //! dimension of a model*, 1978.
 
-use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix6, SMatrix, SVector, Vector2, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
 
+use nalgebra::{
+    DMatrix, DVector, Isometry3, Matrix3, Matrix6, SMatrix, SVector, Vector2, Vector3, Vector6,
+};
+
+use crate::camera::LENS_PARAMETERS;
+use crate::chance;
 use crate::detect::{homography, target_poses};
 use crate::lie::{self, hat};
 use crate::linalg::median;
@@ -54,9 +60,74 @@ pub struct ViewFit {
     pub left_out: Vec<u32>,
 }
 
-const NAMES: [&str; 9] = ["fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"];
-/// Numbers of leading parameters that are tried: pinhole, k1, k2, p1 p2, k3.
-const LADDER: [usize; 5] = [4, 5, 6, 8, 9];
+/// The model of a lens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LensModel {
+    /// Brown-Conrady's `k1 k2 p1 p2 k3`, of them what pays.
+    #[default]
+    BrownConrady,
+    /// The same and `k4 k5 k6`, the polynomial below it.
+    Rational,
+    /// The same and `s1 s2 s3 s4`, for lenses that are tilted.
+    ThinPrism,
+    /// Kannala-Brandt's `k1 k2 k3 k4`: fisheye.
+    KannalaBrandt,
+}
+
+/// The first parameter of a thin prism.
+const PRISM: usize = 12;
+const NAMES: [&str; LENS_PARAMETERS] = [
+    "fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4",
+];
+
+/// Parameters that are fitted: leading ones, and the thin prism's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Free {
+    leading: usize,
+    prism: bool,
+}
+
+impl Free {
+    const PINHOLE: Self = Self::leading(4);
+
+    const fn leading(leading: usize) -> Self {
+        Self { leading, prism: false }
+    }
+
+    const fn with_prism(leading: usize) -> Self {
+        Self { leading, prism: true }
+    }
+
+    /// In the order of [`Intrinsics::by_lens`].
+    fn parameters(self) -> Vec<usize> {
+        let prism = if self.prism { PRISM } else { LENS_PARAMETERS };
+        (0..self.leading).chain(prism..LENS_PARAMETERS).collect()
+    }
+}
+
+impl LensModel {
+    /// What is tried, from the pinhole on.
+    fn ladder(self) -> Vec<Free> {
+        let (leading, more): (&[usize], &[Free]) = match self {
+            Self::BrownConrady => (&[4, 5, 6, 8, 9], &[]),
+            Self::Rational => (&[4, 5, 6, 8, 9, 12], &[]),
+            Self::ThinPrism => {
+                (&[4, 5, 6, 8, 9], &[Free::with_prism(9), Free::leading(12), Free::with_prism(12)])
+            }
+            Self::KannalaBrandt => (&[4, 5, 6, 7, 8], &[]),
+        };
+        leading.iter().map(|n| Free::leading(*n)).chain(more.iter().copied()).collect()
+    }
+
+    /// Without any distortion of its own.
+    fn plain(self) -> Distortion {
+        match self {
+            Self::KannalaBrandt => Distortion::KannalaBrandt([0.0; 4]),
+            _ => Distortion::BrownConrady([0.0; 12]),
+        }
+    }
+}
 /// Fewer views do not determine the parameters.
 const FEWEST_VIEWS: usize = 3;
 /// k3 needs at least this many views to be told from k1 and k2.
@@ -65,6 +136,8 @@ const FEWEST_VIEWS_FOR_K3: usize = 6;
 const FEWEST_CORNERS: usize = 6;
 /// Focal length of a common lens, in picture widths: the start when there is no closed one.
 const COMMON_FOCAL: f64 = 1.2;
+/// Focal lengths of lenses that see more and more, in picture widths.
+const FISHEYE_FOCALS: [f64; 3] = [0.5, 0.33, 0.8];
 /// Focal lengths outside of this range, in picture widths, are no start.
 const FOCAL_RANGE: (f64, f64) = (0.3, 10.0);
 /// A focal length less sure than this share of it is not determined by the views.
@@ -87,19 +160,24 @@ const CHI2_2_MEDIAN: f64 = 1.386_294_361;
 /// A picture whose rms exceeds this multiple of the others' median is worth a warning.
 const CONSPICUOUS: f64 = 3.0;
 
-type Shared = SVector<f64, 9>;
-type SharedNormal = SMatrix<f64, 9, 9>;
-type Cross = SMatrix<f64, 9, 6>;
+type Shared = SVector<f64, LENS_PARAMETERS>;
+type SharedNormal = SMatrix<f64, LENS_PARAMETERS, LENS_PARAMETERS>;
+type Cross = SMatrix<f64, LENS_PARAMETERS, 6>;
 
 /// Calibrates a camera from the target's corners in several pictures of `width x height` pixels.
 ///
-/// The labelling of a symmetric board does not matter. Errors: fewer than three usable views;
-/// views that leave the focal length open (all parallel to each other).
+/// Of `lens` those terms are used that the views pay for. The labelling of a symmetric board does
+/// not matter.
+///
+/// # Errors
+/// Fewer than three usable views; views that leave the focal length open (all parallel to each
+/// other).
 pub fn calibrate(
     views: &[Vec<ImageCorner>],
     target: &TargetModel,
     width: u32,
     height: u32,
+    lens: LensModel,
 ) -> Result<CameraCalibration, Error> {
     let usable = views.iter().filter(|v| v.len() >= FEWEST_CORNERS).count();
     if usable < FEWEST_VIEWS {
@@ -110,8 +188,8 @@ pub fn calibrate(
         });
     }
     let mut adjusted: Option<Adjustment> = None;
-    for start in starts(views, target, width, height) {
-        let next = Adjustment::new(views, target, start).and_then(climb);
+    for start in starts(views, target, width, height, lens) {
+        let next = Adjustment::new(views, target, start).and_then(|start| climb(start, lens));
         let is_better = |a: &Adjustment| adjusted.as_ref().is_none_or(|b| a.rms() < b.rms());
         if let Some(next) = next.filter(is_better) {
             adjusted = Some(next);
@@ -121,6 +199,61 @@ pub fn calibrate(
         }
     }
     adjusted.ok_or_else(undetermined)?.finish(views)
+}
+
+/// How a camera that was given compares with what the views show of it.
+#[derive(Debug, Clone)]
+pub struct CrossCheck {
+    /// The camera of the given one's model that fits the views best.
+    pub found: CameraCalibration,
+    /// How often, if the given camera were right, the views would differ from it as much.
+    pub chance: f64,
+    /// Root of the mean squared distance between corners and the given camera's model, px.
+    pub rms_given_px: f64,
+    /// The parameter that differs most: its name, the given value, the views', and the views'
+    /// standard deviation.
+    pub farthest: (&'static str, f64, f64, f64),
+}
+
+/// Fits all parameters that `given` has to the views, and compares.
+///
+/// # Errors
+/// As [`calibrate`].
+pub fn cross_check(
+    views: &[Vec<ImageCorner>],
+    target: &TargetModel,
+    given: &Intrinsics,
+) -> Result<CrossCheck, Error> {
+    let mut adjustment = Adjustment::new(views, target, *given).ok_or_else(undetermined)?;
+    let rms_given_px = adjustment.rms();
+    adjustment.free = free_in(given);
+    let free = adjustment.free.parameters();
+    adjustment.settle().and_then(|()| adjustment.trim()).ok_or_else(undetermined)?;
+    let values = adjustment.camera.values();
+    let found = adjustment.finish(views)?;
+    let off = free.iter().map(|k| values[*k] - given.values()[*k]);
+    let off = DVector::from_iterator(free.len(), off);
+    let inverse = found.covariance.clone().cholesky().ok_or_else(undetermined)?;
+    let chance = chance::of_chi_square(off.dot(&inverse.solve(&off)), free.len());
+    let sigma = |i: usize| found.covariance[(i, i)].sqrt();
+    let share = |i: usize| off[i].abs() / sigma(i);
+    let most = (0..free.len()).max_by(|a, b| share(*a).total_cmp(&share(*b))).unwrap_or(0);
+    let k = free[most];
+    let farthest = (found.parameters[most], given.values()[k], values[k], sigma(most));
+    Ok(CrossCheck { found, chance, rms_given_px, farthest })
+}
+
+/// The parameters that a camera has.
+fn free_in(camera: &Intrinsics) -> Free {
+    match camera.distortion {
+        Distortion::None => Free::PINHOLE,
+        Distortion::KannalaBrandt(_) => Free::leading(8),
+        Distortion::BrownConrady(k) => {
+            let some = |range: std::ops::Range<usize>| k[range].iter().any(|k| *k != 0.0);
+            let leading = if some(5..8) { 12 } else { 4 + if some(0..5) { 5 } else { 0 } };
+            Free { leading, prism: some(8..12) }
+        }
+    }
 }
 
 /// Below this rms (px) the first start was good enough.
@@ -140,6 +273,7 @@ fn starts(
     target: &TargetModel,
     width: u32,
     height: u32,
+    lens: LensModel,
 ) -> Vec<Intrinsics> {
     let (w, h) = (f64::from(width), f64::from(height));
     let centre = Vector2::new(0.5 * (w - 1.0), 0.5 * (h - 1.0));
@@ -156,7 +290,11 @@ fn starts(
             && (0.0..w).contains(&c.cx)
             && (0.0..h).contains(&c.cy)
     };
-    closed.filter(plausible).into_iter().chain([plain(common, common, centre)]).collect()
+    let wide = FISHEYE_FOCALS.map(|share| plain(share * w, share * w, centre));
+    let fisheye = wide.into_iter().filter(|_| lens == LensModel::KannalaBrandt);
+    let of_lens = |camera: Intrinsics| Intrinsics { distortion: lens.plain(), ..camera };
+    let all = closed.filter(plausible).into_iter().chain([plain(common, common, centre)]);
+    fisheye.chain(all).map(of_lens).collect()
 }
 
 /// Homography from the target to pixels from the centre, in picture widths.
@@ -204,20 +342,21 @@ fn zhang(homographies: &[Matrix3<f64>]) -> Option<(f64, f64, Vector2<f64>)> {
 }
 
 /// Adds distortion terms while they pay.
-fn climb(mut adjustment: Adjustment) -> Option<Adjustment> {
+fn climb(mut adjustment: Adjustment, lens: LensModel) -> Option<Adjustment> {
     let mut best: Option<(f64, Adjustment)> = None;
-    for free in LADDER {
-        if free == 9 && adjustment.views.len() < FEWEST_VIEWS_FOR_K3 {
+    for free in lens.ladder() {
+        if free.leading >= 9 && adjustment.views.len() < FEWEST_VIEWS_FOR_K3 {
             break;
         }
-        adjustment.free = free;
-        if adjustment.settle().is_none() || !adjustment.is_sound() {
-            break;
+        let mut next = Adjustment { free, ..adjustment.clone() };
+        if next.settle().is_none() || !next.is_sound() {
+            continue; // with more terms it may be
         }
-        let price = adjustment.price();
+        let price = next.price();
         if best.as_ref().is_none_or(|(least, _)| price < *least) {
-            best = Some((price, adjustment.clone()));
+            best = Some((price, next.clone()));
         }
+        adjustment = next;
     }
     let (_, mut best) = best?;
     best.trim()?;
@@ -246,8 +385,7 @@ struct View {
 struct Adjustment {
     camera: Intrinsics,
     views: Vec<View>,
-    /// How many leading parameters are fitted.
-    free: usize,
+    free: Free,
 }
 
 /// Normal equations of one view.
@@ -278,8 +416,7 @@ impl Adjustment {
             (corners.len() >= FEWEST_CORNERS).then_some(View { index, pose, corners })
         };
         let views: Vec<View> = views.iter().enumerate().filter_map(one).collect();
-        let camera = Intrinsics { distortion: Distortion::BrownConrady([0.0; 12]), ..camera };
-        (views.len() >= FEWEST_VIEWS).then_some(Self { camera, views, free: 4 })
+        (views.len() >= FEWEST_VIEWS).then_some(Self { camera, views, free: Free::PINHOLE })
     }
 
     /// Minimises, with weights that follow the residuals.
@@ -348,7 +485,7 @@ impl Adjustment {
         let n = squares.len() as f64;
         squares.truncate((0.95 * n).ceil() as usize);
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-        n * mean.max(1e-18).ln() + PRICE * self.free as f64 * n.ln()
+        n * mean.max(1e-18).ln() + PRICE * self.free.parameters().len() as f64 * n.ln()
     }
 
     /// The distortion does not fold over where the corners are.
@@ -391,7 +528,7 @@ impl Adjustment {
     fn step(&self, normals: &Normals, damping: f64) -> Option<Self> {
         let grow = 1.0 + damping;
         let (mut reduced, mut right) = (normals.shared, -normals.gradient);
-        (0..9).for_each(|k| reduced[(k, k)] *= grow);
+        (0..LENS_PARAMETERS).for_each(|k| reduced[(k, k)] *= grow);
         let mut inverses = Vec::with_capacity(normals.blocks.len());
         for block in &normals.blocks {
             let mut pose = block.pose;
@@ -405,7 +542,7 @@ impl Adjustment {
         self.fix(&mut reduced, &mut right);
         let shared = reduced.cholesky()?.solve(&right);
         let mut next = self.clone();
-        next.camera = self.camera.moved(&shared);
+        next.camera = self.camera.moved_lens(&shared);
         for ((view, block), inverse) in next.views.iter_mut().zip(&normals.blocks).zip(inverses) {
             let delta = -inverse * (block.gradient + block.cross.transpose() * shared);
             view.pose *= lie::exp(&delta);
@@ -415,7 +552,8 @@ impl Adjustment {
 
     /// Takes the parameters that are not fitted out of the equations.
     fn fix(&self, normal: &mut SharedNormal, right: &mut Shared) {
-        for k in self.free..9 {
+        let free = self.free.parameters();
+        for k in (0..LENS_PARAMETERS).filter(|k| !free.contains(k)) {
             normal.row_mut(k).fill(0.0);
             normal.column_mut(k).fill(0.0);
             normal[(k, k)] = 1.0;
@@ -463,9 +601,11 @@ impl Adjustment {
         self.fix(&mut reduced, &mut Shared::zeros());
         let inverse = reduced.cholesky()?.inverse();
         let used = self.squares(|c| c.weight > 0.0).len() as f64;
-        let freedom = 2.0 * used - (self.free + 6 * self.views.len()) as f64;
+        let free = self.free.parameters();
+        let freedom = 2.0 * used - (free.len() + 6 * self.views.len()) as f64;
         let scale = (normals.cost / freedom.max(1.0)).max(1.0);
-        let covariance = DMatrix::from_fn(self.free, self.free, |i, j| inverse[(i, j)] * scale);
+        let at = |i: usize, j: usize| inverse[(free[i], free[j])] * scale;
+        let covariance = DMatrix::from_fn(free.len(), free.len(), at);
         covariance.iter().all(|x| x.is_finite()).then_some(covariance)
     }
 
@@ -490,7 +630,7 @@ impl Adjustment {
         let warnings = warnings(&views);
         Ok(CameraCalibration {
             intrinsics: self.plain_camera(),
-            parameters: NAMES[..self.free].to_vec(),
+            parameters: self.names(),
             covariance,
             rms_px: self.rms(),
             views,
@@ -511,8 +651,19 @@ impl Adjustment {
         }
     }
 
+    fn names(&self) -> Vec<&'static str> {
+        let fisheye = ["fx", "fy", "cx", "cy", "k1", "k2", "k3", "k4"];
+        let free = self.free.parameters();
+        match self.camera.distortion {
+            Distortion::KannalaBrandt(_) => free.iter().map(|k| fisheye[*k]).collect(),
+            _ => free.iter().map(|k| NAMES[*k]).collect(),
+        }
+    }
+
     fn plain_camera(&self) -> Intrinsics {
-        let distortion = if self.free == 4 { Distortion::None } else { self.camera.distortion };
+        let pinhole = self.free == Free::PINHOLE
+            && matches!(self.camera.distortion, Distortion::BrownConrady(_));
+        let distortion = if pinhole { Distortion::None } else { self.camera.distortion };
         Intrinsics { distortion, ..self.camera }
     }
 }
@@ -541,7 +692,7 @@ fn residual(camera: &Intrinsics, pose: &Isometry3<f64>, corner: &Corner) -> Opti
     Some(camera.project(&point.coords)? - corner.pixel)
 }
 
-type Linearised = (Vector2<f64>, SMatrix<f64, 2, 9>, SMatrix<f64, 2, 6>);
+type Linearised = (Vector2<f64>, SMatrix<f64, 2, LENS_PARAMETERS>, SMatrix<f64, 2, 6>);
 
 /// Residual and its derivatives by the camera's parameters and by `δ` of `T exp(δ)`.
 fn linearised(camera: &Intrinsics, pose: &Isometry3<f64>, corner: &Corner) -> Option<Linearised> {
@@ -552,7 +703,7 @@ fn linearised(camera: &Intrinsics, pose: &Isometry3<f64>, corner: &Corner) -> Op
     let turned = by_point * r;
     by_pose.fixed_view_mut::<2, 3>(0, 0).copy_from(&(-turned * hat(&corner.in_target)));
     by_pose.fixed_view_mut::<2, 3>(0, 3).copy_from(&turned);
-    Some((pixel - corner.pixel, camera.by_parameters(&point), by_pose))
+    Some((pixel - corner.pixel, camera.by_lens(&point), by_pose))
 }
 
 fn root_mean(squares: &[f64]) -> f64 {
@@ -566,6 +717,9 @@ mod tests {
     use nalgebra::Matrix2;
 
     const BROWN: [f64; 12] = [-0.28, 0.11, 6e-4, -4e-4, -0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    const RATIONAL: [f64; 12] = [0.9, -0.2, 6e-4, -4e-4, 0.05, 1.1, 0.3, -0.1, 0.0, 0.0, 0.0, 0.0];
+    const PRISM: [f64; 12] =
+        [0.9, -0.2, 6e-4, -4e-4, 0.05, 1.1, 0.3, -0.1, 8e-3, -2e-3, -6e-3, 1e-3];
 
     fn board() -> TargetModel {
         TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 }
@@ -611,7 +765,9 @@ mod tests {
     #[test]
     fn exact_corners_give_the_exact_camera() {
         let truth = camera(BROWN);
-        let found = calibrate(&views(12, &truth, 0.6, 0.0, 1), &board(), 1280, 960).unwrap();
+        let found =
+            calibrate(&views(12, &truth, 0.6, 0.0, 1), &board(), 1280, 960, LensModel::default())
+                .unwrap();
         assert_eq!(found.parameters.len(), 9);
         let c = found.intrinsics;
         assert!((c.fx - truth.fx).abs() < 1e-5 && (c.cy - truth.cy).abs() < 1e-5, "{c:?}");
@@ -627,7 +783,14 @@ mod tests {
         ];
         let (mut sum, mut count) = (0.0, 0.0);
         for seed in 0..12 {
-            let found = calibrate(&views(12, &truth, 0.6, 0.1, seed), &board(), 1280, 960).unwrap();
+            let found = calibrate(
+                &views(12, &truth, 0.6, 0.1, seed),
+                &board(),
+                1280,
+                960,
+                LensModel::default(),
+            )
+            .unwrap();
             let c = found.intrinsics;
             let mut got = vec![c.fx, c.fy, c.cx, c.cy];
             got.extend(&c.coefficients()[..5]);
@@ -645,7 +808,9 @@ mod tests {
     #[test]
     fn a_lens_without_distortion_gets_none() {
         let truth = Intrinsics::pinhole(1280, 960, 1050.0, 1047.0, 652.0, 467.0);
-        let found = calibrate(&views(10, &truth, 0.6, 0.1, 3), &board(), 1280, 960).unwrap();
+        let found =
+            calibrate(&views(10, &truth, 0.6, 0.1, 3), &board(), 1280, 960, LensModel::default())
+                .unwrap();
         assert_eq!(found.intrinsics.distortion, Distortion::None);
         assert!((found.intrinsics.fx - 1050.0).abs() < 2.0);
     }
@@ -653,13 +818,69 @@ mod tests {
     #[test]
     fn parallel_views_leave_the_focal_length_open() {
         let parallel = views(8, &camera(BROWN), 0.0, 0.1, 4);
-        let error = calibrate(&parallel, &board(), 1280, 960).unwrap_err();
+        let error = calibrate(&parallel, &board(), 1280, 960, LensModel::default()).unwrap_err();
         assert!(error.to_string().contains("focal length"), "{error}");
+    }
+
+    /// Root of the mean squared distance (px) between the images of one ray in two cameras, where the
+    /// board was seen.
+    fn apart(truth: &Intrinsics, found: &Intrinsics, views: &[Vec<ImageCorner>]) -> f64 {
+        let off = |corner: &ImageCorner| {
+            let ray = truth.ray(&corner.pixel).unwrap();
+            (found.project(&ray).unwrap() - corner.pixel).norm_squared()
+        };
+        root_mean(&views.iter().flatten().map(off).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn every_model_of_a_lens_is_found() {
+        let fisheye = Distortion::KannalaBrandt([-0.03, 0.01, -4e-3, 1e-3]);
+        let fisheye = Intrinsics { fx: 520.0, fy: 519.0, distortion: fisheye, ..camera(BROWN) };
+        for (lens, truth, parameters) in [
+            (LensModel::BrownConrady, camera(BROWN), 9),
+            (LensModel::Rational, camera(RATIONAL), 12),
+            (LensModel::ThinPrism, camera(PRISM), 16),
+            (LensModel::KannalaBrandt, fisheye, 8),
+        ] {
+            let all = views(20, &truth, 0.6, 0.02, 7);
+            let found = calibrate(&all, &board(), 1280, 960, lens).unwrap();
+            let off = apart(&truth, &found.intrinsics, &all);
+            assert!(off < 0.3 && found.rms_px < 0.03, "{lens:?}: {off} {}", found.rms_px);
+            assert!(found.parameters.len() <= parameters, "{:?}", found.parameters);
+            assert!(found.covariance.clone().cholesky().is_some(), "{lens:?}");
+        }
+        let all = views(20, &fisheye, 0.6, 0.02, 7);
+        let wrong = calibrate(&all, &board(), 1280, 960, LensModel::BrownConrady);
+        assert!(!wrong.is_ok_and(|c| c.rms_px < 0.03), "a fisheye is not of Brown's model");
+    }
+
+    #[test]
+    fn a_wrong_camera_is_told_from_a_right_one() {
+        let truth = camera(BROWN);
+        let mut chances = vec![];
+        for seed in 0..12 {
+            let all = views(12, &truth, 0.6, 0.1, seed);
+            let right = cross_check(&all, &board(), &truth).unwrap();
+            chances.push(right.chance);
+            let given = Intrinsics { fx: truth.fx + 12.0, ..truth };
+            let wrong = cross_check(&all, &board(), &given).unwrap();
+            assert!(wrong.chance < 1e-6, "{}", wrong.chance);
+            assert!(wrong.rms_given_px > 1.05 * wrong.found.rms_px);
+        }
+        // chances of a right camera are even
+        let mean = chances.iter().sum::<f64>() / 12.0;
+        assert!((0.2..0.8).contains(&mean) && chances.iter().all(|c| *c > 1e-3), "{chances:?}");
     }
 
     #[test]
     fn two_views_are_too_few() {
-        let error = calibrate(&views(2, &camera(BROWN), 0.6, 0.1, 5), &board(), 1280, 960);
+        let error = calibrate(
+            &views(2, &camera(BROWN), 0.6, 0.1, 5),
+            &board(),
+            1280,
+            960,
+            LensModel::default(),
+        );
         assert!(matches!(error, Err(Error::TooFewPoses { found: 2, needed: 3, .. })));
     }
 
@@ -669,7 +890,7 @@ mod tests {
         let mut all = views(12, &truth, 0.6, 0.1, 6);
         all[2][10].pixel.x += 8.0;
         all[4].iter_mut().for_each(|c| c.pixel.x += 30.0 * (0.7 * f64::from(c.id)).sin());
-        let found = calibrate(&all, &board(), 1280, 960).unwrap();
+        let found = calibrate(&all, &board(), 1280, 960, LensModel::default()).unwrap();
         assert_eq!(found.views[2].left_out, vec![10]);
         assert!(found.views[4].camera_from_target.is_none());
         assert!((found.intrinsics.fx - truth.fx).abs() < 3.0, "{:?}", found.intrinsics);
@@ -683,10 +904,19 @@ mod tests {
         let corner =
             Corner { id: 0, in_target, pixel: Vector2::zeros(), variance: 1.0, weight: 1.0 };
         let (_, by_shared, by_pose) = linearised(&camera, &pose, &corner).unwrap();
-        for k in 0..9 {
+        for k in 0..LENS_PARAMETERS {
             let mut d = Shared::zeros();
             d[k] = 1e-5;
-            let at = |d: Shared| residual(&camera.moved(&d), &pose, &corner).unwrap();
+            let at = |d: Shared| residual(&camera.moved_lens(&d), &pose, &corner).unwrap();
+            assert!(((at(d) - at(-d)) / 2e-5 - by_shared.column(k)).norm() < 1e-4, "{k}");
+        }
+        let fisheye = Distortion::KannalaBrandt([-0.03, 0.01, -4e-3, 1e-3]);
+        let fisheye = Intrinsics { distortion: fisheye, ..camera };
+        let (_, by_shared, _) = linearised(&fisheye, &pose, &corner).unwrap();
+        for k in 0..8 {
+            let mut d = Shared::zeros();
+            d[k] = 1e-5;
+            let at = |d: Shared| residual(&fisheye.moved_lens(&d), &pose, &corner).unwrap();
             assert!(((at(d) - at(-d)) / 2e-5 - by_shared.column(k)).norm() < 1e-4, "{k}");
         }
         for k in 0..6 {

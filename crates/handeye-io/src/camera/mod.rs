@@ -7,7 +7,7 @@ mod visp;
 
 use std::path::Path;
 
-use handeye::{Distortion, Intrinsics};
+use handeye::{Distortion, Intrinsics, intrinsics::LensModel};
 use serde::Deserialize;
 
 use crate::{
@@ -18,7 +18,7 @@ use crate::{
 use found::Found;
 
 /// The intrinsics of a manifest: a file, or the values themselves, or both.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CameraSpec {
     pub(crate) file: Option<String>,
@@ -32,6 +32,16 @@ pub(crate) struct CameraSpec {
     pub(crate) distortion_model: Option<String>,
     pub(crate) distortion: Option<Vec<f64>>,
     pub(crate) resized: Option<f64>,
+    /// The model of the lens to be calibrated from the views.
+    pub(crate) calibrate: Option<LensModel>,
+}
+
+impl CameraSpec {
+    /// Whether nothing is given but the wish to calibrate.
+    pub(crate) fn is_open(&self) -> bool {
+        let nothing = Self { calibrate: self.calibrate, ..Self::default() };
+        self.calibrate.is_some() && *self == nothing
+    }
 }
 
 /// Pictures may differ from the calibrated size by the rounding of a resize, px.

@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 
 use handeye::{
     Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics, Pose, Scan, Setup,
-    Target, TargetModel, Touch, Warning, Workspace, kinematics::Arm, refine::KnownPosition,
+    Target, TargetModel, Touch, Warning, Workspace, intrinsics::LensModel, kinematics::Arm,
+    refine::KnownPosition,
 };
 use serde::Deserialize;
 
@@ -42,6 +43,8 @@ pub struct Dataset {
     pub target: Option<TargetModel>,
     /// The camera's intrinsics; `None` when they are to be calibrated from the views.
     pub intrinsics: Option<Intrinsics>,
+    /// The model of the lens to be calibrated from the views; beside given intrinsics, to check them.
+    pub lens: Option<LensModel>,
     /// The captures, in order.
     pub captures: Vec<CaptureSource>,
     /// Boards that lay still and were touched.

@@ -63,6 +63,7 @@ impl Opening {
             setup: m.setup,
             target: m.target.clone(),
             intrinsics,
+            lens: m.camera.as_ref().and_then(|spec| spec.calibrate),
             captures: self.captures(&parts, &mut warnings)?,
             touches: self.touches(&placements)?,
             placements,
@@ -125,7 +126,8 @@ impl Opening {
     }
 
     fn intrinsics(&self, parts: &Parts) -> Result<Option<Intrinsics>, Error> {
-        let Some(spec) = &self.manifest.camera else { return Ok(None) };
+        let spec = self.manifest.camera.as_ref().filter(|spec| !spec.is_open());
+        let Some(spec) = spec else { return Ok(None) };
         let picture = parts.images.first().map(|path| image::image_size(path)).transpose()?;
         camera::read(spec, &self.root, &self.source.place("camera"), picture).map(Some)
     }

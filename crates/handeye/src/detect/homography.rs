@@ -63,10 +63,8 @@ fn normalisation(points: &[Vector2<f64>]) -> Option<Matrix3<f64>> {
 pub fn origin(pairs: &[(Vector2<f64>, Vector2<f64>)]) -> Option<(Vector2<f64>, f64)> {
     let count = pairs.len() as f64;
     let middle = pairs.iter().map(|p| p.1).sum::<Vector2<f64>>() / count;
-    let widest = |of: &dyn Fn(&(Vector2<f64>, Vector2<f64>)) -> f64| {
-        pairs.iter().map(of).fold(0.0, f64::max).recip()
-    };
-    let (scale, there) = (widest(&|p| p.0.amax()), widest(&|p| (p.1 - middle).amax()));
+    let scale = pairs.iter().map(|p| p.0.amax()).fold(0.0, f64::max).recip();
+    let there = pairs.iter().map(|p| (p.1 - middle).amax()).fold(0.0, f64::max).recip();
     let mut normal = SMatrix::<f64, 8, 8>::zeros();
     let mut right = SVector::<f64, 8>::zeros();
     for (a, b) in pairs {
