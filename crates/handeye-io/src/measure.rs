@@ -159,7 +159,8 @@ fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
     let mut seen = Seen::default();
     if let Some(corners) = shot.corners {
         seen.corners = corners.to_vec();
-        seen.size = dataset.intrinsics.map(|k| (k.width as usize, k.height as usize));
+        let given = dataset.intrinsics.map(|k| (k.width, k.height)).or(dataset.picture);
+        seen.size = given.map(|(width, height)| (width as usize, height as usize));
     } else if let Some(path) = shot.image {
         let image = dataset.image(path)?;
         seen.size = Some((image.width(), image.height()));

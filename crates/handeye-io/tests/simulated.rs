@@ -88,6 +88,34 @@ fn pictures_and_scans_of_every_target_give_the_truth() {
 }
 
 #[test]
+fn views_check_the_camera_that_is_given() {
+    let folder = folder("camera");
+    write(&Cell { captures: 12, ..small(Setup::EyeInHand) }, &folder, false);
+    let manifest = folder.join("handeye.toml");
+    let text = fs::read_to_string(&manifest).unwrap();
+    let measured = |camera: &str| {
+        let (before, rest) = text.split_once("[camera]\n").unwrap();
+        let after = rest.find("\n[").map_or("", |at| &rest[at..]);
+        fs::write(&manifest, format!("{before}[camera]\n{camera}{after}")).unwrap();
+        measure::measure(&Dataset::open(&folder).unwrap(), &|_, _| {}).unwrap()
+    };
+    let given = |fx: f64, calibrate: &str| {
+        let values = "width = 640\nheight = 480\nfy = 600.0\ncx = 319.5\ncy = 239.5\n";
+        measured(&format!("{values}fx = {fx:.1}\n{calibrate}"))
+    };
+    let says = |m: &measure::Measured, code: &str| m.warnings.iter().any(|w| w.code == code);
+    let asked = "calibrate = \"brown-conrady\"\n";
+    assert!(!says(&given(600.0, asked), "camera-disagrees"));
+    assert!(says(&given(615.0, asked), "camera-disagrees"));
+    assert!(!says(&given(615.0, ""), "camera-disagrees"), "only where it is asked for");
+    let open = measured("width = 640\nheight = 480\ncalibrate = \"kannala-brandt\"\n");
+    assert!(says(&open, "camera-calibrated-from-views"));
+    let found = open.session.camera.unwrap();
+    assert!(matches!(found.distortion, handeye::Distortion::KannalaBrandt(_)), "{found:?}");
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
 fn the_same_seed_gives_the_same_bytes() {
     let (a, b) = (folder("bytes-a"), folder("bytes-b"));
     let cell = Cell { captures: 1, depth: Some(DepthSensor::default()), ..small(Setup::EyeInHand) };

@@ -37,9 +37,10 @@ pub(crate) struct CameraSpec {
 }
 
 impl CameraSpec {
-    /// Whether nothing is given but the wish to calibrate.
+    /// Whether nothing is given but the wish to calibrate, and perhaps the size of the pictures.
     pub(crate) fn is_open(&self) -> bool {
-        let nothing = Self { calibrate: self.calibrate, ..Self::default() };
+        let Self { width, height, calibrate, .. } = *self;
+        let nothing = Self { width, height, calibrate, ..Self::default() };
         self.calibrate.is_some() && *self == nothing
     }
 }

@@ -45,6 +45,8 @@ pub struct Dataset {
     pub intrinsics: Option<Intrinsics>,
     /// The model of the lens to be calibrated from the views; beside given intrinsics, to check them.
     pub lens: Option<LensModel>,
+    /// Width and height of the pictures (px) as the manifest has them.
+    pub picture: Option<(u32, u32)>,
     /// The captures, in order.
     pub captures: Vec<CaptureSource>,
     /// Boards that lay still and were touched.

@@ -64,6 +64,7 @@ impl Opening {
             target: m.target.clone(),
             intrinsics,
             lens: m.camera.as_ref().and_then(|spec| spec.calibrate),
+            picture: m.camera.as_ref().and_then(|spec| spec.width.zip(spec.height)),
             captures: self.captures(&parts, &mut warnings)?,
             touches: self.touches(&placements)?,
             placements,
