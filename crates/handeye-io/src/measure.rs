@@ -164,7 +164,7 @@ fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
     } else if let Some(path) = shot.image {
         let image = dataset.image(path)?;
         seen.size = Some((image.width(), image.height()));
-        match detect::detect(&image, target) {
+        match detect::detect_with(&image, target, dataset.intrinsics.as_ref()) {
             Ok(corners) => seen.corners = corners,
             Err(reason) => seen.not_found = Some(reason.to_string()),
         }

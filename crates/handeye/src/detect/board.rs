@@ -8,7 +8,7 @@ use super::mesh;
 use super::pyramid::{Scaled, smoothed};
 use super::tag;
 use super::tags;
-use crate::{GrayImage, ImageCorner, TargetModel};
+use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel};
 
 /// Why no target was found.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -124,7 +124,23 @@ const SMALLEST_IMAGE: usize = 24;
 ///
 /// Of a board with markers a part is enough; of a checkerboard a part that can lie on it in one way
 /// only, such as all of a side and the two beside it.
+///
+/// # Errors
+/// Why it was not found.
 pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner>, NotFound> {
+    detect_with(image, target, None)
+}
+
+/// The same, with the camera that took the picture, if it is known: centres of circles are then right
+/// for strong distortion and large circles, too. Corners do not need it.
+///
+/// # Errors
+/// Why it was not found.
+pub fn detect_with(
+    image: &GrayImage,
+    target: &TargetModel,
+    camera: Option<&Intrinsics>,
+) -> Result<Vec<ImageCorner>, NotFound> {
     let (width, height) = (image.width(), image.height());
     if width.min(height) < SMALLEST_IMAGE {
         return Err(NotFound::SmallImage { width, height });
@@ -133,7 +149,7 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
         return tag::detect(image, dictionary, *id);
     }
     if target.has_circles() {
-        return circles::detect(image, target);
+        return circles::detect_with(image, target, camera);
     }
     if let Some(board) = tags::Board::apart(target) {
         return board?.detect(image);

@@ -27,7 +27,7 @@ pub mod surface;
 pub mod tag;
 mod tags;
 
-pub use board::{NotFound, detect};
+pub use board::{NotFound, detect, detect_with};
 pub use planar_pose::{
     PosedTarget, relabelled, symmetry_turn, target_poses, target_poses_with, typical_excess,
     with_symmetries,
