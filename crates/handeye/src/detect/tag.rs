@@ -1,9 +1,9 @@
 //! ArUco and AprilTag markers, found by themselves: where their corners are, and how sure that is.
 //!
 //! Pixels darker than their surroundings form patches; the convex hull of a tag's black border is a
-//! quadrilateral ([`quads`]), and the bits inside say which tag it is, and how it is turned. That
+//! quadrilateral (`quads`), and the bits inside say which tag it is, and how it is turned. That
 //! happens in the picture made small first. In the picture itself the four sides are measured
-//! ([`sides`]); they meet in the corners.
+//! (`sides`); they meet in the corners.
 
 mod patches;
 mod quads;
