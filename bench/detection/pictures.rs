@@ -42,6 +42,7 @@ fn charuco() -> TargetModel {
         marker_mm: 15.0,
         dictionary: "DICT_5X5_100".into(),
         legacy: false,
+        first_id: 0,
     }
 }
 

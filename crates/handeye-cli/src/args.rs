@@ -213,7 +213,7 @@ pub struct TargetArgs {
     /// Gap between the tags of a tag grid.
     #[arg(long)]
     pub gap_mm: Option<f64>,
-    /// The first tag of a grid.
+    /// The first tag of a grid, or marker of a ChArUco board.
     #[arg(long, value_name = "ID", default_value_t = 0)]
     pub first_id: u32,
     /// Width of the black border of an aprilgrid's tags, bits; Kalibr's own drawings have 2.

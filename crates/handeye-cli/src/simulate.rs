@@ -346,6 +346,7 @@ fn target(args: &SimulateArgs) -> Result<TargetModel, Failure> {
             marker_mm,
             dictionary,
             legacy: false,
+            first_id: 0,
         }
     } else {
         let (columns, rows) = size_of(args.checkerboard.as_deref().unwrap_or("9x6"))?;

@@ -104,6 +104,7 @@ fn target(args: &TargetArgs) -> Result<TargetModel, Failure> {
             marker_mm: needed("marker-mm", args.marker_mm)?,
             dictionary: needed("dictionary", args.dictionary.clone())?,
             legacy: args.legacy,
+            first_id: args.first_id,
         });
     }
     if let Some(id) = args.tag {

@@ -12,10 +12,10 @@ use std::{
 };
 
 use handeye::{
-    Camera, ImageCorner, Intrinsics, Observation, Placement, Pose, Session, SurfaceCorner, Target,
-    TargetModel, TargetPose, Warning,
+    Camera, GrayImage, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
+    SurfaceCorner, Target, TargetModel, TargetPose, Warning,
     calibration::{CaptureStep, ColourStepResult},
-    detect::{self, sphere, surface},
+    detect::{self, NotFound, sphere, surface},
     intrinsics, lens,
 };
 
@@ -164,7 +164,7 @@ fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
     } else if let Some(path) = shot.image {
         let image = dataset.image(path)?;
         seen.size = Some((image.width(), image.height()));
-        match detect::detect_with(&image, target, dataset.intrinsics.as_ref()) {
+        match detected(dataset, &image, target) {
             Ok(corners) => seen.corners = corners,
             Err(reason) => seen.not_found = Some(reason.to_string()),
         }
@@ -175,6 +175,21 @@ fn look_at(dataset: &Dataset, shot: &Shot) -> Result<Seen, Error> {
         seen.lifted = surface::lift_coloured(&seen.corners, size, &scan, camera, target);
     }
     Ok(seen)
+}
+
+/// The target's corners; what belongs to the manifest's other targets is none of them.
+fn detected(
+    dataset: &Dataset,
+    image: &GrayImage,
+    target: &TargetModel,
+) -> Result<Vec<ImageCorner>, NotFound> {
+    let camera = dataset.intrinsics.as_ref();
+    let others: Vec<&TargetModel> =
+        dataset.other_targets.iter().filter(|t| !t.is_empty()).collect();
+    if others.is_empty() {
+        return detect::detect_with(image, target, camera);
+    }
+    detect::detect_several(image, &[&[target], &others[..]].concat(), camera).swap_remove(0)
 }
 
 /// The centre of a ball, as the one corner of its scan.

@@ -1,25 +1,162 @@
-//! A target in a file of its own, or in a manifest.
+//! Targets in a file of their own, or in a manifest.
 
-use std::path::Path;
+use std::{fmt, path::Path};
 
 use handeye::TargetModel;
-use serde::Deserialize;
+use serde::{
+    Deserialize, Deserializer,
+    de::{Error as _, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer},
+};
 
 use crate::{
     error::{Error, Place, malformed},
     files,
 };
 
+/// One of several targets in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedTarget {
+    /// What the file calls it.
+    pub name: String,
+    /// The target.
+    pub model: TargetModel,
+}
+
+/// What stands under `target`: one, or a list of them, each with a name.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Targets {
+    /// `[target]`
+    One(TargetModel),
+    /// `[[target]]`
+    Several(Vec<NamedTarget>),
+}
+
+impl Targets {
+    /// The target of this name, or the only one.
+    ///
+    /// # Errors
+    /// What is wrong, and what to do, where there is not just one of that name.
+    pub fn pick(&self, name: Option<&str>) -> Result<&TargetModel, (String, String)> {
+        let (targets, name) = match (self, name) {
+            (Self::One(model), None) => return Ok(model),
+            (Self::One(_), Some(name)) => {
+                let what = format!("is {name:?}, but the only target has no name");
+                return Err((what, "leave it out".into()));
+            }
+            (Self::Several(targets), name) => (targets, name),
+        };
+        let names: Vec<&str> = targets.iter().map(|t| t.name.as_str()).collect();
+        let advice = format!("name one of {}", names.join(", "));
+        match name {
+            Some(name) => targets
+                .iter()
+                .find(|t| t.name == name)
+                .map(|t| &t.model)
+                .ok_or_else(|| (format!("is {name:?}, and no target has that name"), advice)),
+            None if targets.len() == 1 => Ok(&targets[0].model),
+            None => Err((format!("is missing, with {} targets", targets.len()), advice)),
+        }
+    }
+
+    /// All of them.
+    pub fn models(&self) -> Vec<&TargetModel> {
+        match self {
+            Self::One(model) => vec![model],
+            Self::Several(targets) => targets.iter().map(|t| &t.model).collect(),
+        }
+    }
+
+    /// Refuses dimensions that no target has, and targets that cannot be told apart.
+    ///
+    /// # Errors
+    /// What is wrong, and what it should be.
+    pub fn check(&self) -> Result<(), handeye::Error> {
+        let targets = match self {
+            Self::One(model) => return model.check(),
+            Self::Several(targets) => targets,
+        };
+        for (k, target) in targets.iter().enumerate() {
+            let name = &target.name;
+            let invalid = |what: String| Err(handeye::Error::Invalid(what));
+            if let Err(error) = target.model.check() {
+                return invalid(format!("target {name:?}: {error}"));
+            }
+            for other in &targets[..k] {
+                if other.name == *name {
+                    return invalid(format!("two targets are called {name:?}"));
+                }
+                if let Some(why) = other.model.mistaken_for(&target.model) {
+                    return invalid(format!("targets {:?} and {name:?}: {why}", other.name));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<'de> Deserialize<'de> for Targets {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(TargetsVisitor)
+    }
+}
+
+struct TargetsVisitor;
+
+impl<'de> Visitor<'de> for TargetsVisitor {
+    type Value = Targets;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a table [target], or tables [[target]] with a name each")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Targets, A::Error> {
+        TargetModel::deserialize(MapAccessDeserializer::new(map)).map(Targets::One)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Targets, A::Error> {
+        let mut targets = vec![];
+        while let Some(mut keys) = seq.next_element::<toml::Table>()? {
+            let Some(toml::Value::String(name)) = keys.remove("name") else {
+                let what = "one of several targets has no name: write name = \"left\" or the like";
+                return Err(A::Error::custom(what));
+            };
+            let model = TargetModel::deserialize(toml::Value::Table(keys));
+            let model = model.map_err(|e| {
+                A::Error::custom(format!("target {name:?}: {}", e.message().trim()))
+            })?;
+            targets.push(NamedTarget { name, model });
+        }
+        if targets.is_empty() {
+            return Err(A::Error::custom("the list of targets is empty"));
+        }
+        Ok(Targets::Several(targets))
+    }
+}
+
 #[derive(Deserialize)]
-struct WithTarget {
-    target: TargetModel,
+struct WithTargets {
+    target: Targets,
 }
 
 /// The target of a manifest, or of a file with the same keys under `[target]` or at its top.
 ///
 /// # Errors
-/// What cannot be read, is no target, or has dimensions that no board has.
+/// What cannot be read, is no target, or has dimensions that no board has; several targets.
 pub fn read_target(path: &Path) -> Result<TargetModel, Error> {
+    let targets = read_targets(path)?;
+    targets.pick(None).cloned().map_err(|_| {
+        let advice = "give a file with one [target]";
+        malformed(Place::file(path), "describes several targets, and one is needed", advice)
+    })
+}
+
+/// The targets of a manifest, or of a file with the same keys: `[target]`, `[[target]]`, or one at its
+/// top.
+///
+/// # Errors
+/// What cannot be read, is no target, or has dimensions that no board has; targets that cannot be
+/// told apart.
+pub fn read_targets(path: &Path) -> Result<Targets, Error> {
     let text = files::text(path)?;
     let refuse = |e: toml::de::Error| {
         let line = e.span().map(|s| 1 + text[..s.start.min(text.len())].matches('\n').count());
@@ -27,15 +164,15 @@ pub fn read_target(path: &Path) -> Result<TargetModel, Error> {
         malformed(Place { line, ..Place::file(path) }, what, ADVICE)
     };
     let table: toml::Table = toml::from_str(&text).map_err(refuse)?;
-    let target = if table.contains_key("target") {
-        toml::from_str::<WithTarget>(&text).map_err(refuse)?.target
+    let targets = if table.contains_key("target") {
+        toml::from_str::<WithTargets>(&text).map_err(refuse)?.target
     } else if table.contains_key("kind") {
-        toml::from_str(&text).map_err(refuse)?
+        Targets::One(toml::from_str(&text).map_err(refuse)?)
     } else {
         return Err(malformed(Place::file(path), "describes no target", ADVICE));
     };
-    target.check().map_err(|source| Error::Values { place: Place::file(path), source })?;
-    Ok(target)
+    targets.check().map_err(|source| Error::Values { place: Place::file(path), source })?;
+    Ok(targets)
 }
 
 const ADVICE: &str = "write kind = \"checkerboard\" (or charuco, aprilgrid, tag-grid, tag, circle-grid, asymmetric-circle-grid, modified-circle-grid, sphere) and its dimensions under [target]";
@@ -70,6 +207,7 @@ mod tests {
             marker_mm: 22.0,
             dictionary: "DICT_6X6_250".into(),
             legacy: false,
+            first_id: 0,
         };
         assert_eq!(read("written.toml", &target_toml(&board)), Ok(board));
     }
@@ -81,6 +219,62 @@ mod tests {
         assert_eq!(read("top.toml", keys), Ok(board.clone()));
         let manifest = format!("setup = \"eye-in-hand\"\n[target]\n{keys}[robot]\nposes = \"p\"\n");
         assert_eq!(read("manifest.toml", &manifest), Ok(board));
+    }
+
+    const LEFT: &str = "[[target]]\nname = \"left\"\nkind = \"tag\"\ndictionary = \"DICT_6X6_250\"\nid = 1\nsize_mm = 40\n";
+
+    fn several(name: &str, text: &str) -> Result<Targets, String> {
+        let folder = std::env::temp_dir().join(format!("handeye-targets-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join(name);
+        fs::write(&path, text).unwrap();
+        let targets = read_targets(&path);
+        fs::remove_file(&path).unwrap();
+        targets.map_err(|e| e.to_string().replace(&format!("{}/", folder.display()), ""))
+    }
+
+    #[test]
+    fn several_targets_have_names() {
+        let right = LEFT.replace("left", "right").replace("id = 1", "id = 2");
+        let targets = several("two.toml", &format!("{LEFT}{right}")).unwrap();
+        let picked = targets.pick(Some("right")).unwrap();
+        assert!(matches!(picked, TargetModel::Tag { id: 2, .. }));
+        let (what, advice) = targets.pick(None).unwrap_err();
+        assert_eq!((&*what, &*advice), ("is missing, with 2 targets", "name one of left, right"));
+        let (what, _) = targets.pick(Some("top")).unwrap_err();
+        assert_eq!(what, "is \"top\", and no target has that name");
+        assert!(several("one.toml", LEFT).unwrap().pick(None).is_ok());
+        let message = read("both.toml", &format!("{LEFT}{right}")).unwrap_err();
+        assert!(message.starts_with("both.toml: describes several targets"), "{message}");
+    }
+
+    #[test]
+    fn lists_of_targets_are_checked() {
+        let again = LEFT.replace("left", "right");
+        for (name, more, expected) in [
+            (
+                "same.toml",
+                again.as_str(),
+                "same.toml: targets \"left\" and \"right\": both have marker 1 of DICT_6X6_250",
+            ),
+            ("twice.toml", LEFT, "twice.toml: two targets are called \"left\""),
+            (
+                "nameless.toml",
+                "[[target]]\nkind = \"tag\"\n",
+                "nameless.toml:1: one of several targets has no name",
+            ),
+            (
+                "key.toml",
+                "[[target]]\nname = \"b\"\nkind = \"sphere\"\nradius = 2\n",
+                "key.toml:1: target \"b\": unknown field `radius`",
+            ),
+        ] {
+            let message = several(name, &format!("{LEFT}{more}")).unwrap_err();
+            assert!(message.starts_with(expected), "{message}");
+        }
+        assert!(
+            several("empty.toml", "target = []").unwrap_err().contains("list of targets is empty")
+        );
     }
 
     #[test]

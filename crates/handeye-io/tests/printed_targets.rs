@@ -94,6 +94,7 @@ fn a_printed_charuco_board_is_found_in_true_scale() {
             marker_mm: 22.0,
             dictionary: dictionary.into(),
             legacy,
+            first_id: 0,
         };
         check(name, &board, "a3");
     }

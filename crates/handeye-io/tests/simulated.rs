@@ -70,6 +70,7 @@ fn pictures_and_scans_of_every_target_give_the_truth() {
         marker_mm: 22.0,
         dictionary: "DICT_4X4_50".into(),
         legacy: false,
+        first_id: 0,
     };
     let tag = TargetModel::Tag { dictionary: "DICT_6X6_250".into(), id: 3, size_mm: 120.0 };
     let board = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
@@ -112,6 +113,27 @@ fn views_check_the_camera_that_is_given() {
     assert!(says(&open, "camera-calibrated-from-views"));
     let found = open.session.camera.unwrap();
     assert!(matches!(found.distortion, handeye::Distortion::KannalaBrandt(_)), "{found:?}");
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn one_of_several_targets_is_used() {
+    let folder = folder("several");
+    let cell = small(Setup::EyeToHand);
+    write(&cell, &folder, false);
+    let manifest = folder.join("handeye.toml");
+    let text = fs::read_to_string(&manifest).unwrap();
+    let other = "[[target]]\nname = \"table\"\nkind = \"tag\"\ndictionary = \"DICT_6X6_250\"\nid = 1\nsize_mm = 40\n\n";
+    let several = text.replace("[target]\n", &format!("{other}[[target]]\nname = \"flange\"\n"));
+    fs::write(&manifest, &several).unwrap();
+    let message = Dataset::open(&folder).unwrap_err().to_string();
+    let expected = "captures.target is missing, with 2 targets; name one of table, flange";
+    assert!(message.contains(expected), "{message}");
+    fs::write(&manifest, format!("{several}\n[captures]\ntarget = \"flange\"\n")).unwrap();
+    let dataset = Dataset::open(&folder).unwrap();
+    assert_eq!(dataset.target.as_ref(), Some(&cell.target));
+    assert_eq!(dataset.other_targets.len(), 1);
+    assert!(error_mm(&cell, &folder) < 2.0);
     fs::remove_dir_all(folder).unwrap();
 }
 

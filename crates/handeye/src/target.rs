@@ -9,6 +9,7 @@
 //! * grid of tags: the first corner (id 0), as in OpenCV and Kalibr;
 //! * ball: its centre.
 
+mod alike;
 mod check;
 mod layout;
 
@@ -45,6 +46,9 @@ pub enum TargetModel {
         /// Layout of OpenCV before 4.6 (first square white when `squares_y` is even).
         #[serde(default)]
         legacy: bool,
+        /// The first marker: boards that are seen together have different ones.
+        #[serde(default)]
+        first_id: u32,
     },
     /// One ArUco or AprilTag marker; ids 0 to 3 are its corners in OpenCV's order
     /// (top left, top right, bottom right, bottom left).
@@ -477,8 +481,8 @@ mod tests {
         let message = |board: TargetModel| board.check().unwrap_err().to_string();
         assert_eq!(
             message(tag_grid(8, 7)),
-            "target: 8 x 7 tags from 0 on need the tags up to 55, but DICT_4X4_50 ends at 49: take \
-             fewer tags or a larger dictionary"
+            "target: markers 0 to 55 are needed, but DICT_4X4_50 ends at 49: take \
+             fewer markers or a larger dictionary"
         );
         let mut board = aprilgrid(6, 6);
         assert!(board.check().is_ok());

@@ -67,17 +67,11 @@ pub fn art(target: &TargetModel) -> Result<Art, Error> {
         &TargetModel::Checkerboard { columns, rows, square_mm } => {
             Ok(checkerboard(columns + 1, rows + 1, square_mm, false, (1.0, 1.0)))
         }
-        TargetModel::Charuco { squares_x, squares_y, square_mm, marker_mm, dictionary, legacy } => {
-            let size = (*squares_x, *squares_y);
+        TargetModel::Charuco { squares_x, squares_y, square_mm, legacy, .. } => {
             let white_first = *legacy && squares_y % 2 == 0;
-            let mut art = checkerboard(size.0, size.1, *square_mm, white_first, (0.0, 0.0));
-            art.shapes.extend(markers(
-                size,
-                *square_mm,
-                *marker_mm,
-                white_first,
-                &named(dictionary)?,
-            )?);
+            let origin = (0.0, 0.0);
+            let mut art = checkerboard(*squares_x, *squares_y, *square_mm, white_first, origin);
+            art.shapes.extend(markers(target, white_first)?);
             Ok(art)
         }
         TargetModel::Tag { dictionary, id, size_mm } => {
@@ -150,22 +144,22 @@ fn checkerboard(across: u32, down: u32, side: f64, white_first: bool, origin: (f
 }
 
 /// The markers in the white squares of a ChArUco board.
-fn markers(
-    (across, down): (u32, u32),
-    side: f64,
-    size: f64,
-    white_first: bool,
-    dictionary: &Dictionary,
-) -> Result<Vec<Shape>, Error> {
+fn markers(target: &TargetModel, white_first: bool) -> Result<Vec<Shape>, Error> {
+    let TargetModel::Charuco { squares_x, squares_y, square_mm, marker_mm, .. } = *target else {
+        return Ok(vec![]);
+    };
+    let TargetModel::Charuco { dictionary, first_id, .. } = target else { return Ok(vec![]) };
+    let dictionary = named(dictionary)?;
     let mut shapes = vec![];
-    let inset = 0.5 * (side - size);
-    for j in 0..down {
-        for i in 0..across {
+    let inset = 0.5 * (square_mm - marker_mm);
+    for j in 0..squares_y {
+        for i in 0..squares_x {
             let (column, row) = (i as usize, j as usize);
-            if let Some(id) = marker_of_square(column, row, across as usize, white_first) {
-                check_marker(dictionary, id)?;
-                let at = (f64::from(i) * side + inset, f64::from(j) * side + inset);
-                shapes.extend(marker(dictionary, id, &Square::upright(at, size)));
+            if let Some(k) = marker_of_square(column, row, squares_x as usize, white_first) {
+                let id = first_id.saturating_add(k);
+                check_marker(&dictionary, id)?;
+                let at = (f64::from(i) * square_mm + inset, f64::from(j) * square_mm + inset);
+                shapes.extend(marker(&dictionary, id, &Square::upright(at, marker_mm)));
             }
         }
     }
@@ -333,6 +327,7 @@ mod tests {
             marker_mm: 15.0,
             dictionary: "DICT_4X4_50".into(),
             legacy: false,
+            first_id: 0,
         };
         let message = art(&board).unwrap_err().to_string();
         assert_eq!(

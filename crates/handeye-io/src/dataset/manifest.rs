@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use handeye::{Setup, TargetModel};
+use handeye::Setup;
 use serde::Deserialize;
 use toml::de::{DeTable, DeValue};
 
@@ -11,6 +11,7 @@ use crate::{
     error::{Error, Place, malformed, nearest},
     robot::DhSpec,
     table::{Column, Layout},
+    target_file::Targets,
     units::{AngleUnit, LengthUnit},
 };
 
@@ -18,7 +19,7 @@ use crate::{
 #[serde(deny_unknown_fields)]
 pub(crate) struct Manifest {
     pub(super) setup: Setup,
-    pub(super) target: Option<TargetModel>,
+    pub(super) target: Option<Targets>,
     pub(super) camera: Option<CameraSpec>,
     pub(super) robot: Option<RobotSpec>,
     pub(super) images: Option<ImagesSpec>,
@@ -203,6 +204,7 @@ pub(super) enum Pairing {
 pub(super) struct CapturesSpec {
     #[serde(default)]
     pub(super) pairing: Pairing,
+    pub(super) target: Option<String>,
     #[serde(default)]
     pub(super) exclude: Vec<String>,
 }

@@ -41,6 +41,8 @@ pub struct Dataset {
     pub setup: Setup,
     /// What the camera looks at; `None` with poses of the board or with point pairs alone.
     pub target: Option<TargetModel>,
+    /// What else the pictures may show, and is not used.
+    pub other_targets: Vec<TargetModel>,
     /// The camera's intrinsics; `None` when they are to be calibrated from the views.
     pub intrinsics: Option<Intrinsics>,
     /// The model of the lens to be calibrated from the views; beside given intrinsics, to check them.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use handeye::{
-    Base, Camera, Flange, Intrinsics, Pose, Setup, Target, Touch, Warning, Workspace,
+    Base, Camera, Flange, Intrinsics, Pose, Setup, Target, TargetModel, Touch, Warning, Workspace,
     refine::KnownPosition,
 };
 use nalgebra::Vector3;
@@ -25,6 +25,7 @@ use crate::{
     files, image,
     scan::ScanOptions,
     table::distinct_names,
+    target_file::Targets,
 };
 
 /// A manifest that is being turned into a dataset.
@@ -61,7 +62,8 @@ impl Opening {
         Ok(Dataset {
             manifest: self.source.path.clone(),
             setup: m.setup,
-            target: m.target.clone(),
+            target: self.target()?.cloned(),
+            other_targets: self.other_targets()?,
             intrinsics,
             lens: m.camera.as_ref().and_then(|spec| spec.calibrate),
             picture: m.camera.as_ref().and_then(|spec| spec.width.zip(spec.height)),
@@ -98,6 +100,25 @@ impl Opening {
         }
     }
 
+    /// The target that the calibration uses.
+    fn target(&self) -> Result<Option<&TargetModel>, Error> {
+        let Some(targets) = &self.manifest.target else { return Ok(None) };
+        let picked = targets.pick(self.manifest.captures.target.as_deref());
+        picked.map(Some).map_err(|(what, advice)| {
+            malformed(
+                self.source.place("captures.target"),
+                format!("captures.target {what}"),
+                advice,
+            )
+        })
+    }
+
+    fn other_targets(&self) -> Result<Vec<TargetModel>, Error> {
+        let own = self.target()?;
+        let all = self.manifest.target.iter().flat_map(Targets::models);
+        Ok(all.filter(|model| Some(*model) != own).cloned().collect())
+    }
+
     fn parts(&self, warnings: &mut Vec<Warning>) -> Result<Parts, Error> {
         let (m, source, root) = (&self.manifest, &self.source, &self.root);
         let mut parts = Parts::default();
@@ -116,7 +137,7 @@ impl Opening {
             parts.scans = files::expand(root, &spec.files, &source.place("scans.files"))?;
         }
         if let Some(spec) = &m.corners {
-            let reading = CornerReading::of(spec, m.noise.image_px, m.target.as_ref(), source)?;
+            let reading = CornerReading::of(spec, m.noise.image_px, self.target()?, source)?;
             parts.corners = reading.read_all(spec, source, root)?;
         }
         if let Some(spec) = &m.board_poses {
@@ -272,7 +293,7 @@ impl Opening {
         };
         let corners = match (file(&spec.corners)?, &m.corners) {
             (Some(path), Some(c)) => Some(
-                CornerReading::of(c, m.noise.image_px, m.target.as_ref(), &self.source)?
+                CornerReading::of(c, m.noise.image_px, self.target()?, &self.source)?
                     .read(&path)?,
             ),
             (Some(_), None) => {
@@ -307,7 +328,7 @@ impl Opening {
         touches::read(
             spec,
             &touches::TouchContext {
-                target: self.manifest.target.as_ref(),
+                target: self.target()?,
                 robot: robot.map(|r| PoseTable { dh: r.dh.clone(), ..r.table() }),
                 placements: placements.iter().map(|p| p.id.clone()).collect(),
                 source: &self.source,

@@ -212,11 +212,20 @@ pub fn caption(target: &TargetModel) -> String {
         TargetModel::Checkerboard { columns, rows, square_mm } => {
             format!("Checkerboard, {columns} x {rows} inner corners, squares of {square_mm} mm")
         }
-        TargetModel::Charuco { squares_x, squares_y, square_mm, marker_mm, dictionary, legacy } => {
+        TargetModel::Charuco {
+            squares_x,
+            squares_y,
+            square_mm,
+            marker_mm,
+            dictionary,
+            legacy,
+            first_id,
+        } => {
             let layout = if *legacy { ", legacy layout" } else { "" };
+            let from = if *first_id > 0 { format!(" from {first_id}") } else { String::new() };
             format!(
                 "ChArUco, {squares_x} x {squares_y} squares of {square_mm} mm, markers of \
-                 {marker_mm} mm, {dictionary}{layout}"
+                 {marker_mm} mm, {dictionary}{from}{layout}"
             )
         }
         TargetModel::Tag { dictionary, id, size_mm } => {

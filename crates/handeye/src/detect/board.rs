@@ -154,14 +154,23 @@ pub fn detect_with(
     if let Some(board) = tags::Board::apart(target) {
         return board?.detect(image);
     }
+    search(image, target, &|grids| grids)
+}
+
+/// Looks for a board among the grids of corners of the picture, as far as `free` leaves them.
+pub(super) fn search(
+    image: &GrayImage,
+    target: &TargetModel,
+    free: &dyn Fn(Vec<Grid>) -> Vec<Grid>,
+) -> Outcome {
     let family = Family::of(target)?;
     let is_complete =
         |outcome: &Outcome| outcome.as_ref().is_ok_and(|corners| corners.len() == target.len());
     let mut best = Err(NotFound::NoCorners);
     for level in levels(image) {
         let found: Vec<Grid> = mesh::grids(&smoothed(&level.image));
-        let grids: Vec<Grid> = found.iter().map(|g| g.map(|p| level.original(p))).collect();
-        let found = family.label(image, &grids);
+        let grids = found.iter().map(|g| g.map(|p| level.original(p))).collect();
+        let found = family.label(image, &free(grids));
         let improved = worth(&found) > worth(&best);
         if improved {
             best = found;
@@ -246,6 +255,7 @@ mod tests {
             marker_mm: 14.0,
             dictionary: "DICT_5X5_100".into(),
             legacy,
+            first_id: 0,
         }
     }
 

@@ -17,9 +17,24 @@ use crate::{GrayImage, TargetModel};
 
 /// Of a board in full extent this share of the corners must be fitted.
 const FITTED_SHARE: f64 = 0.8;
+/// A grid beside a larger one may be the board when it has this share of its corners.
+const LARGE_PART: f64 = 0.5;
 
-/// The corners of a checkerboard in grids, the largest first.
+/// Most grids that are taken for the board, one after the other.
+const MOST_GRIDS: usize = 6;
+
+/// The corners of a checkerboard in grids, the largest first. Where that is another board, one of the
+/// next may be the one.
 pub(super) fn label(image: &GrayImage, grids: &[Grid], target: &TargetModel) -> Outcome {
+    let first = labelled(image, grids, target);
+    let smaller = (1..grids.len()).take_while(|&k| first.is_err() && k < MOST_GRIDS);
+    let worthwhile = |grid: &Grid| grid.corners.len() as f64 >= LARGE_PART * target.len() as f64;
+    let mut others = smaller.filter(|&k| worthwhile(&grids[k]));
+    let other = others.find_map(|k| labelled(image, &grids[k..], target).ok());
+    other.map_or(first, Ok)
+}
+
+fn labelled(image: &GrayImage, grids: &[Grid], target: &TargetModel) -> Outcome {
     let (columns, rows) = target.grid();
     let size = (columns as i32, rows as i32);
     let fits = Fits { image, clean: 1.0, pairs: false, lines: None };

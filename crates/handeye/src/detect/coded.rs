@@ -91,6 +91,7 @@ fn charuco(target: &TargetModel) -> Result<Coded<'_>, NotFound> {
         marker_mm,
         dictionary: ref name,
         legacy,
+        first_id,
     } = target
     else {
         return Err(NotFound::Unsupported("this target"));
@@ -109,7 +110,7 @@ fn charuco(target: &TargetModel) -> Result<Coded<'_>, NotFound> {
         name: name.clone(),
         dictionary: dictionary(name)?,
         turns: 0,
-        first: 0,
+        first: first_id,
         cells: squares.filter(has_marker).map(|(i, j)| (i as i32 - 1, j as i32 - 1)).collect(),
         lines: lines(target),
     })
@@ -230,7 +231,7 @@ impl Coded<'_> {
     }
 
     fn markers(&self) -> std::ops::Range<u32> {
-        self.first..self.first + self.cells.len() as u32
+        self.first..self.first.saturating_add(self.cells.len() as u32)
     }
 
     /// Adds corners where the ones beside them say they are.

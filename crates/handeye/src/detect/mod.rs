@@ -20,6 +20,7 @@ mod mesh;
 mod partial;
 pub mod planar_pose;
 mod pyramid;
+mod several;
 pub mod sight;
 pub mod sphere;
 pub mod subpixel;
@@ -32,5 +33,6 @@ pub use planar_pose::{
     PosedTarget, relabelled, symmetry_turn, target_poses, target_poses_with, typical_excess,
     with_symmetries,
 };
+pub use several::detect_several;
 pub use sight::{Sight, sighted};
 pub use surface::{Missing, lift};

@@ -22,7 +22,7 @@ pub(crate) struct Texture {
 
 enum Print {
     Squares,
-    Markers { dictionary: Dictionary, share: f64, white_first: bool, squares_x: usize },
+    Markers { dictionary: Dictionary, share: f64, white_first: bool, squares_x: usize, first: u32 },
     Tag { dictionary: Dictionary, id: u32 },
     Tags(Tags),
     Discs(Discs),
@@ -47,6 +47,7 @@ impl Texture {
                 marker_mm,
                 dictionary,
                 legacy,
+                first_id,
             } => Some(Self {
                 columns: f64::from(*squares_x),
                 rows: f64::from(*squares_y),
@@ -58,6 +59,7 @@ impl Texture {
                     share: marker_mm / square_mm,
                     white_first: *legacy && squares_y % 2 == 0,
                     squares_x: *squares_x as usize,
+                    first: *first_id,
                 },
             }),
             TargetModel::Tag { dictionary, id, size_mm } => {
@@ -191,7 +193,7 @@ impl Texture {
             Print::Tags(tags) => tags.is_black(q),
             Print::Discs(_) => false,
             Print::Tag { dictionary, id } => marker_is_black(dictionary, *id, i, j),
-            Print::Markers { dictionary, share, white_first, squares_x } => {
+            Print::Markers { dictionary, share, white_first, squares_x, first } => {
                 if (i + j + usize::from(*white_first)) % 2 == 0 {
                     return true;
                 }
@@ -200,6 +202,7 @@ impl Texture {
                 let (x, y) = (bit(q.x.fract()), bit(q.y.fract()));
                 let inside = x >= 0.0 && y >= 0.0 && x < n && y < n;
                 let id = marker_of_square(i, j, *squares_x, *white_first);
+                let id = id.and_then(|id| id.checked_add(*first));
                 inside
                     && id.is_some_and(|id| marker_is_black(dictionary, id, x as usize, y as usize))
             }
@@ -359,6 +362,7 @@ mod tests {
                 marker_mm: 15.0,
                 dictionary: dictionary(),
                 legacy: true,
+                first_id: 0,
             },
             TargetModel::Tag { dictionary: dictionary(), id: 3, size_mm: 60.0 },
             TargetModel::CircleGrid { columns, rows, pitch_mm },

@@ -24,6 +24,7 @@ impl TargetModel {
             Self::Charuco { square_mm, marker_mm, .. } if marker_mm >= square_mm => invalid(
                 format!("marker_mm = {marker_mm} must be smaller than square_mm = {square_mm}"),
             ),
+            Self::Charuco { dictionary, .. } => self.check_tags(dictionary),
             Self::Aprilgrid { spacing, border_bits, family, .. } => {
                 check_spacing(*spacing)?;
                 check_border(*border_bits)?;
@@ -77,23 +78,19 @@ impl TargetModel {
 
     /// Every tag of the board must be in the dictionary.
     fn check_tags(&self, name: &str) -> Result<(), Error> {
-        let (tags_x, tags_y, first) = match *self {
-            Self::Aprilgrid { tags_x, tags_y, first_id, .. }
-            | Self::TagGrid { tags_x, tags_y, first_id, .. } => (tags_x, tags_y, first_id),
-            _ => return Ok(()),
-        };
+        let Some((_, range)) = self.markers() else { return Ok(()) };
         let Some(dictionary) = Dictionary::named(name) else {
             return invalid(format!(
                 "the dictionary {name:?} is not known; write OpenCV's name, such as DICT_4X4_50, \
                  DICT_6X6_250 or DICT_APRILTAG_36h11"
             ));
         };
-        let end = u64::from(tags_x) * u64::from(tags_y) + u64::from(first);
-        if end > dictionary.len() as u64 {
+        let last = range.end.saturating_sub(1);
+        if range.end > dictionary.len() as u64 {
             return invalid(format!(
-                "{tags_x} x {tags_y} tags from {first} on need the tags up to {}, but {name} ends \
-                 at {}: take fewer tags or a larger dictionary",
-                end - 1,
+                "markers {} to {last} are needed, but {name} ends at {}: take fewer markers or a \
+                 larger dictionary",
+                range.start,
                 dictionary.len().saturating_sub(1)
             ));
         }
