@@ -15,17 +15,17 @@ use serde_json::{Value, json};
 use crate::placing::{Distance, SIZES, Size, place};
 
 /// One picture, before it is drawn.
-struct Picture {
+pub struct Picture {
     /// Table that it belongs to, and case there.
     table: &'static str,
-    case: String,
+    pub case: String,
     size: Size,
-    target: TargetModel,
+    pub target: TargetModel,
     /// Without one, the clutter alone is the picture.
     scene: Option<Scene>,
     conditions: Conditions,
     optics: Optics,
-    seed: u64,
+    pub seed: u64,
     /// Another board of the same kind, as good an answer.
     twin: Option<Scene>,
 }
@@ -71,7 +71,7 @@ fn tag_grid() -> TargetModel {
 }
 
 /// Boards that are measured. A new kind is one more line here and one in `run.py`.
-fn targets() -> [(&'static str, TargetModel); 4] {
+pub fn targets() -> [(&'static str, TargetModel); 4] {
     [
         ("checkerboard", checkerboard()),
         ("charuco", charuco()),
@@ -116,7 +116,7 @@ impl Picture {
         }
     }
 
-    fn drawn(&self) -> GrayImage {
+    pub fn drawn(&self) -> GrayImage {
         match (&self.scene, &self.conditions.clutter) {
             (Some(scene), _) => scene.picture_under(&self.conditions, &self.optics, self.seed),
             (None, clutter) => {
@@ -126,12 +126,21 @@ impl Picture {
         }
     }
 
+    /// Name of the kind of target.
+    pub fn kind(&self) -> &'static str {
+        targets().into_iter().find(|(_, t)| *t == self.target).map_or("", |(kind, _)| kind)
+    }
+
+    /// The corners of the boards that may be found.
+    pub fn boards(&self) -> Vec<Vec<TrueCorner>> {
+        let board = |s: &Scene| s.corners_under(&self.conditions, &self.optics);
+        self.scene.iter().chain(&self.twin).map(board).collect()
+    }
+
     fn truth(&self, file: &str) -> Value {
         let corner = |c: &TrueCorner| json!([c.id, c.pixel.x, c.pixel.y, c.visible]);
-        let board = |s: &Scene| -> Vec<Value> {
-            s.corners_under(&self.conditions, &self.optics).iter().map(corner).collect()
-        };
-        let boards: Vec<_> = self.scene.iter().chain(&self.twin).map(board).collect();
+        let board = |b: &Vec<TrueCorner>| -> Vec<Value> { b.iter().map(corner).collect() };
+        let boards: Vec<_> = self.boards().iter().map(board).collect();
         json!({
             "file": file, "table": self.table, "case": self.case, "size": self.size.name,
             "target": self.target, "noise": self.optics.noise,
@@ -208,7 +217,7 @@ const HARD: [&str; 8] = [
 /// Small squares, px: markers take more.
 const SMALL_PX: [f64; 2] = [12.0, 22.0];
 
-fn hard(count: usize) -> Vec<Picture> {
+pub fn hard(count: usize) -> Vec<Picture> {
     let mut all = vec![];
     for (t, (_, target)) in targets().into_iter().enumerate() {
         for (k, case) in HARD.into_iter().enumerate() {
@@ -289,17 +298,16 @@ fn smaller(target: &TargetModel) -> TargetModel {
 
 /// Pictures without any board: each pattern in turn.
 fn empty(count: usize) -> Vec<Picture> {
-    let mut all = vec![];
-    for (_, target) in targets() {
-        for i in 0..count {
-            let pattern = Pattern::ALL[i % Pattern::ALL.len()];
-            let seed = 500_000 + i as u64;
-            let mut picture = Picture::of("empty", pattern.name(), SIZES[0], &target, seed);
-            picture.conditions.clutter = Some(Clutter { pattern, seed });
-            all.push(picture);
-        }
-    }
-    all
+    let of = |target: TargetModel| (0..count).map(move |i| empty_of(i, &target));
+    targets().into_iter().flat_map(|(_, target)| of(target)).collect()
+}
+
+pub fn empty_of(i: usize, target: &TargetModel) -> Picture {
+    let pattern = Pattern::ALL[i % Pattern::ALL.len()];
+    let seed = 500_000 + i as u64;
+    let mut picture = Picture::of("empty", pattern.name(), SIZES[0], target, seed);
+    picture.conditions.clutter = Some(Clutter { pattern, seed });
+    picture
 }
 
 /// Writes pictures and truth.
