@@ -3,14 +3,13 @@
 use std::{
     fs,
     path::{Path, PathBuf},
-    sync::{
-        Mutex,
-        atomic::{AtomicUsize, Ordering},
-    },
+    sync::atomic::{AtomicUsize, Ordering},
 };
 
-use handeye::{ImageCorner, TargetModel, detect};
-use handeye_io::{drawing, image_size, read_image, read_target, write_atomically};
+use handeye::{ImageCorner, Intrinsics, TargetModel, detect, detect::residuals};
+use handeye_io::{
+    drawing, image_size, parallel, read_image, read_intrinsics, read_target, write_atomically,
+};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -31,6 +30,9 @@ struct Found {
     /// Why the file cannot be used at all.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
+    /// How far corners lie from where the board has them, by the smoothest view that fits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_rms_px: Option<f64>,
     corners: Vec<Corner>,
 }
 
@@ -52,11 +54,14 @@ struct Answer {
 
 pub fn run(args: &DetectArgs, manners: &Manners) -> Result<u8, Failure> {
     let target = read_target(&args.target)?;
+    let camera = camera(args)?;
     let drawings = drawings(args)?;
+    let search = Search { target: &target, camera: camera.as_ref() };
     let progress = Progress::new("looking at pictures", manners);
     let done = AtomicUsize::new(0);
-    let looked = in_parallel(args.images.len(), threads(&args.images), |k| {
-        let found = look_at(&args.images[k], &target, drawings.get(k));
+    let threads = parallel::threads(args.images.iter().map(PathBuf::as_path));
+    let looked = parallel::in_order(args.images.len(), threads, |k| {
+        let found = search.look_at(&args.images[k], drawings.get(k));
         progress.tell(done.fetch_add(1, Ordering::Relaxed) + 1, args.images.len());
         found
     });
@@ -79,60 +84,58 @@ pub fn run(args: &DetectArgs, manners: &Manners) -> Result<u8, Failure> {
 
 fn unusable(path: &Path, failure: &Failure) -> Found {
     let (path, error) = (path.to_path_buf(), Some(failure.to_string()));
-    Found { path, found: false, reason: None, error, corners: vec![] }
+    Found { path, found: false, reason: None, error, residual_rms_px: None, corners: vec![] }
 }
 
-/// Pictures larger than this (pixels) are worked on by two threads at most.
-const LARGE_PICTURE: u64 = 6_000_000;
-/// More threads than this only fight for memory.
-const MOST_THREADS: usize = 8;
-
-fn threads(images: &[PathBuf]) -> usize {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
-    let sizes = images.iter().filter_map(|i| image_size(i).ok());
-    let large = sizes.map(|(w, h)| u64::from(w) * u64::from(h)).any(|n| n > LARGE_PICTURE);
-    if large { cores.min(2) } else { cores }
+/// The camera of `--camera`; a file that does not say its pictures' size has that of the first one.
+fn camera(args: &DetectArgs) -> Result<Option<Intrinsics>, Failure> {
+    let Some(file) = &args.camera else { return Ok(None) };
+    let size = args.images.iter().find_map(|image| image_size(image).ok());
+    let said = read_intrinsics(file, args.camera_name.as_deref(), None);
+    Ok(Some(said.or_else(|_| read_intrinsics(file, args.camera_name.as_deref(), size))?))
 }
 
-/// `work(0), work(1) ...`, whatever order they were made in.
-fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let next = AtomicUsize::new(0);
-    let slots: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
-    let take = || {
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            let Some(slot) = slots.get(k) else { break };
-            let result = work(k);
-            if let Ok(mut slot) = slot.lock() {
-                *slot = Some(result);
-            }
+/// What is looked for, and with which camera.
+struct Search<'a> {
+    target: &'a TargetModel,
+    camera: Option<&'a Intrinsics>,
+}
+
+impl Search<'_> {
+    fn look_at(&self, path: &Path, drawing: Option<&PathBuf>) -> Result<Found, Failure> {
+        let image = read_image(path, None)?;
+        let size = (image.width(), image.height());
+        self.check_size(path, size)?;
+        let (corners, reason) = match detect::detect_with(&image, self.target, self.camera) {
+            Ok(corners) => (corners, None),
+            Err(reason) => (vec![], Some(reason.to_string())),
+        };
+        let residuals = residuals::residuals(&corners, self.target, size, self.camera);
+        if let Some(drawing) = drawing {
+            write_atomically(drawing, &drawing::marked(&image, &corners, residuals.as_deref()))?;
         }
-    };
-    std::thread::scope(|scope| {
-        for _ in 1..threads.min(count) {
-            scope.spawn(take);
-        }
-        take();
-    });
-    slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
-}
-
-fn look_at(path: &Path, target: &TargetModel, drawing: Option<&PathBuf>) -> Result<Found, Failure> {
-    let image = read_image(path, None)?;
-    let (corners, reason) = match detect::detect(&image, target) {
-        Ok(corners) => (corners, None),
-        Err(reason) => (vec![], Some(reason.to_string())),
-    };
-    if let Some(drawing) = drawing {
-        write_atomically(drawing, &drawing::marked(&image, &corners))?;
+        Ok(Found {
+            path: path.to_path_buf(),
+            found: reason.is_none(),
+            reason,
+            error: None,
+            residual_rms_px: residuals.as_deref().map(residuals::rms),
+            corners: corners.iter().map(corner).collect(),
+        })
     }
-    Ok(Found {
-        path: path.to_path_buf(),
-        found: reason.is_none(),
-        reason,
-        error: None,
-        corners: corners.iter().map(corner).collect(),
-    })
+
+    fn check_size(&self, path: &Path, (width, height): (usize, usize)) -> Result<(), Failure> {
+        let Some(camera) = self.camera else { return Ok(()) };
+        if (camera.width as usize, camera.height as usize) == (width, height) {
+            return Ok(());
+        }
+        let (calibrated_width, calibrated_height) = (camera.width, camera.height);
+        let what = format!(
+            "the picture is {width} x {height} pixels, the camera was calibrated at \
+             {calibrated_width} x {calibrated_height}; give intrinsics for this size"
+        );
+        Err(Failure::input(path, what))
+    }
 }
 
 fn corner(c: &ImageCorner) -> Corner {
@@ -166,7 +169,13 @@ fn table(answer: &Answer, all: usize) -> String {
         (Some(reason), _) => format!("    - {}: {reason}\n", image.path.display()),
         (_, Some(error)) => format!("    ! {error}\n"),
         _ => {
-            format!("{:>5} of {all} corners  {}\n", image.corners.len(), image.path.display())
+            let rms = image.residual_rms_px.map(|rms| format!("rms {rms:.3} px"));
+            format!(
+                "{:>5} of {all} corners  {:<13}  {}\n",
+                image.corners.len(),
+                rms.unwrap_or_default(),
+                image.path.display()
+            )
         }
     };
     let found = answer.images.iter().filter(|i| i.found).count();

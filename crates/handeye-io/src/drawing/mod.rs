@@ -1,5 +1,6 @@
 //! Targets on paper in true scale, and pictures with what was found in them.
 
+mod letters;
 mod marked;
 mod pdf;
 mod svg;
