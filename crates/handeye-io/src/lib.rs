@@ -17,6 +17,7 @@ mod init;
 pub mod measure;
 mod npy;
 pub mod parallel;
+mod pixel_origin;
 pub mod report;
 pub mod robot;
 mod scan;
@@ -30,7 +31,7 @@ mod xml;
 
 pub use camera::read_intrinsics;
 pub use dataset::{
-    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource,
+    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PixelOrigin, PlacementSource,
     RobotFile, RobotPoses, WorkspaceBox, WorkspaceFrame, columns, read_robot_poses,
 };
 pub use error::{Error, Place};

@@ -17,7 +17,7 @@ use handeye::{
 };
 
 use crate::{
-    CaptureSource, Dataset, Error, Place, PlacementSource, error::malformed, parallel,
+    CaptureSource, Dataset, Error, Place, PlacementSource, error::malformed, parallel, pixel_origin,
 };
 
 /// What was measured, and what is worth knowing of how.
@@ -270,6 +270,7 @@ fn camera(
     if let Some(given) = dataset.intrinsics {
         check_size(&given, shots, seen)?;
         warnings.extend(cross_checked(&given, dataset, seen));
+        warnings.extend(shifted(&given, dataset, shots, seen));
         return Ok((Some(unbent(given, dataset, seen, warnings)), None));
     }
     let Some(target) = &dataset.target else { return Ok((None, None)) };
@@ -328,6 +329,19 @@ fn cross_checked(given: &Intrinsics, dataset: &Dataset, seen: &[Seen]) -> Option
             ),
         )
     })
+}
+
+/// Whether corners of another program count their pixels from elsewhere than the camera does.
+fn shifted(
+    given: &Intrinsics,
+    dataset: &Dataset,
+    shots: &[Shot],
+    seen: &[Seen],
+) -> Option<Warning> {
+    let (target, origin) = (dataset.target.as_ref()?, dataset.pixel_origin?);
+    let imported = shots.iter().zip(seen).filter(|(shot, _)| shot.corners.is_some());
+    let views: Vec<Vec<ImageCorner>> = imported.map(|(_, s)| s.corners.clone()).collect();
+    pixel_origin::half_pixel(&views, target, given, origin)
 }
 
 /// The camera as given, or with the radial distortion that was not declared and that the corners
