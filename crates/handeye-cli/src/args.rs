@@ -258,18 +258,26 @@ pub struct RepeatArgs {
 /// Arguments of `detect`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye detect images/*.png --target handeye.toml\n  handeye detect 01.png --target board.toml --draw found --json"
+    after_help = "Examples:\n  handeye detect images/*.png --target handeye.toml\n  handeye detect 01.png --target board.toml --draw found --json\n  handeye detect *.png --target circles.toml --camera camera.yaml"
 )]
 pub struct DetectArgs {
     /// PNG, JPEG, TIFF or BMP pictures.
     #[arg(required = true)]
     pub images: Vec<PathBuf>,
-    /// A manifest or another TOML file with a `[target]`.
+    /// A manifest or another TOML file with a `[target]`, or with several `[[target]]`, each with a
+    /// name.
     #[arg(long, short)]
     pub target: PathBuf,
-    /// Folder for pictures with the corners and their ids drawn in.
+    /// Folder for pictures with the corners, their ids and their residuals, magnified, drawn in.
     #[arg(long)]
     pub draw: Option<PathBuf>,
+    /// The camera's intrinsics, in any file that a manifest may name: circles are found where their
+    /// centres are, and residuals know the lens.
+    #[arg(long)]
+    pub camera: Option<PathBuf>,
+    /// Which camera, in a file of several.
+    #[arg(long, requires = "camera")]
+    pub camera_name: Option<String>,
 }
 
 /// Arguments of `tcp`.

@@ -3,14 +3,19 @@
 use std::{
     fs,
     path::{Path, PathBuf},
-    sync::{
-        Mutex,
-        atomic::{AtomicUsize, Ordering},
-    },
+    sync::atomic::{AtomicUsize, Ordering},
 };
 
-use handeye::{ImageCorner, TargetModel, detect};
-use handeye_io::{drawing, image_size, read_image, read_target, write_atomically};
+use handeye::{
+    GrayImage, ImageCorner, Intrinsics, detect,
+    detect::{NotFound, residuals},
+};
+use handeye_io::{
+    Targets,
+    drawing::{self, Marks},
+    image_size, parallel, read_image, read_intrinsics, read_targets, write_atomically,
+};
+use nalgebra::Vector2;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -31,11 +36,32 @@ struct Found {
     /// Why the file cannot be used at all.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
+    /// How far corners lie from where the board has them, by the smoothest view that fits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_rms_px: Option<f64>,
+    /// One by one, where several targets are looked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    targets: Vec<FoundTarget>,
     corners: Vec<Corner>,
+}
+
+/// What a picture shows of one of several targets.
+#[derive(Serialize)]
+struct FoundTarget {
+    name: String,
+    found: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_rms_px: Option<f64>,
+    corners: usize,
 }
 
 #[derive(Serialize)]
 struct Corner {
+    /// Which of several targets it belongs to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    target: Option<String>,
     id: u32,
     x_px: f64,
     y_px: f64,
@@ -51,12 +77,15 @@ struct Answer {
 }
 
 pub fn run(args: &DetectArgs, manners: &Manners) -> Result<u8, Failure> {
-    let target = read_target(&args.target)?;
+    let targets = read_targets(&args.target)?;
+    let camera = camera(args)?;
     let drawings = drawings(args)?;
+    let search = Search { targets: &targets, camera: camera.as_ref() };
     let progress = Progress::new("looking at pictures", manners);
     let done = AtomicUsize::new(0);
-    let looked = in_parallel(args.images.len(), threads(&args.images), |k| {
-        let found = look_at(&args.images[k], &target, drawings.get(k));
+    let threads = parallel::threads(args.images.iter().map(PathBuf::as_path));
+    let looked = parallel::in_order(args.images.len(), threads, |k| {
+        let found = search.look_at(&args.images[k], drawings.get(k));
         progress.tell(done.fetch_add(1, Ordering::Relaxed) + 1, args.images.len());
         found
     });
@@ -72,72 +101,127 @@ pub fn run(args: &DetectArgs, manners: &Manners) -> Result<u8, Failure> {
     if manners.json {
         output::json(&answer);
     } else {
-        output::print(&table(&answer, target.len()));
+        output::print(&table(&answer, &targets));
     }
     Ok(code.unwrap_or(nothing))
 }
 
 fn unusable(path: &Path, failure: &Failure) -> Found {
     let (path, error) = (path.to_path_buf(), Some(failure.to_string()));
-    Found { path, found: false, reason: None, error, corners: vec![] }
+    let (reason, residual_rms_px) = (None, None);
+    let (targets, corners) = (vec![], vec![]);
+    Found { path, found: false, reason, error, residual_rms_px, targets, corners }
 }
 
-/// Pictures larger than this (pixels) are worked on by two threads at most.
-const LARGE_PICTURE: u64 = 6_000_000;
-/// More threads than this only fight for memory.
-const MOST_THREADS: usize = 8;
-
-fn threads(images: &[PathBuf]) -> usize {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
-    let sizes = images.iter().filter_map(|i| image_size(i).ok());
-    let large = sizes.map(|(w, h)| u64::from(w) * u64::from(h)).any(|n| n > LARGE_PICTURE);
-    if large { cores.min(2) } else { cores }
+/// The camera of `--camera`; a file that does not say its pictures' size has that of the first one.
+fn camera(args: &DetectArgs) -> Result<Option<Intrinsics>, Failure> {
+    let Some(file) = &args.camera else { return Ok(None) };
+    let size = args.images.iter().find_map(|image| image_size(image).ok());
+    let said = read_intrinsics(file, args.camera_name.as_deref(), None);
+    Ok(Some(said.or_else(|_| read_intrinsics(file, args.camera_name.as_deref(), size))?))
 }
 
-/// `work(0), work(1) ...`, whatever order they were made in.
-fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let next = AtomicUsize::new(0);
-    let slots: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
-    let take = || {
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            let Some(slot) = slots.get(k) else { break };
-            let result = work(k);
-            if let Ok(mut slot) = slot.lock() {
-                *slot = Some(result);
-            }
+/// What is looked for, and with which camera.
+struct Search<'a> {
+    targets: &'a Targets,
+    camera: Option<&'a Intrinsics>,
+}
+
+impl Search<'_> {
+    fn look_at(&self, path: &Path, drawing: Option<&PathBuf>) -> Result<Found, Failure> {
+        let image = read_image(path, None)?;
+        let size = (image.width(), image.height());
+        self.check_size(path, size)?;
+        let seen = self.seen(&image);
+        if let Some(drawing) = drawing {
+            let marks: Vec<Marks> = seen.iter().map(Seen::marks).collect();
+            write_atomically(drawing, &drawing::marked(&image, &marks))?;
         }
-    };
-    std::thread::scope(|scope| {
-        for _ in 1..threads.min(count) {
-            scope.spawn(take);
-        }
-        take();
-    });
-    slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
-}
-
-fn look_at(path: &Path, target: &TargetModel, drawing: Option<&PathBuf>) -> Result<Found, Failure> {
-    let image = read_image(path, None)?;
-    let (corners, reason) = match detect::detect(&image, target) {
-        Ok(corners) => (corners, None),
-        Err(reason) => (vec![], Some(reason.to_string())),
-    };
-    if let Some(drawing) = drawing {
-        write_atomically(drawing, &drawing::marked(&image, &corners))?;
+        let all: Vec<_> = seen.iter().filter_map(|s| s.residuals.as_deref()).flatten().collect();
+        let all: Vec<_> = all.into_iter().copied().collect();
+        let reason = match &seen[..] {
+            [one] => one.reason.clone(),
+            all if all.iter().all(|s| s.reason.is_some()) => Some("none of the targets".into()),
+            _ => None,
+        };
+        Ok(Found {
+            path: path.to_path_buf(),
+            found: reason.is_none(),
+            reason,
+            error: None,
+            residual_rms_px: (!all.is_empty()).then(|| residuals::rms(&all)),
+            targets: seen.iter().filter_map(Seen::summary).collect(),
+            corners: seen.iter().flat_map(Seen::listed).collect(),
+        })
     }
-    Ok(Found {
-        path: path.to_path_buf(),
-        found: reason.is_none(),
-        reason,
-        error: None,
-        corners: corners.iter().map(corner).collect(),
-    })
+
+    /// What the picture shows of each target.
+    fn seen(&self, image: &GrayImage) -> Vec<Seen<'_>> {
+        let models = self.targets.models();
+        let outcomes = match &models[..] {
+            [one] => vec![detect::detect_with(image, one, self.camera)],
+            several => detect::detect_several(image, several, self.camera),
+        };
+        let size = (image.width(), image.height());
+        let seen = |(k, outcome): (usize, Result<Vec<ImageCorner>, NotFound>)| {
+            let (corners, reason) = match outcome {
+                Ok(corners) => (corners, None),
+                Err(reason) => (vec![], Some(reason.to_string())),
+            };
+            let residuals = residuals::residuals(&corners, models[k], size, self.camera);
+            Seen { name: self.targets.name(k), corners, residuals, reason }
+        };
+        outcomes.into_iter().enumerate().map(seen).collect()
+    }
+
+    fn check_size(&self, path: &Path, (width, height): (usize, usize)) -> Result<(), Failure> {
+        let Some(camera) = self.camera else { return Ok(()) };
+        if (camera.width as usize, camera.height as usize) == (width, height) {
+            return Ok(());
+        }
+        let (calibrated_width, calibrated_height) = (camera.width, camera.height);
+        let what = format!(
+            "the picture is {width} x {height} pixels, the camera was calibrated at \
+             {calibrated_width} x {calibrated_height}; give intrinsics for this size"
+        );
+        Err(Failure::input(path, what))
+    }
 }
 
-fn corner(c: &ImageCorner) -> Corner {
+/// What a picture shows of a target.
+struct Seen<'a> {
+    name: Option<&'a str>,
+    corners: Vec<ImageCorner>,
+    residuals: Option<Vec<Vector2<f64>>>,
+    reason: Option<String>,
+}
+
+impl Seen<'_> {
+    fn marks(&self) -> Marks<'_> {
+        let residuals = self.residuals.as_deref();
+        Marks { name: self.name, corners: &self.corners, residuals }
+    }
+
+    /// `None` where there is only one target.
+    fn summary(&self) -> Option<FoundTarget> {
+        Some(FoundTarget {
+            name: self.name?.into(),
+            found: self.reason.is_none(),
+            reason: self.reason.clone(),
+            residual_rms_px: self.residuals.as_deref().map(residuals::rms),
+            corners: self.corners.len(),
+        })
+    }
+
+    fn listed(&self) -> impl Iterator<Item = Corner> {
+        self.corners.iter().map(|c| corner(c, self.name))
+    }
+}
+
+fn corner(c: &ImageCorner, target: Option<&str>) -> Corner {
     let s = &c.covariance;
     Corner {
+        target: target.map(String::from),
         id: c.id,
         x_px: c.pixel.x,
         y_px: c.pixel.y,
@@ -161,15 +245,46 @@ fn drawings(args: &DetectArgs) -> Result<Vec<PathBuf>, Failure> {
     Ok(taken)
 }
 
-fn table(answer: &Answer, all: usize) -> String {
+fn table(answer: &Answer, targets: &Targets) -> String {
+    let all: usize = targets.models().iter().map(|t| t.len()).sum();
     let line = |image: &Found| match (&image.reason, &image.error) {
         (Some(reason), _) => format!("    - {}: {reason}\n", image.path.display()),
         (_, Some(error)) => format!("    ! {error}\n"),
         _ => {
-            format!("{:>5} of {all} corners  {}\n", image.corners.len(), image.path.display())
+            let rms = image.residual_rms_px.map(|rms| format!("rms {rms:.3} px"));
+            let targets: String = image.targets.iter().map(line_of_target).collect();
+            format!(
+                "{:>5} of {all} corners  {:<13}  {}\n{targets}",
+                image.corners.len(),
+                rms.unwrap_or_default(),
+                image.path.display()
+            )
         }
     };
     let found = answer.images.iter().filter(|i| i.found).count();
+    let of_each = per_target(answer, targets);
     let lines: String = answer.images.iter().map(line).collect();
-    format!("{lines}target found in {found} of {} pictures\n", answer.images.len())
+    let count = answer.images.len();
+    match targets {
+        Targets::One(_) => format!("{lines}target found in {found} of {count} pictures\n"),
+        Targets::Several(_) => format!("{lines}targets found in {count} pictures: {of_each}\n"),
+    }
+}
+
+/// The line of one of several targets, below its picture's.
+fn line_of_target(target: &FoundTarget) -> String {
+    match &target.reason {
+        Some(reason) => format!("        - {}: {reason}\n", target.name),
+        None => format!("        {:>5} of {}\n", target.corners, target.name),
+    }
+}
+
+fn per_target(answer: &Answer, targets: &Targets) -> String {
+    let count = |name: &str| {
+        let all = answer.images.iter().flat_map(|i| &i.targets);
+        all.filter(|t| t.found && t.name == name).count()
+    };
+    let names = (0..targets.models().len()).filter_map(|k| targets.name(k));
+    let each: Vec<String> = names.map(|name| format!("{name} {}", count(name))).collect();
+    each.join(", ")
 }

@@ -352,6 +352,62 @@ fn corners_are_found_in_the_order_of_the_pictures() {
     }
     assert!(first["covariance_px2"][1][1].as_f64().unwrap() > 0.0);
     assert_eq!(folder.list("d"), ["board_corners.png", "dark_corners.png"]);
+    assert!(images[0]["residual_rms_px"].is_null());
+    assert!(images[1]["residual_rms_px"].as_f64().unwrap() < 0.1);
+}
+
+#[test]
+fn several_targets_are_told_by_their_names() {
+    let folder = Folder::new();
+    board(&folder, "board.png");
+    folder.put(
+        "boards.toml",
+        "[[target]]\nname = \"tag\"\nkind = \"tag\"\ndictionary = \"DICT_4X4_50\"\nid = 3\n\
+         size_mm = 40\n[[target]]\nname = \"board\"\nkind = \"checkerboard\"\ncolumns = 9\nrows = 6\n\
+         square_mm = 20.0\n",
+    );
+    let args = ["detect", "board.png", "--target", "boards.toml"];
+    let run = handeye(&folder, &args);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("- tag: no tag 3 of DICT_4X4_50"), "{}", run.stdout);
+    assert!(run.stdout.contains("targets found in 1 pictures: tag 0, board 1"), "{}", run.stdout);
+    let json = [&args[..], &["--json", "--draw", "d"]].concat();
+    let image = &handeye(&folder, &json).json()["images"][0];
+    let targets = &image["targets"];
+    assert_eq!((&targets[0]["name"], &targets[0]["found"]), (&"tag".into(), &false.into()));
+    assert_eq!((&targets[1]["name"], &targets[1]["corners"]), (&"board".into(), &54.into()));
+    let corners = image["corners"].as_array().unwrap();
+    assert!(corners.len() == 54 && corners.iter().all(|c| c["target"] == "board"));
+    assert_eq!(folder.list("d"), ["board_corners.png"]);
+}
+
+#[test]
+fn corners_are_found_with_the_camera_that_is_given() {
+    let folder = Folder::new();
+    board(&folder, "board.png");
+    folder.put("board.toml", "kind = \"checkerboard\"\ncolumns = 9\nrows = 6\nsquare_mm = 20.0\n");
+    let size = image::image_dimensions(folder.0.join("board.png")).unwrap();
+    let camera = |width: u32| {
+        format!(
+            "image_width: {width}\nimage_height: {}\ncamera_matrix:\n  rows: 3\n  cols: 3\n  \
+             data: [500, 0, 320, 0, 500, 240, 0, 0, 1]\ndistortion_model: plumb_bob\n\
+             distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n",
+            size.1
+        )
+    };
+    folder.put("camera.yaml", &camera(size.0));
+    folder.put("other.yaml", &camera(size.0 + 100));
+    let detect = |camera: &str| {
+        let args = ["detect", "board.png", "--target", "board.toml", "--camera", camera];
+        handeye(&folder, &args)
+    };
+    let run = detect("camera.yaml");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("54 of 54 corners  rms 0.0"), "{}", run.stdout);
+    let run = detect("other.yaml");
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("give intrinsics for this size"), "{}", run.stderr);
+    assert_eq!(detect("none.yaml").code, 1);
 }
 
 #[test]

@@ -16,6 +16,8 @@ mod image;
 mod init;
 pub mod measure;
 mod npy;
+pub mod parallel;
+mod pixel_origin;
 pub mod report;
 pub mod robot;
 mod scan;
@@ -29,8 +31,8 @@ mod xml;
 
 pub use camera::read_intrinsics;
 pub use dataset::{
-    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PlacementSource, RobotFile,
-    RobotPoses, WorkspaceBox, WorkspaceFrame, columns, read_robot_poses,
+    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PixelOrigin, PlacementSource,
+    RobotFile, RobotPoses, WorkspaceBox, WorkspaceFrame, columns, read_robot_poses,
 };
 pub use error::{Error, Place};
 pub use files::write_atomically;

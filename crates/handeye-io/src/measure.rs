@@ -5,10 +5,7 @@
 
 use std::{
     path::PathBuf,
-    sync::{
-        Mutex,
-        atomic::{AtomicUsize, Ordering},
-    },
+    sync::atomic::{AtomicUsize, Ordering},
 };
 
 use handeye::{
@@ -19,7 +16,9 @@ use handeye::{
     intrinsics, lens,
 };
 
-use crate::{CaptureSource, Dataset, Error, Place, PlacementSource, error::malformed};
+use crate::{
+    CaptureSource, Dataset, Error, Place, PlacementSource, error::malformed, parallel, pixel_origin,
+};
 
 /// What was measured, and what is worth knowing of how.
 pub struct Measured {
@@ -105,46 +104,21 @@ pub fn measure(
     Ok(Measured { session, camera_rms_px, colour_step, not_found, warnings })
 }
 
-/// Pictures larger than this (pixels) are worked on by two threads at most: each takes some
-/// twenty bytes a pixel.
-const LARGE_PICTURE: u64 = 6_000_000;
-/// More threads than this only fight for memory.
-const MOST_THREADS: usize = 8;
-
-fn threads(shots: &[Shot]) -> usize {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
-    let size = shots.iter().find_map(|s| crate::image_size(s.image?).ok());
-    let large = size.is_some_and(|(w, h)| u64::from(w) * u64::from(h) > LARGE_PICTURE);
-    if large { cores.min(2) } else { cores }
-}
-
 fn look_at_all(
     dataset: &Dataset,
     shots: &[Shot],
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<Seen>, Error> {
-    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let slots: Vec<Mutex<Option<Result<Seen, Error>>>> =
-        shots.iter().map(|_| Mutex::new(None)).collect();
-    let work = || {
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            let Some(shot) = shots.get(k) else { break };
-            let seen = look_at(dataset, shot).map_err(|e| of_capture(shot, e));
-            if let Ok(mut slot) = slots[k].lock() {
-                *slot = Some(seen);
-            }
-            progress(done.fetch_add(1, Ordering::Relaxed) + 1, shots.len());
-        }
+    let done = AtomicUsize::new(0);
+    let pictures = shots.iter().filter_map(|s| s.image.map(PathBuf::as_path));
+    let look = |k: usize| {
+        let shot = &shots[k];
+        let seen = look_at(dataset, shot).map_err(|e| of_capture(shot, e));
+        progress(done.fetch_add(1, Ordering::Relaxed) + 1, shots.len());
+        seen
     };
-    std::thread::scope(|scope| {
-        for _ in 1..threads(shots) {
-            scope.spawn(work);
-        }
-        work();
-    });
     // results, and the first error, in the order of the captures
-    slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
+    parallel::in_order(shots.len(), parallel::threads(pictures), look).into_iter().collect()
 }
 
 fn of_capture(shot: &Shot, source: Error) -> Error {
@@ -311,6 +285,7 @@ fn camera(
     if let Some(given) = dataset.intrinsics {
         check_size(&given, shots, seen)?;
         warnings.extend(cross_checked(&given, dataset, seen));
+        warnings.extend(shifted(&given, dataset, shots, seen));
         return Ok((Some(unbent(given, dataset, seen, warnings)), None));
     }
     let Some(target) = &dataset.target else { return Ok((None, None)) };
@@ -369,6 +344,19 @@ fn cross_checked(given: &Intrinsics, dataset: &Dataset, seen: &[Seen]) -> Option
             ),
         )
     })
+}
+
+/// Whether corners of another program count their pixels from elsewhere than the camera does.
+fn shifted(
+    given: &Intrinsics,
+    dataset: &Dataset,
+    shots: &[Shot],
+    seen: &[Seen],
+) -> Option<Warning> {
+    let (target, origin) = (dataset.target.as_ref()?, dataset.pixel_origin?);
+    let imported = shots.iter().zip(seen).filter(|(shot, _)| shot.corners.is_some());
+    let views: Vec<Vec<ImageCorner>> = imported.map(|(_, s)| s.corners.clone()).collect();
+    pixel_origin::half_pixel(&views, target, given, origin)
 }
 
 /// The camera as given, or with the radial distortion that was not declared and that the corners

@@ -66,6 +66,14 @@ impl Targets {
         }
     }
 
+    /// What the `k`-th is called, where there are several.
+    pub fn name(&self, k: usize) -> Option<&str> {
+        match self {
+            Self::One(_) => None,
+            Self::Several(targets) => targets.get(k).map(|t| t.name.as_str()),
+        }
+    }
+
     /// Refuses dimensions that no target has, and targets that cannot be told apart.
     ///
     /// # Errors

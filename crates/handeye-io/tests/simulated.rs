@@ -116,6 +116,46 @@ fn views_check_the_camera_that_is_given() {
     fs::remove_dir_all(folder).unwrap();
 }
 
+/// Adds to both coordinates of all corners in the lists of a folder.
+fn shift_corners(folder: &Path, by_px: f64) {
+    let lists = fs::read_dir(folder.join("corners")).unwrap();
+    for path in lists.map(|entry| entry.unwrap().path()) {
+        let text = fs::read_to_string(&path).unwrap();
+        let mut lines = text.lines();
+        let header = lines.next().unwrap();
+        let shifted = |line: &str| {
+            let n: Vec<f64> = line.split(',').map(|n| n.parse().unwrap()).collect();
+            format!("\n{},{},{}", n[0], n[1] + by_px, n[2] + by_px)
+        };
+        fs::write(&path, format!("{header}{}\n", lines.map(shifted).collect::<String>())).unwrap();
+    }
+}
+
+#[test]
+fn imported_corners_that_are_half_a_pixel_off_are_told_the_pixel_origin() {
+    let folder = folder("half-pixel");
+    let noise = CellNoise { corner_px: 0.03, ..CellNoise::default() };
+    let cell = Cell { captures: 25, noise, ..small(Setup::EyeInHand) };
+    write(&cell, &folder, false);
+    let manifest = folder.join("handeye.toml");
+    let text = fs::read_to_string(&manifest).unwrap();
+    let said = |origin: &str| {
+        let declared = format!("pixel_origin = \"{origin}\"");
+        fs::write(&manifest, text.replace("pixel_origin = \"centre\"", &declared)).unwrap();
+        let measured = measure::measure(&Dataset::open(&folder).unwrap(), &|_, _| {}).unwrap();
+        let warning = measured.warnings.into_iter().find(|w| w.code == "half-pixel");
+        warning.map(|w| w.message)
+    };
+    assert_eq!(said("centre"), None);
+    let message = said("corner").unwrap();
+    assert!(message.contains("say pixel_origin = \"centre\" in [corners]"), "{message}");
+    shift_corners(&folder, 0.5);
+    let message = said("centre").unwrap();
+    assert!(message.contains("say pixel_origin = \"corner\" in [corners]"), "{message}");
+    assert_eq!(said("corner"), None);
+    fs::remove_dir_all(folder).unwrap();
+}
+
 #[test]
 fn one_of_several_targets_is_used() {
     let folder = folder("several");

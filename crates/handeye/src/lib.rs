@@ -19,6 +19,7 @@ pub mod lie;
 pub mod linalg;
 pub mod observation;
 pub mod pivot;
+pub mod pixel_origin;
 pub mod plan;
 pub mod predict;
 pub mod refine;

@@ -160,10 +160,13 @@ pub(super) struct ScansSpec {
     pub(super) camera: Option<CameraSpec>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+/// What pixel (0, 0) is, to the program that found the corners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum PixelOrigin {
+pub enum PixelOrigin {
+    /// The centre of the first pixel: OpenCV's convention, and that of this program.
     Centre,
+    /// The outer corner of the first pixel.
     Corner,
 }
 

@@ -23,6 +23,7 @@ use crate::{
     files, image,
     scan::{self, ScanOptions},
 };
+pub use manifest::PixelOrigin;
 pub(crate) use manifest::{Manifest, Source};
 use opening::Opening;
 pub(crate) use rereading::{Rereading, rereadings};
@@ -49,6 +50,8 @@ pub struct Dataset {
     pub lens: Option<LensModel>,
     /// Width and height of the pictures (px) as the manifest has them.
     pub picture: Option<(u32, u32)>,
+    /// Where corners of another program count their pixels from, as declared.
+    pub pixel_origin: Option<PixelOrigin>,
     /// The captures, in order.
     pub captures: Vec<CaptureSource>,
     /// Boards that lay still and were touched.

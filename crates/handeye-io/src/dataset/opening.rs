@@ -67,6 +67,7 @@ impl Opening {
             intrinsics,
             lens: m.camera.as_ref().and_then(|spec| spec.calibrate),
             picture: m.camera.as_ref().and_then(|spec| spec.width.zip(spec.height)),
+            pixel_origin: m.corners.as_ref().and_then(|spec| spec.pixel_origin),
             captures: self.captures(&parts, &mut warnings)?,
             touches: self.touches(&placements)?,
             placements,

@@ -1,5 +1,6 @@
 //! Targets on paper in true scale, and pictures with what was found in them.
 
+mod letters;
 mod marked;
 mod pdf;
 mod svg;
@@ -9,7 +10,7 @@ use handeye::{
     target_art::{self, Art, Shape},
 };
 
-pub use marked::marked;
+pub use marked::{Marks, marked};
 pub use pdf::pdf;
 pub use svg::svg;
 

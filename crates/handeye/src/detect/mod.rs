@@ -20,6 +20,7 @@ mod mesh;
 mod partial;
 pub mod planar_pose;
 mod pyramid;
+pub mod residuals;
 mod several;
 pub mod sight;
 pub mod sphere;

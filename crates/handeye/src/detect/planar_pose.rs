@@ -454,7 +454,7 @@ fn felt_distance(pose: &Isometry3<f64>, corner: &Felt) -> f64 {
 }
 
 /// `T p` and its derivative by `δ` of `T exp(δ)`: `R [-[p]ₓ, I]`.
-pub(super) fn moved(pose: &Isometry3<f64>, p: &Vector3<f64>) -> (Vector3<f64>, Matrix3x6<f64>) {
+pub(crate) fn moved(pose: &Isometry3<f64>, p: &Vector3<f64>) -> (Vector3<f64>, Matrix3x6<f64>) {
     let r = pose.rotation.to_rotation_matrix().into_inner();
     let mut j = Matrix3x6::zeros();
     j.fixed_view_mut::<3, 3>(0, 0).copy_from(&(-r * hat(p)));

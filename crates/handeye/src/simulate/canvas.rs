@@ -3,7 +3,10 @@
 use nalgebra::Vector2;
 
 use super::psf::Kernel;
-use super::{Optics, texture::Texture};
+use super::{
+    Optics,
+    texture::{Nearby, Texture},
+};
 
 /// A rectangle of pixels, right and bottom excluded.
 #[derive(Clone, Copy)]
@@ -63,8 +66,7 @@ pub(super) struct Canvas {
     values: Vec<f32>,
 }
 
-/// Points of the Fibonacci lattice that integrates a cell crossed by an edge; an edge along the rows
-/// is then placed to 1/440 px at worst.
+/// Points of the Fibonacci lattice that integrates a cell with more than one straight edge.
 const LATTICE: (usize, usize) = (55, 34);
 
 impl Canvas {
@@ -91,25 +93,29 @@ impl Canvas {
         let at = |x: f64, y: f64| {
             a * ((1.0 - x) * (1.0 - y)) + b * (x * (1.0 - y)) + c * ((1.0 - x) * y) + d * (x * y)
         };
-        let diagonal = (d - a).norm().max((c - b).norm());
+        let reach = 0.6 * (d - a).norm().max((c - b).norm());
         let (middle, side) = (at(0.5, 0.5), 1.0 / CELLS as f64);
-        let plain = texture.clearance(&middle) > 0.6 * diagonal;
-        if plain && !texture.covers(&middle) {
+        // along the picture's rows and columns, in the print
+        let across = [(b + d) - (a + c), (c + d) - (a + b)].map(|v| 0.5 * side * v);
+        let ink = |at: &Vector2<f64>| texture.covers(at).then(|| texture.grey(at, optics));
+        let whole = match Sides::of(texture, &middle, reach) {
+            Some(sides) if ink(&sides.one) == ink(&sides.other) => Some(ink(&sides.one)),
+            _ => None,
+        };
+        if whole == Some(None) {
             return;
         }
-        let whole = plain.then(|| texture.grey(&middle, optics));
         for k in 0..CELLS * CELLS {
             let (column, row) = (k % CELLS, k / CELLS);
             let cell = &mut self.values[(CELLS * j + row) * self.width + CELLS * i + column];
             let behind = f64::from(*cell);
-            let seen = |at: &Vector2<f64>| {
-                if texture.covers(at) { texture.grey(at, optics) } else { behind }
-            };
+            let seen = |at: &Vector2<f64>| ink(at).unwrap_or(behind);
             let (x, y) = (column as f64 * side, row as f64 * side);
-            let grey = whole.unwrap_or_else(|| {
+            let grey = whole.flatten().unwrap_or_else(|| {
                 let centre = at(x + 0.5 * side, y + 0.5 * side);
-                if texture.clearance(&centre) > 0.6 * side * diagonal {
-                    return seen(&centre);
+                if let Some(sides) = Sides::of(texture, &centre, side * reach) {
+                    let (one, other) = (seen(&sides.one), seen(&sides.other));
+                    return one + (other - one) * sides.share_of_other(&across);
                 }
                 let (n, step) = LATTICE;
                 let sample = |s: usize| {
@@ -165,6 +171,53 @@ impl Canvas {
             let row = &mut grey[y as usize * width..][left as usize..right as usize];
             row.iter_mut().zip(seen).for_each(|(value, seen)| *value = *seen);
         }
+    }
+}
+
+/// A field that at most one straight edge crosses: points of the print on either side of the edge.
+struct Sides {
+    one: Vector2<f64>,
+    other: Vector2<f64>,
+    /// Direction that the edge is crossed in from `one` to `other`: 0 along x, 1 along y.
+    axis: usize,
+    /// How far the field's middle is on the other side, m.
+    beyond: f64,
+}
+
+impl Sides {
+    /// `None` where there may be more than one edge.
+    fn of(texture: &Texture, middle: &Vector2<f64>, reach: f64) -> Option<Self> {
+        let (axis, beyond) = match texture.nearby(middle, reach) {
+            Nearby::Nothing => {
+                let (axis, beyond) = (0, f64::INFINITY);
+                return Some(Self { one: *middle, other: *middle, axis, beyond });
+            }
+            Nearby::Upright(right) => (0, right),
+            Nearby::Level(below) => (1, below),
+            Nearby::Edges => return None,
+        };
+        let mut aside = Vector2::zeros();
+        aside[axis] = 1.0;
+        let on_edge = middle - aside * beyond;
+        Some(Self { one: on_edge - aside * reach, other: on_edge + aside * reach, axis, beyond })
+    }
+
+    /// How much of a parallelogram with these sides lies on the other side. Along the axis it is the
+    /// sum of two uniform distributions, as wide as the sides.
+    fn share_of_other(&self, sides: &[Vector2<f64>; 2]) -> f64 {
+        let (a, b) = (sides[0][self.axis].abs(), sides[1][self.axis].abs());
+        let (wide, narrow) = (a.max(b), a.min(b));
+        let half = 0.5 * (wide + narrow);
+        if self.beyond.abs() >= half {
+            return if self.beyond > 0.0 { 1.0 } else { 0.0 };
+        }
+        if narrow < 1e-6 * wide {
+            return (0.5 + self.beyond / wide).clamp(0.0, 1.0);
+        }
+        let square = |x: f64| x.max(0.0).powi(2);
+        let (far, near) = (half, 0.5 * (wide - narrow));
+        let x = self.beyond;
+        (square(x + far) - square(x + near) - square(x - near)) / (2.0 * wide * narrow)
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! A pixel is the scene, filtered by the optics' point spread `h` and integrated over the pixel's
 //! square: `I = ∫∫ (scene * h)(u, v) du dv + noise`, rounded to what the sensor resolves. The scene is
-//! drawn on cells, 4 x 4 to a pixel (`canvas`), each integrated over its square (exactly inside a
-//! field of one colour, over a Fibonacci lattice across an edge); point spread and sensitive area of
+//! drawn on cells, 4 x 4 to a pixel (`canvas`), each integrated over its square (exactly where no edge or
+//! one straight edge crosses it, else over a Fibonacci lattice); point spread and sensitive area of
 //! a pixel are one kernel on these cells (`psf`).
 
 use nalgebra::{Rotation3, Vector2, Vector3};

@@ -212,30 +212,78 @@ impl Texture {
     /// A lower bound of the distance (m) to the nearest edge of the print.
     pub(crate) fn clearance(&self, at: &Vector2<f64>) -> f64 {
         let q = self.in_cells(at);
-        let to_line = |x: f64| (x - x.round()).abs();
-        let lines = to_line(q.x).min(to_line(q.y));
+        let (x, y) = self.from_lines(&q);
+        let lines = x.abs().min(y.abs());
         let cells = match &self.print {
-            Print::Squares | Print::Tag { .. } => lines,
-            Print::Markers { dictionary, share, .. } => {
-                let n = (dictionary.side() + 2) as f64;
-                let to_bit = |x: f64| {
-                    let bit = ((x - x.floor() - 0.5) / share + 0.5) * n;
-                    (bit - bit.round().clamp(0.0, n)).abs() * share / n
-                };
-                lines.min(to_bit(q.x)).min(to_bit(q.y))
-            }
-            Print::Tags(tags) => tags.clearance(&q).min(self.to_paper(&q)),
-            Print::Discs(discs) => discs.distance(&q).abs().min(self.to_paper(&q)),
+            Print::Discs(discs) => lines.min(discs.distance(&q).abs()),
+            _ => lines,
         };
         cells * self.cell_m
     }
 
-    /// Distance to the lines along the paper's edges, in cells.
-    fn to_paper(&self, q: &Vector2<f64>) -> f64 {
-        let m = self.margin;
-        let to = |x: f64, n: f64| (x + m).abs().min((x - n - m).abs());
-        to(q.x, self.columns).min(to(q.y, self.rows))
+    /// What edges may lie within `reach` (m) of a point.
+    pub(super) fn nearby(&self, at: &Vector2<f64>, reach: f64) -> Nearby {
+        let q = self.in_cells(at);
+        let reach = reach / self.cell_m;
+        let (x, y) = self.from_lines(&q);
+        match (&self.print, x.abs() < reach, y.abs() < reach) {
+            (Print::Discs(discs), _, _) if discs.distance(&q).abs() < reach => Nearby::Edges,
+            (_, false, false) => Nearby::Nothing,
+            (_, true, true) => Nearby::Edges,
+            _ if self.finest() < 2.0 * reach => Nearby::Edges,
+            (_, true, false) => Nearby::Upright(x * self.cell_m),
+            (_, false, true) => Nearby::Level(y * self.cell_m),
+        }
     }
+
+    /// How far a point is to the right of the nearest upright line along which colours may change,
+    /// and how far below the nearest level one, in cells.
+    fn from_lines(&self, q: &Vector2<f64>) -> (f64, f64) {
+        let m = self.margin;
+        let nearest = |x: f64, extent: f64| {
+            let from = |line: f64| x - line;
+            let paper = smaller(from(-m), from(extent + m));
+            match &self.print {
+                Print::Squares | Print::Tag { .. } => from(x.round()),
+                Print::Markers { dictionary, share, .. } => {
+                    let n = (dictionary.side() + 2) as f64;
+                    let bit = ((x - x.floor() - 0.5) / share + 0.5) * n;
+                    smaller(from(x.round()), (bit - bit.round().clamp(0.0, n)) * share / n)
+                }
+                Print::Tags(tags) => smaller(tags.from_line(x), paper),
+                Print::Discs(_) => paper,
+            }
+        };
+        (nearest(q.x, self.columns), nearest(q.y, self.rows))
+    }
+
+    /// Least distance between two lines along which colours may change, in cells.
+    fn finest(&self) -> f64 {
+        match &self.print {
+            Print::Squares | Print::Tag { .. } | Print::Discs(_) => 1.0,
+            Print::Markers { dictionary, share, .. } => {
+                let bit = share / (dictionary.side() + 2) as f64;
+                bit.min(0.5 * (1.0 - share))
+            }
+            Print::Tags(tags) => tags.spacing.min(1.0 / tags.cells()),
+        }
+    }
+}
+
+/// Edges of the print near a point.
+pub(super) enum Nearby {
+    /// None.
+    Nothing,
+    /// One upright line; the point is so far to the right of it, m.
+    Upright(f64),
+    /// One level line; the point is so far below it, m.
+    Level(f64),
+    /// Anything.
+    Edges,
+}
+
+fn smaller(a: f64, b: f64) -> f64 {
+    if a.abs() < b.abs() { a } else { b }
 }
 
 /// A grid of tags with gaps between; lengths in tags, from the outer corner of the gap at the top
@@ -275,18 +323,11 @@ impl Tags {
         })
     }
 
-    fn clearance(&self, q: &Vector2<f64>) -> f64 {
-        let n = self.cells();
-        let along = |x: f64| {
-            let x = self.place(x).1;
-            // the gap before the tag, or the lines between its bits
-            if x < 0.0 {
-                (-x).min((x + self.spacing).abs())
-            } else {
-                (x * n - (x * n).round()).abs() / n
-            }
-        };
-        along(q.x).min(along(q.y))
+    /// How far a coordinate is beyond the nearest line.
+    fn from_line(&self, x: f64) -> f64 {
+        let (n, x) = (self.cells(), self.place(x).1);
+        // the gap before the tag, or the lines between its bits
+        if x < 0.0 { smaller(x, x + self.spacing) } else { (x * n - (x * n).round()) / n }
     }
 }
 
