@@ -116,9 +116,12 @@ fn unusable(path: &Path, failure: &Failure) -> Found {
 /// The camera of `--camera`; a file that does not say its pictures' size has that of the first one.
 fn camera(args: &DetectArgs) -> Result<Option<Intrinsics>, Failure> {
     let Some(file) = &args.camera else { return Ok(None) };
+    let name = args.camera_name.as_deref();
+    if let Ok(camera) = read_intrinsics(file, name, None) {
+        return Ok(Some(camera));
+    }
     let size = args.images.iter().find_map(|image| image_size(image).ok());
-    let said = read_intrinsics(file, args.camera_name.as_deref(), None);
-    Ok(Some(said.or_else(|_| read_intrinsics(file, args.camera_name.as_deref(), size))?))
+    Ok(Some(read_intrinsics(file, name, size)?))
 }
 
 /// What is looked for, and with which camera.

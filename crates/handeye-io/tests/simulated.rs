@@ -134,7 +134,8 @@ fn shift_corners(folder: &Path, by_px: f64) {
 #[test]
 fn imported_corners_that_are_half_a_pixel_off_are_told_the_pixel_origin() {
     let folder = folder("half-pixel");
-    let noise = CellNoise { corner_px: 0.03, ..CellNoise::default() };
+    // narrow views of a small board tell it only where corners are exact
+    let noise = CellNoise { corner_px: 0.005, ..CellNoise::default() };
     let cell = Cell { captures: 25, noise, ..small(Setup::EyeInHand) };
     write(&cell, &folder, false);
     let manifest = folder.join("handeye.toml");

@@ -23,7 +23,7 @@ const LEGEND: Rgb<u8> = Rgb([255, 255, 255]);
 /// Corners should be this far apart in the drawing, px.
 const APART: f64 = 72.0;
 /// Lines are wider by a pixel for every so many between corners.
-const APART_PER_LINE: f64 = 48.0;
+const APART_PER_LINE: f64 = 36.0;
 const WIDEST_LINE: f64 = 6.0;
 /// The drawing is not enlarged beyond this, px, and not by more than the factor.
 const LONGEST: f64 = 4000.0;
