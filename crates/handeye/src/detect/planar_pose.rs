@@ -25,6 +25,7 @@ pub(super) use fit::{Fit, moved};
 pub use start::two_rotations;
 pub use symmetry::{relabelled, symmetry_turn, with_symmetries};
 
+use crate::linalg::median;
 use crate::{Error, ImageCorner, Intrinsics, SurfaceCorner, TargetModel, TargetPose};
 
 /// A pose of the target and how well it explains the picture.
@@ -111,7 +112,6 @@ pub fn typical_excess<'a>(
         let poses = target_poses(corners, &[], target, intrinsics).ok()?;
         poses.first().map(|p| p.excess_px)
     };
-    let mut all: Vec<f64> = pictures.into_iter().filter_map(excess).collect();
-    all.sort_by(f64::total_cmp);
-    (all.len() >= FEWEST_TYPICAL).then(|| all[all.len() / 2])
+    let all: Vec<f64> = pictures.into_iter().filter_map(excess).collect();
+    (all.len() >= FEWEST_TYPICAL).then(|| median(all))
 }
