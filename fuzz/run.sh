@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Feeds every reader and detector with broken input: fuzz/run.sh [SECONDS OF EACH TARGET]
-# Fails where one crashes, takes 20 s or takes 2 GB; that input is then in fuzz/artifacts.
+# Fails where one crashes, takes 20 s or 1.5 GB; that input is then in fuzz/artifacts.
 # Needs a C++ compiler, for libFuzzer.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -28,7 +28,7 @@ for target in image scan camera poses touches manifest detect lift; do
   if ! "$built/$target" "corpus/$target" -artifact_prefix="artifacts/$target/" \
     -max_total_time="$seconds" -max_len=65536 -timeout=20 -rss_limit_mb=1536 \
     -verbosity=0 -print_final_stats=1 >"$log" 2>&1; then
-    tail -n 40 "$log"
+    grep -m 1 -A 60 panicked "$log" || tail -n 40 "$log"
     echo "fuzzing found a fault in $target"
     exit 1
   fi
