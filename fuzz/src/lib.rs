@@ -1,12 +1,11 @@
 //! What the fuzz targets share.
 
-use std::{fs, path::PathBuf, process};
+use std::{env, fs, path::PathBuf, process};
 
-/// A folder in memory where that is to be had, else a temporary one, of this process alone.
+/// The folder that `run.sh` made, else a temporary one of this process alone.
 pub fn folder() -> PathBuf {
-    let memory = PathBuf::from("/dev/shm");
-    let parent = if memory.is_dir() { memory } else { std::env::temp_dir() };
-    let folder = parent.join(format!("handeye-fuzz-{}", process::id()));
+    let own = || env::temp_dir().join(format!("handeye-fuzz-{}", process::id()));
+    let folder = env::var_os("HANDEYE_FUZZ_FOLDER").map_or_else(own, PathBuf::from);
     fs::create_dir_all(&folder).expect("a temporary folder can be made");
     folder
 }

@@ -14,6 +14,7 @@ use handeye::{
     calibration::{CaptureStep, ColourStepResult},
     detect::{self, NotFound, sphere, surface},
     intrinsics, lens,
+    linalg::median,
 };
 
 use crate::{
@@ -187,17 +188,17 @@ fn look_for_ball(dataset: &Dataset, shot: &Shot, diameter_mm: Option<f64>) -> Re
 /// Tells the diameter that the scans find, where none was given.
 fn tell_diameter(dataset: &Dataset, seen: &[Seen], warnings: &mut Vec<Warning>) {
     let unknown = matches!(dataset.target, Some(TargetModel::Sphere { diameter_mm: None }));
-    let mut all: Vec<f64> =
+    let all: Vec<f64> =
         seen.iter().filter_map(|s| Some(s.ball.as_ref()?.diameter_m * 1e3)).collect();
-    all.sort_by(f64::total_cmp);
-    let (Some(least), Some(most), true) = (all.first(), all.last(), unknown) else { return };
+    let fold = |f: fn(f64, f64) -> f64| all.iter().copied().reduce(f);
+    let (Some(least), Some(most), true) = (fold(f64::min), fold(f64::max), unknown) else { return };
     warnings.push(Warning::new(
         "ball-diameter-found",
         format!(
             "no diameter_mm given: {} scans find {:.2} mm (median, from {least:.2} to {most:.2}); \
              declared, it makes the centres surer",
             all.len(),
-            all[all.len() / 2]
+            median(all.iter().copied())
         ),
     ));
 }
@@ -242,9 +243,7 @@ fn settle_step(
 /// Typical standard deviation of a corner along the optical axis, m.
 fn corner_noise(seen: &[Seen]) -> f64 {
     let depth = |c: &SurfaceCorner| c.covariance[(2, 2)].sqrt();
-    let mut all: Vec<f64> = seen.iter().flat_map(|s| &s.surface).map(depth).collect();
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied().unwrap_or(0.0)
+    median(seen.iter().flat_map(|s| &s.surface).map(depth))
 }
 
 fn step_warning(step: &surface::PooledStep, noise: f64) -> Warning {

@@ -7,7 +7,7 @@
 
 use std::path::{Path, PathBuf};
 
-use handeye::Setup;
+use handeye::{Setup, linalg};
 use handeye_io::{Dataset, Error};
 use nalgebra::Vector3;
 
@@ -119,14 +119,13 @@ fn robot_and_board_turn_by_the_same_angles() {
         [("franka_charuco_poses", 0.5), ("camodocal_transpair", 1.5), ("moveit_samples", 1.5)]
     {
         let Some(dataset) = open(set) else { continue };
-        let mut apart: Vec<f64> = Vec::new();
+        let mut apart: Vec<f64> = vec![];
         for pair in dataset.captures.windows(2) {
             let robot = pair[0].base_from_flange.angle_to(&pair[1].base_from_flange);
             let [a, b] = [&pair[0], &pair[1]].map(|c| c.camera_from_target.unwrap());
             apart.push((robot - a.angle_to(&b)).abs().to_degrees());
         }
-        apart.sort_by(f64::total_cmp);
-        let median = apart[apart.len() / 2];
+        let median = linalg::median(apart);
         assert!(median < most_deg, "{set}: {median} deg");
     }
 }

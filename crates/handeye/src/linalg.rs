@@ -189,16 +189,32 @@ fn indices(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(move |j| (0..n).map(move |i| (i, j)))
 }
 
-/// The middle value, the upper one of two; 0 of none.
-pub(crate) fn median(values: impl IntoIterator<Item = f64>) -> f64 {
+/// The middle value, the mean of the middle two of an even number; 0 of none.
+pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut all: Vec<f64> = values.into_iter().collect();
-    let middle = all.len() / 2;
-    if all.is_empty() { 0.0 } else { *all.select_nth_unstable_by(middle, f64::total_cmp).1 }
+    if all.is_empty() {
+        return 0.0;
+    }
+    let (middle, is_odd) = (all.len() / 2, all.len() % 2 == 1);
+    let (below, &mut upper, _) = all.select_nth_unstable_by(middle, f64::total_cmp);
+    let lower = below.iter().copied().max_by(f64::total_cmp).filter(|_| !is_odd);
+    lower.map_or(upper, |lower| 0.5 * (lower + upper))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_median_of_an_even_number_lies_between_the_middle_two() {
+        assert_eq!(median([]), 0.0);
+        assert_eq!(median([3.0]), 3.0);
+        assert_eq!(median([5.0, 1.0]), 3.0);
+        assert_eq!(median([9.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median([9.0, 1.0, 4.0, 2.0]), 3.0);
+        assert_eq!(median([1.0, f64::INFINITY, 2.0]), 2.0);
+        assert_eq!(median([f64::INFINITY, 1.0]), f64::INFINITY);
+    }
 
     /// Small deterministic generator for test matrices.
     fn noise(state: &mut u64) -> f64 {

@@ -7,6 +7,7 @@ use handeye::{
     simulate::{DepthSensor, Optics, Scene},
 };
 use image::{GrayImage as Pixels, ImageBuffer, ImageFormat, Luma};
+use libfuzzer_sys as _; // counts the branches: this program is built as the targets are
 use nalgebra::{Matrix3, Vector3};
 
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/corpus");
@@ -45,7 +46,8 @@ fn picture(target: &TargetModel) -> GrayImage {
 
 fn scans(target: &TargetModel) {
     let scan = scene(target).scan(&DepthSensor::default(), 1);
-    let millimetres: Vec<u8> = scan.points().iter().map(|p| (p[2] * 1e3).min(252.0) as u8).collect();
+    let millimetres: Vec<u8> =
+        scan.points().iter().map(|p| (p[2] * 1e3).min(252.0) as u8).collect();
     put("lift", "board", &[&[SIZE.0 as u8, 0][..], &millimetres].concat());
     let deep: Vec<u16> = scan.points().iter().map(|p| (p[2] * 1e3) as u16).collect();
     let deep = ImageBuffer::<Luma<u16>, _>::from_raw(SIZE.0, SIZE.1, deep).expect("all pixels");
@@ -59,16 +61,27 @@ fn scans(target: &TargetModel) {
     let mut binary = ply.replace("ascii", "binary_little_endian").into_bytes();
     binary.truncate(binary.len() - "1 2 3\n4 5 6\n7 8 9\n".len());
     binary.extend([0x3f; 36]);
-    for (k, name, bytes) in
-        [(0, "ply", ply.as_bytes()), (0, "ply_binary", &binary), (1, "pcd", pcd.as_bytes())]
-    {
+    let mut pcd_binary =
+        pcd.replace("DATA ascii\n1 2 3\n4 5 6\n7 8 9\n", "DATA binary\n").into_bytes();
+    pcd_binary.extend([0x3f; 36]);
+    for (k, name, bytes) in [
+        (0, "ply", ply.as_bytes()),
+        (0, "ply_binary", &binary),
+        (1, "pcd", pcd.as_bytes()),
+        (1, "pcd_binary", &pcd_binary),
+    ] {
         put("scan", name, &[&[k][..], bytes].concat());
     }
-    let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 3), }";
-    let mut npy = b"\x93NUMPY\x01\x00\x46\x00".to_vec();
-    npy.extend(format!("{header:<69}\n").into_bytes());
-    npy.extend([0x3f; 48]);
-    put("scan", "npy", &[&[2][..], &npy].concat());
+    put("scan", "npy", &[&[2][..], &npy("'<f4'", "2, 2, 3", &[0x3f; 48])].concat());
+}
+
+/// A file of numpy.
+fn npy(kind: &str, shape: &str, values: &[u8]) -> Vec<u8> {
+    let header = format!("{{'descr': {kind}, 'fortran_order': False, 'shape': ({shape}), }}");
+    let mut bytes = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    bytes.extend(format!("{header:<117}\n").into_bytes());
+    bytes.extend(values);
+    bytes
 }
 
 fn texts() {
@@ -78,12 +91,19 @@ fn texts() {
     put("camera", "yaml", &[&[0][..], yaml.as_bytes()].concat());
     let ros = "image_width: 640\nimage_height: 480\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [600, 0, 320, 0, 600, 240, 0, 0, 1]\ndistortion_model: plumb_bob\n";
     put("camera", "ros", &[&[0][..], ros.as_bytes()].concat());
+    let xml = "<?xml version=\"1.0\"?><opencv_storage><K type_id=\"opencv-matrix\"><rows>3</rows><cols>3</cols><dt>d</dt><data>600. 0. 320. 0. 600. 240. 0. 0. 1.</data></K><image_width>640</image_width><image_height>480</image_height></opencv_storage>";
+    put("camera", "xml", &[&[2][..], xml.as_bytes()].concat());
     let csv = "id,x,y,z,a,b,c\n01,100,200,300,10,20,30\n02,150,210,280,-10,15,40\n";
     for notation in 0..8 {
         put("poses", &format!("csv{notation}"), &[&[notation, 0][..], csv.as_bytes()].concat());
     }
     let json = r#"[{"id": "01", "x": 1, "y": 2, "z": 3, "a": 1, "b": 2, "c": 3}]"#;
     put("poses", "json", &[&[1, 2][..], json.as_bytes()].concat());
+    let yaml = "01:\n  x: 1\n  y: 2\n  z: 3\n  qx: 0\n  qy: 0\n  qz: 0\n  qw: 1\n";
+    put("poses", "yaml", &[&[5, 3][..], yaml.as_bytes()].concat());
+    let identity: Vec<u8> =
+        (0..16).flat_map(|k| f64::from(u8::from(k % 5 == 0)).to_le_bytes()).collect();
+    put("poses", "npy", &[&[4, 5][..], &npy("'<f8'", "1, 4, 4", &identity)].concat());
     put("touches", "csv", &[&[0][..], b"corner,x,y,z\n0,1,2,3\n5,4,5,6\n"].concat());
     let target = "[target]\nkind = \"checkerboard\"\ncolumns = 4\nrows = 3\nsquare_mm = 10.0\n";
     put("touches", "target", &[&[3][..], target.as_bytes()].concat());

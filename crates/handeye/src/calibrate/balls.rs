@@ -11,6 +11,7 @@ use crate::{
         Answer, BudgetEntry, Calibration, Candidate, Misfit, PoseCovariance, Verdict, rows,
     },
     diagnose, evaluate,
+    linalg::median,
     predict::{self, PredictedTre, Volume},
     solve::points::{self, PointFit, PointView},
     touches,
@@ -148,7 +149,7 @@ fn misfit(values: impl Iterator<Item = f64>) -> Misfit {
 
 fn budget(fit: &PointFit, views: &[PointView]) -> Vec<BudgetEntry> {
     let per_axis = |v: &PointView| (v.covariance.trace() / 3.0).sqrt() * 1e3;
-    let scan = crate::solve::consensus::median(views.iter().map(per_axis).collect());
+    let scan = median(views.iter().map(per_axis));
     let one = |source: &str, mm: f64| BudgetEntry {
         source: source.into(),
         sigma: format!("{mm:.3} mm"),

@@ -6,6 +6,7 @@ use crate::{
     calibration::{Calibration, Verdict},
     diagnose::explain::{self, Fault, Order},
     evaluate,
+    linalg::median,
     solve::consensus::{self, Consensus, Readings},
 };
 
@@ -121,6 +122,6 @@ fn agrees_well(readings: &[Readings], found: &Consensus) -> bool {
         })
         .unzip();
     2 * angles.len() > readings.len()
-        && consensus::median(distances) * 1e3 < IN_ORDER.0
-        && consensus::median(angles).to_degrees() < IN_ORDER.1
+        && median(distances) * 1e3 < IN_ORDER.0
+        && median(angles).to_degrees() < IN_ORDER.1
 }

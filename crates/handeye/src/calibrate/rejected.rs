@@ -15,8 +15,9 @@ use crate::{
     Pose, Target, TargetModel, Warning,
     calibration::Calibration,
     evaluate, lie,
+    linalg::median,
     refine::{JointFit, View},
-    solve::consensus::{Consensus, median},
+    solve::consensus::Consensus,
 };
 
 /// Squared distance that six axes of noise reach once in a hundred times.

@@ -11,7 +11,9 @@ use super::Session;
 use crate::{
     ImageCorner, Intrinsics, Pose, SurfaceCorner, TargetModel, TargetPose, Warning,
     calibration::{Calibration, Verdict},
-    detect, lie, register,
+    detect, lie,
+    linalg::median,
+    register,
 };
 
 /// What a target pose is made from.
@@ -145,7 +147,6 @@ fn gap(session: &Session, target: &TargetModel, camera: &Intrinsics) -> (f64, f6
             picture.iter().map(apart).min_by(|a, b| a.0.total_cmp(&b.0))
         })
         .unzip();
-    let median = crate::solve::consensus::median;
     (median(angles), median(distances))
 }
 

@@ -11,9 +11,8 @@ use super::{agreement::Views, boards::Boards};
 use crate::{
     TargetModel, Warning,
     calibration::{Calibration, Verdict},
-    linalg,
+    linalg::{self, median},
     refine::{JointFit, Problem, TouchedBoard},
-    solve::consensus::median,
 };
 
 /// Largest offset of a tip that is still taken for one, m.
@@ -93,7 +92,7 @@ pub(super) fn find(
         }
         return found;
     }
-    let off = median(all.iter().map(|e| e.misfit.norm()).collect());
+    let off = median(all.iter().map(|e| e.misfit.norm()));
     let check = if off > OTHER_UNIT {
         "check the length unit of [touches], the same for every column, and that they are in the \
          robot's base"

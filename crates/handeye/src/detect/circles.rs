@@ -18,7 +18,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::board::NotFound;
 use super::pyramid::Scaled;
-use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel};
+use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel, linalg::median};
 use blobs::Blob;
 use ellipse::{Ellipse, Rough};
 use lattice::{Board, Lattice};
@@ -239,14 +239,12 @@ impl Sheet<'_> {
             .collect();
         let size = (self.image.width(), self.image.height());
         let view = View::fit(&sightings?, size, self.camera)?;
-        let mut radii: Vec<f64> = ellipses
+        let radii: Vec<f64> = ellipses
             .iter()
             .filter(|(id, _)| self.board.larger() != Some(**id))
             .filter_map(|(id, ellipse)| self.radius_of(&view, &self.on_board(*id)?, ellipse))
             .collect();
-        radii.sort_by(f64::total_cmp);
-        let median = radii.get(radii.len() / 2).copied()?;
-        Some((view, median))
+        (!radii.is_empty()).then(|| (view, median(radii)))
     }
 
     /// The radius with which a circle is seen as large as it is.

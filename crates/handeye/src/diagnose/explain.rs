@@ -29,9 +29,10 @@ use super::{
 };
 use crate::{
     HandEye, PosePair, lie,
+    linalg::median,
     solve::{
         self, Method,
-        consensus::{self, Consensus, Readings, median},
+        consensus::{self, Consensus, Readings},
         motions,
     },
 };
@@ -193,8 +194,8 @@ fn score(captures: &[Readings], hand_eye: &HandEye, found: &Consensus) -> Score 
         .collect();
     Score {
         score: combined(&errors),
-        rotation_deg: median(errors.iter().map(|e| e.0).collect()).to_degrees(),
-        translation_mm: median(errors.iter().map(|e| e.1).collect()) * 1e3,
+        rotation_deg: median(errors.iter().map(|e| e.0)).to_degrees(),
+        translation_mm: median(errors.iter().map(|e| e.1)) * 1e3,
         agree: found.agrees.iter().filter(|a| **a).count(),
     }
 }
@@ -265,7 +266,7 @@ fn angle_misfit(captures: &[Readings]) -> f64 {
         });
         turns.map(|camera| (robot - camera).abs()).reduce(f64::min)
     };
-    median(all.iter().step_by(step).filter_map(misfit).collect())
+    median(all.iter().step_by(step).filter_map(misfit))
 }
 
 /// Median misfit of both invariants, in units of the score, with picture `i` at robot pose
@@ -288,7 +289,7 @@ fn invariant_misfit(captures: &[Readings], order: Order) -> f64 {
         let pitch = pitch(&wa, &m.a.translation.vector) - pitch(&wb, &m.b.translation.vector);
         angle.hypot(pitch / UNIT_DISTANCE)
     };
-    median(motions::motions(&pairs).iter().map(misfit).collect())
+    median(motions::motions(&pairs).iter().map(misfit))
 }
 
 /// Orders that are fitted in full, best invariants first.

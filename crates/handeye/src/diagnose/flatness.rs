@@ -21,7 +21,7 @@ use nalgebra::{Matrix3, Matrix6, Point3, Vector2, Vector3, Vector6};
 use crate::{
     chance,
     detect::surface::{MAD, tukey},
-    solve::consensus::median,
+    linalg::median,
 };
 
 /// A corner in a scan: its place on the board (m), in the camera (m), and covariance (m²).
@@ -127,7 +127,7 @@ pub fn flatness(captures: &[Vec<Felt>]) -> Option<Flatness> {
     };
     let board = bend(&curvature, &(covariance * excess), &places, &scale, (rms_m, chance));
     let captures = surfaces.iter().map(|s| s.as_ref().and_then(|s| own_bend(s, &scale))).collect();
-    let variances = all.iter().flat_map(|s| s.deviations.iter().map(|d| d.2)).collect();
+    let variances = all.iter().flat_map(|s| s.deviations.iter().map(|d| d.2));
     Some(Flatness { board, captures, map, corner_sigma_m: median(variances).sqrt() })
 }
 
@@ -167,7 +167,7 @@ fn surface(corners: &[Felt], scale: &Scale) -> Option<Surface> {
         found = (a, a.cholesky()?.solve(&b));
         let off: Vec<f64> =
             heights.iter().map(|(row, h, v)| (h - row.dot(&found.1)) / v.sqrt()).collect();
-        let scatter = (median(off.iter().map(|o| o.abs()).collect()) / MAD).max(1.0);
+        let scatter = (median(off.iter().map(|o| o.abs())) / MAD).max(1.0);
         excess = scatter * scatter;
         let reweighted = off.iter().zip(&heights).map(|(o, h)| tukey(o / scatter) / h.2);
         weights = reweighted.collect();

@@ -12,6 +12,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use crate::{
     HandEye, Pose, PosePair, Setup, Target, chance,
     detect::sight::{CAMERA, Sight, TARGET_SCALE},
+    linalg::median,
     predict,
     refine::{self, Extra, ExtraKind, JointFit, Problem, View, noise::KnownNoise},
     solve::{
@@ -89,8 +90,8 @@ fn evidence(captures: &[Readings], found: &Consensus, convention: Convention) ->
     Evidence {
         convention,
         agree: found.agrees.iter().filter(|a| **a).count(),
-        median_m: consensus::median(loops.iter().map(|e| e.translation().norm()).collect()),
-        median_rad: consensus::median(loops.iter().map(|e| e.iso().rotation.angle()).collect()),
+        median_m: median(loops.iter().map(|e| e.translation().norm())),
+        median_rad: median(loops.iter().map(|e| e.iso().rotation.angle())),
     }
 }
 

@@ -6,7 +6,8 @@ use super::{
 };
 use crate::{
     HandEye, PosePair,
-    solve::consensus::{Consensus, Readings, median},
+    linalg::median,
+    solve::consensus::{Consensus, Readings},
 };
 
 /// Captures beyond the agreement: exchanged, or from before or after something moved.
@@ -59,7 +60,7 @@ fn exchanged_back(
 
 /// Misfit that still belongs: several times the median of those that agree. rad and m.
 fn limits(captures: &[Readings], found: &Consensus) -> (f64, f64) {
-    let (angles, distances) = (0..captures.len())
+    let (angles, distances): (Vec<f64>, Vec<f64>) = (0..captures.len())
         .filter(|&i| found.agrees[i] && !captures[i].camera_from_target.is_empty())
         .map(|i| {
             let e = found.hand_eye.loop_error(&pair(&captures[i], found.reading[i]));

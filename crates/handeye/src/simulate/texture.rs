@@ -212,7 +212,7 @@ impl Texture {
     /// A lower bound of the distance (m) to the nearest edge of the print.
     pub(crate) fn clearance(&self, at: &Vector2<f64>) -> f64 {
         let q = self.in_cells(at);
-        let (x, y) = self.from_lines(&q);
+        let (x, y) = self.beyond_lines(&q);
         let lines = x.abs().min(y.abs());
         let cells = match &self.print {
             Print::Discs(discs) => lines.min(discs.distance(&q).abs()),
@@ -225,7 +225,7 @@ impl Texture {
     pub(super) fn nearby(&self, at: &Vector2<f64>, reach: f64) -> Nearby {
         let q = self.in_cells(at);
         let reach = reach / self.cell_m;
-        let (x, y) = self.from_lines(&q);
+        let (x, y) = self.beyond_lines(&q);
         match (&self.print, x.abs() < reach, y.abs() < reach) {
             (Print::Discs(discs), _, _) if discs.distance(&q).abs() < reach => Nearby::Edges,
             (_, false, false) => Nearby::Nothing,
@@ -238,7 +238,7 @@ impl Texture {
 
     /// How far a point is to the right of the nearest upright line along which colours may change,
     /// and how far below the nearest level one, in cells.
-    fn from_lines(&self, q: &Vector2<f64>) -> (f64, f64) {
+    fn beyond_lines(&self, q: &Vector2<f64>) -> (f64, f64) {
         let m = self.margin;
         let nearest = |x: f64, extent: f64| {
             let from = |line: f64| x - line;
@@ -250,7 +250,7 @@ impl Texture {
                     let bit = ((x - x.floor() - 0.5) / share + 0.5) * n;
                     smaller(from(x.round()), (bit - bit.round().clamp(0.0, n)) * share / n)
                 }
-                Print::Tags(tags) => smaller(tags.from_line(x), paper),
+                Print::Tags(tags) => smaller(tags.beyond_line(x), paper),
                 Print::Discs(_) => paper,
             }
         };
@@ -324,7 +324,7 @@ impl Tags {
     }
 
     /// How far a coordinate is beyond the nearest line.
-    fn from_line(&self, x: f64) -> f64 {
+    fn beyond_line(&self, x: f64) -> f64 {
         let (n, x) = (self.cells(), self.place(x).1);
         // the gap before the tag, or the lines between its bits
         if x < 0.0 { smaller(x, x + self.spacing) } else { (x * n - (x * n).round()) / n }

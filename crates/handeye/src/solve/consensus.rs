@@ -18,6 +18,7 @@
 
 use crate::{
     Anchor, Camera, Error, HandEye, Mount, Pose, PosePair, Target,
+    linalg::median,
     refine::{View, fit_fixed_weights},
     solve::{self, FEWEST_POSES, Method, few_axes, graduated::graduated, half_turns, motions},
 };
@@ -275,17 +276,6 @@ fn settle(captures: &[Readings], hand_eye: HandEye) -> (Consensus, (f64, f64)) {
         agrees: parts.iter().map(agrees).collect(),
     };
     (found, (sigma_r, sigma_t))
-}
-
-/// The middle value; 0 of none.
-pub(crate) fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let n = values.len();
-    match n {
-        0 => 0.0,
-        _ if n % 2 == 1 => values[n / 2],
-        _ => 0.5 * (values[n / 2 - 1] + values[n / 2]),
-    }
 }
 
 #[cfg(test)]

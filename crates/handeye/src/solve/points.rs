@@ -18,8 +18,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, SVector, Vector3, Vector6};
 
-use super::consensus::median;
-use crate::{Anchor, Camera, Error, Mount, Point, Pose, lie, simulate::Random};
+use crate::{Anchor, Camera, Error, Mount, Point, Pose, lie, linalg::median, simulate::Random};
 
 /// One capture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,7 +100,8 @@ impl State {
 /// Finds the camera and the point.
 ///
 /// # Errors
-/// [`Error::TooFewPoses`] below four captures.
+/// [`Error::TooFewPoses`] below four captures; [`Error::NotDetermined`] where no camera explains
+/// them.
 pub fn fit_points(views: &[PointView]) -> Result<PointFit, Error> {
     if views.len() < FEWEST {
         let advice = "take 10 to 15, the robot turned about two axes between them".into();
@@ -176,7 +176,7 @@ fn consensus(views: &[PointView], agrees: &mut [bool]) -> Result<State, Error> {
         return from_all_starts(views).ok_or_else(undetermined);
     }
     let mut random = Random::new(views.len() as u64);
-    let off = |s: &State| median(views.iter().map(|v| s.misfit(v).norm()).collect());
+    let off = |s: &State| median(views.iter().map(|v| s.misfit(v).norm()));
     let trial = |_| {
         let mut order: Vec<usize> = (0..views.len()).collect();
         for k in 0..TRIAL.0 {

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     Point, Scan,
     detect::surface::{MAD, TUKEY, TUKEY_COST, inflation, tukey},
-    solve::consensus::median,
+    linalg::median,
 };
 
 /// Whether the diameter is known.
@@ -62,7 +62,7 @@ impl Fit {
         for round in 0..ROUNDS {
             let rows: Vec<_> = seen.iter().filter_map(|s| row(s, &sphere)).collect();
             let off = rows.iter().map(|r| r.1.abs()).filter(|e| *e < FAR * sphere.radius);
-            let spread = median(off.collect()) / MAD;
+            let spread = median(off) / MAD;
             let least = LEAST_SCATTER * sphere.centre.norm();
             scatter = spread.min(if round < 2 { f64::INFINITY } else { 1.5 * scatter }).max(least);
             let (mut a, mut b) = (Matrix4::<f64>::zeros(), Vector4::zeros());

@@ -25,8 +25,8 @@ use super::{
     step::Step,
 };
 use crate::{
-    ImageCorner, SurfaceCorner, TargetModel, detect::homography, simulate::texture::Texture,
-    solve::consensus::median,
+    ImageCorner, SurfaceCorner, TargetModel, detect::homography, linalg::median,
+    simulate::texture::Texture,
 };
 
 /// What the colours of a print say in one capture.
@@ -148,11 +148,11 @@ fn combined(steps: &[(f64, f64)]) -> Option<Step> {
     if steps.len() < FEWEST_CORNERS {
         return None;
     }
-    let mut value = median(steps.iter().map(|s| s.0).collect());
+    let mut value = median(steps.iter().map(|s| s.0));
     let mut sigma = f64::INFINITY;
     for _ in 0..ROUNDS {
         let off = |s: &(f64, f64)| (s.0 - value) / s.1.sqrt();
-        let scale = (median(steps.iter().map(|s| off(s).abs()).collect()) / MAD).max(1.0);
+        let scale = (median(steps.iter().map(|s| off(s).abs())) / MAD).max(1.0);
         let weights: Vec<f64> = steps.iter().map(|s| tukey(off(s) / scale) / s.1).collect();
         let total: f64 = weights.iter().sum();
         if !(total > 0.0 && total.is_finite()) {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 
 use super::{Reason, samples::Sample};
-use crate::{Point, SurfaceCorner, simulate::Random};
+use crate::{Point, SurfaceCorner, linalg::median, simulate::Random};
 
 /// Planes tried by least median of squares: with half the points good, one of eight is.
 const TRIES: usize = 40;
@@ -204,10 +204,8 @@ fn least_median(samples: &[Sample], seed: u64) -> Option<(Vector3<f64>, f64)> {
             continue; // (nearly) on a line
         }
         let plane = a.try_inverse()? * b;
-        let mut off: Vec<f64> =
-            samples.iter().map(|s| (1.0 / s.point.z - row(&s.at).dot(&plane)).abs()).collect();
-        let middle = off.len() / 2;
-        let median = *off.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let off = |s: &&Sample| (1.0 / s.point.z - row(&s.at).dot(&plane)).abs();
+        let median = median(samples.iter().map(off));
         if best.as_ref().is_none_or(|(_, least)| median < *least) {
             best = Some((plane, median));
         }

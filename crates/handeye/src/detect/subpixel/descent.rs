@@ -1,0 +1,175 @@
+//! The fit of the model to a disc, and what it says about the corner.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::disc::Disc;
+use super::model::{Model, Normal, Parameters, place, products, residuals};
+use super::{FittedCorner, RoughCorner};
+
+/// No pixel of a disc is more columns or rows away from its middle.
+const MOST_ACROSS: i32 = 16;
+/// Columns and rows of a square that holds any disc.
+const ACROSS: usize = 2 * MOST_ACROSS as usize + 1;
+/// Most steps of the fit; it usually takes four.
+const MOST_STEPS: usize = 30;
+/// Damping below this hardly shortens a step.
+const FREE: f64 = 0.05;
+/// In a sharpened picture the fit may creep to and fro between pixels, by less than this, px.
+const SETTLED_PX: f64 = 0.03;
+/// Residuals above this share of the contrast are not a corner's.
+const WORST_RESIDUAL: f64 = 0.25;
+/// Rounding to 8 bits alone leaves this variance, grey values squared.
+const ROUNDING_VARIANCE: f64 = 1.0 / 12.0;
+/// Blurs stay in this range (px): a pixel's own square blurs by 0.29, more than the upper bound is
+/// not a corner's. Without the lower bound an edge between two pixels would have no place.
+const BLUR_PX: (f64, f64) = (0.29, 6.0);
+/// The model's own error, px.
+const MODEL_PX: f64 = 1e-3;
+/// Pairs of opposite pixels that tell the noise.
+const FEWEST_PAIRS: f64 = 40.0;
+/// Place and slope of the light: parameters that change sign with half a turn.
+const ODD_PARAMETERS: f64 = 4.0;
+/// A corner with a larger variance (px², both axes) was not measured.
+const UNKNOWN_PX2: f64 = 0.1;
+/// Edges that cross at a smaller angle (rad) do not fix a point.
+const SHALLOWEST_RAD: f64 = 0.15;
+
+impl Disc {
+    /// Levenberg-Marquardt until the corner moves less than `step_px`: parameters, `JᵀJ` and cost
+    /// before the last step.
+    pub fn descend(&self, start: Parameters, step_px: f64) -> Option<(Parameters, Normal, f64)> {
+        let mut at = start;
+        let (mut normal, mut gradient, mut cost) = self.linearise(&at);
+        let mut damping = 1e-3;
+        let mut last_px = f64::INFINITY;
+        for _ in 0..MOST_STEPS {
+            let mut step = damped_step(&normal, &gradient, damping)?;
+            let blur = at[6] + step[6];
+            if blur != clamped(blur) && at[6] == clamped(blur) {
+                // at the end of its range the blur stays, and the others move alone
+                step = damped_step(&without_blur(&normal), &gradient, damping)?;
+                step[6] = 0.0;
+            }
+            let mut next = at + step;
+            next[6] = clamped(next[6]);
+            let length = step[0].hypot(step[1]);
+            if length < step_px && last_px.is_finite() && damping < FREE {
+                return Some((next, normal, cost));
+            }
+            let (n, g, c) = self.linearise(&next);
+            if c.is_finite() && c <= cost {
+                (at, normal, gradient, cost) = (next, n, g, c);
+                damping *= 0.1;
+                last_px = length;
+            } else if damping > 1e6 {
+                return Some((at, normal, cost)); // rounding: no step makes it better
+            } else {
+                damping *= 10.0;
+            }
+        }
+        (last_px < SETTLED_PX).then_some((at, normal, cost))
+    }
+
+    /// Where the corner of these parameters is in the picture.
+    pub fn place(&self, at: &Parameters) -> Vector2<f64> {
+        self.centre + Vector2::new(at[0], at[1])
+    }
+
+    /// From the board's directions and the mean greys of its quadrants.
+    pub fn start(&self, rough: &RoughCorner) -> Parameters {
+        let normal_angle = |along: &Vector2<f64>| along.x.atan2(-along.y);
+        let (t1, t2) = (normal_angle(&rough.along_x), normal_angle(&rough.along_y));
+        let count = self.count as f64;
+        let a = self.each().map(|p| p.2).sum::<f64>() / count;
+        let quadrant = |x: f64, y: f64| {
+            let (d1, d2) = (t1.cos() * x + t1.sin() * y, t2.cos() * x + t2.sin() * y);
+            d1.signum() * d2.signum()
+        };
+        let b = self.each().map(|(x, y, i)| (i - a) * quadrant(x, y)).sum::<f64>() / count;
+        Parameters::from_column_slice(&[0.0, 0.0, t1, t2, a, 1.2 * b, 0.0, 0.0, 0.0])
+    }
+
+    /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
+    fn linearise(&self, at: &Parameters) -> (Normal, Parameters, f64) {
+        let products = products(&Model::new(at), self);
+        let sums = products.map(|lane| lane.iter().map(|v| f64::from(*v)).sum::<f64>());
+        let at = |m: usize, n: usize| sums[place(m.min(n), m.max(n))];
+        (Normal::from_fn(at), Parameters::from_fn(|m, _| at(m, 9)), at(9, 9))
+    }
+
+    /// Variance of what is different on opposite sides of the corner. A crossing of edges looks the
+    /// same after half a turn, whatever blurs it, and what does not change with half a turn does
+    /// not move the corner. `None` where there are few pairs.
+    fn odd_variance(&self, at: &Parameters) -> Option<f64> {
+        let residuals = residuals(&Model::new(at), self);
+        let whole = self.centre.map(f64::round);
+        // columns and rows from a corner of a square that holds the disc
+        let middle = self.centre - whole + Vector2::repeat(MOST_ACROSS as f64 + 0.5);
+        let (column, row) = (middle.x as f32, middle.y as f32);
+        let cell = |k: usize| ((self.x[k] + column) as i32, (self.y[k] + row) as i32);
+        let turned = (self.place(at) * 2.0).map(f64::round) - whole * 2.0;
+        let turned = turned.map(|t| t as i32 + 2 * MOST_ACROSS);
+        let mut square = [[f32::NAN; ACROSS]; ACROSS];
+        let inside = |(i, j): (i32, i32)| {
+            let range = 0..ACROSS as i32;
+            (range.contains(&i) && range.contains(&j)).then_some((i as usize, j as usize))
+        };
+        for k in 0..self.count {
+            let (i, j) = inside(cell(k))?;
+            square[j][i] = residuals[k];
+        }
+        let (mut sum, mut pairs) = (0.0, 0.0);
+        for k in 0..self.count {
+            let (i, j) = cell(k);
+            let opposite = inside((turned.x - i, turned.y - j)).map(|(i, j)| square[j][i]);
+            if let Some(opposite) = opposite.filter(|r| r.is_finite()) {
+                // every pair comes twice
+                sum += 0.25 * f64::from(residuals[k] - opposite).powi(2);
+                pairs += 0.5;
+            }
+        }
+        (pairs >= FEWEST_PAIRS).then(|| sum / (pairs - ODD_PARAMETERS))
+    }
+
+    pub fn judge(&self, at: &Parameters, normal: &Normal, cost: f64) -> Option<FittedCorner> {
+        let freedom = self.count as f64 - 9.0;
+        let odd = self.odd_variance(at);
+        let variance = odd.unwrap_or(cost / freedom).max(ROUNDING_VARIANCE);
+        let blur_px = at[6].exp();
+        let crossing = (at[2] - at[3]).sin().abs();
+        let sound = (cost / freedom).sqrt() < WORST_RESIDUAL * at[5].abs()
+            && blur_px < 0.99 * BLUR_PX.1
+            && crossing > SHALLOWEST_RAD.sin();
+        let inverse = normal.cholesky()?.inverse() * variance;
+        let own = Matrix2::identity() * MODEL_PX.powi(2);
+        let covariance: Matrix2<f64> = inverse.fixed_view::<2, 2>(0, 0).into_owned() + own;
+        let known = covariance.determinant() > 0.0 && covariance.trace() < UNKNOWN_PX2;
+        (sound && known).then(|| FittedCorner {
+            pixel: self.place(at),
+            covariance,
+            blur_px,
+            contrast: 2.0 * at[5].abs(),
+        })
+    }
+}
+
+fn clamped(ln_blur: f64) -> f64 {
+    ln_blur.clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln())
+}
+
+/// Normal equations in which the blur moves nothing.
+fn without_blur(normal: &Normal) -> Normal {
+    let mut without = *normal;
+    for k in (0..9).filter(|k| *k != 6) {
+        (without[(6, k)], without[(k, 6)]) = (0.0, 0.0);
+    }
+    without
+}
+
+fn damped_step(normal: &Normal, gradient: &Parameters, damping: f64) -> Option<Parameters> {
+    let mut damped = *normal;
+    for k in 0..9 {
+        damped[(k, k)] *= 1.0 + damping;
+    }
+    Some(damped.cholesky()?.solve(gradient))
+}
