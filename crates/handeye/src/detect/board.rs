@@ -186,7 +186,7 @@ pub(super) fn search(
 }
 
 /// Longest side of the smallest level, px, at most.
-const COARSEST: usize = 900;
+const COARSEST: usize = 450;
 /// Larger pictures (px) are not doubled: their squares are large enough, and memory is finite.
 const MOST_TO_DOUBLE: usize = 4_000_000;
 

@@ -28,11 +28,7 @@ impl<'a> Scaled<'a> {
         for (row, pair) in
             values.chunks_exact_mut(width.max(1)).zip(self.image.values().chunks_exact(2 * full))
         {
-            let (upper, lower) = pair.split_at(full);
-            let (upper, lower) = (upper.chunks_exact(2), lower.chunks_exact(2));
-            for (out, (u, l)) in row.iter_mut().zip(upper.zip(lower)) {
-                *out = 0.25 * ((u[0] + u[1]) + (l[0] + l[1]));
-            }
+            halve(row, pair.split_at(full));
         }
         let image = GrayImage::new(width, height, values).expect("as many values as pixels");
         Self { image: Cow::Owned(image), factor: 2.0 * self.factor }
@@ -105,6 +101,14 @@ pub fn smoothed(image: &GrayImage) -> GrayImage {
         binomial(out, [at(0), at(1), at(2), at(3), at(4)]);
     }
     GrayImage::new(width, height, values).expect("as many values as pixels")
+}
+
+#[multiversion(targets("x86_64+avx2"))]
+fn halve(row: &mut [f32], (upper, lower): (&[f32], &[f32])) {
+    let (upper, lower) = (upper.as_chunks::<2>().0, lower.as_chunks::<2>().0);
+    for (out, (u, l)) in row.iter_mut().zip(upper.iter().zip(lower)) {
+        *out = 0.25 * ((u[0] + u[1]) + (l[0] + l[1]));
+    }
 }
 
 #[multiversion(targets("x86_64+avx2"))]
