@@ -332,7 +332,8 @@ mod tests {
         let message = art(&board).unwrap_err().to_string();
         assert_eq!(
             message,
-            "target: marker 50 is needed, but the dictionary ends at 49; take a larger one"
+            "target: markers 0 to 71 are needed, but DICT_4X4_50 ends at 49: take fewer markers or a \
+             larger dictionary"
         );
     }
 

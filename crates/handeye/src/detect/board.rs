@@ -6,6 +6,7 @@ use super::coded::{Coded, coded};
 use super::grid::Grid;
 use super::mesh;
 use super::pyramid::{Scaled, smoothed};
+use super::strays::without_strays;
 use super::tag;
 use super::tags;
 use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel};
@@ -151,10 +152,11 @@ pub fn detect_with(
     if target.has_circles() {
         return circles::detect_with(image, target, camera);
     }
-    if let Some(board) = tags::Board::apart(target) {
-        return board?.detect(image);
-    }
-    search(image, target, &|grids| grids)
+    let found = match tags::Board::apart(target) {
+        Some(board) => board?.detect(image),
+        None => search(image, target, &|grids| grids),
+    };
+    without_strays(found, target, (width, height), camera)
 }
 
 /// Looks for a board among the grids of corners of the picture, as far as `free` leaves them.
@@ -175,7 +177,9 @@ pub(super) fn search(
         if improved {
             best = found;
         }
-        if is_complete(&best) || (best.is_ok() && !improved) {
+        // in the smallest pictures markers and small squares may be hard to read
+        let fine = level.image.width().max(level.image.height()) > FINE;
+        if is_complete(&best) || (best.is_ok() && !improved && fine) {
             break;
         }
     }
@@ -187,6 +191,8 @@ pub(super) fn search(
 
 /// Longest side of the smallest level, px, at most.
 const COARSEST: usize = 450;
+/// A board of which a part is found is looked for in larger pictures up to this side, px, at least.
+const FINE: usize = 900;
 /// Larger pictures (px) are not doubled: their squares are large enough, and memory is finite.
 const MOST_TO_DOUBLE: usize = 4_000_000;
 

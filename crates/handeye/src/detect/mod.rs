@@ -24,6 +24,7 @@ pub mod residuals;
 mod several;
 pub mod sight;
 pub mod sphere;
+mod strays;
 pub mod subpixel;
 pub mod surface;
 pub mod tag;

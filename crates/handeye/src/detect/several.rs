@@ -4,6 +4,7 @@ use nalgebra::Vector2;
 
 use super::board::{self, Outcome};
 use super::grid::Grid;
+use super::strays::without_strays;
 use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel};
 
 /// A corner of a grid is one of a board that was found when it lies this near to it, over the least
@@ -30,7 +31,8 @@ pub fn detect_several(
     let mut found: Vec<(usize, Outcome)> = vec![];
     for k in order {
         let outcome = if is_plain(k) && !boards.is_empty() {
-            board::search(image, targets[k], &|grids| free(grids, &boards))
+            let found = board::search(image, targets[k], &|grids| free(grids, &boards));
+            without_strays(found, targets[k], (image.width(), image.height()), camera)
         } else {
             board::detect_with(image, targets[k], camera)
         };
