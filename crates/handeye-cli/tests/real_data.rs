@@ -66,6 +66,13 @@ fn tabb_ds1_from_pictures_without_intrinsics() {
     accepted_within("tabb_ds1", 4.43);
 }
 
+/// Eight pictures of an asymmetric grid of circles.
+#[test]
+fn xema_eih_from_pictures() {
+    let Some(found) = accepted_within("xema_eih", 0.79) else { return };
+    assert!(found.captures.iter().all(|c| c.used && c.corners == 77));
+}
+
 #[test]
 fn ur3_cam1_names_the_two_exchanged_pictures() {
     let Some(found) = accepted_within("ur3_cam1", 3.84) else { return };

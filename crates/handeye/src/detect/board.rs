@@ -100,7 +100,10 @@ pub enum NotFound {
     #[error("unknown marker dictionary {0}")]
     UnknownDictionary(String),
     /// Circles that are not the board.
-    #[error("{found} circles found, but no grid of {columns} x {rows} among them")]
+    #[error(
+        "{found} circles found, but no grid of {columns} x {rows} among them: are columns, rows and the \
+         kind right (circle-grid, asymmetric-circle-grid, modified-circle-grid)?"
+    )]
     NoGrid {
         /// Circles of the largest group.
         found: usize,

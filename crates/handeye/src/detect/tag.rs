@@ -18,7 +18,7 @@ use super::pyramid::{Scaled, smoothed, stretched};
 use crate::{GrayImage, ImageCorner};
 pub(super) use quads::Quad;
 use quads::{area, quads};
-use sides::{Surroundings, approached, refined};
+use sides::{Surroundings, approached, refined, seen_in_part};
 
 /// A cell of the tag (border and bits) must be this large, px.
 const LEAST_CELL_PX: f64 = 1.6;
@@ -224,6 +224,18 @@ impl Level<'_> {
         let original = self.levels.all.last()?;
         let around = Surroundings { bows, ..print.surroundings() };
         refined(&original.image, quad, &around, ROUNDS_WHEN_NEAR)
+    }
+
+    /// The corners of such a quadrilateral that can be seen, where nothing was read in it.
+    pub fn seen_in_part(
+        &self,
+        quad: &Quad,
+        print: &Print,
+        bows: [f64; 4],
+    ) -> [Option<ImageCorner>; 4] {
+        let around = Surroundings { bows, ..print.surroundings() };
+        let original = self.levels.all.last();
+        original.map_or([None; 4], |level| seen_in_part(&level.image, quad, &around))
     }
 }
 

@@ -263,11 +263,30 @@ impl<'a> Board<'a> {
             (*id, SeenTag { quad: corners.each_ref().map(|c| c.pixel), ..near[id] })
         };
         let kept = self.in_place(measured.iter().map(exact).collect());
-        let of_board = |id: &u32| {
-            let ids = self.tags[id].corners;
-            measured[id].map(|c| ImageCorner { id: ids[c.id as usize], ..c })
+        let on_board = |id: u32, c: ImageCorner| ImageCorner {
+            id: self.tags[&id].corners[c.id as usize],
+            ..c
         };
-        kept.keys().flat_map(of_board).collect()
+        let whole = kept.keys().flat_map(|id| measured[id].map(|c| on_board(*id, c)));
+        let in_part = self.unread(&kept).filter_map(|id| {
+            let view = view.as_ref()?;
+            let quad = self.seen_by(view, id)?;
+            Some((id, level.seen_in_part(&quad, &self.print, self.bows(view, id)?)))
+        });
+        let in_part =
+            in_part.flat_map(|(id, corners)| corners.into_iter().flatten().map(move |c| (id, c)));
+        whole.chain(in_part.map(|(id, c)| on_board(id, c))).collect()
+    }
+
+    /// The tags of the board that are not in a group.
+    fn unread<'b>(&'b self, group: &'b Group) -> impl Iterator<Item = u32> + 'b {
+        self.tags.keys().copied().filter(|id| !group.contains_key(id))
+    }
+
+    /// Where a view has a tag.
+    fn seen_by(&self, view: &View, id: u32) -> Option<Quad> {
+        let [a, b, c, d] = self.places(id).map(|p| view.pixel(&(p / self.step)));
+        Some([a?, b?, c?, d?])
     }
 
     /// How the board is seen, lens included, from enough tags.

@@ -157,10 +157,13 @@ impl<'a> Fit<'a> {
         r.dot(&(information * r)).sqrt()
     }
 
-    /// How many times larger residuals are than the covariances say (at least 1), by the median.
+    /// How many times larger residuals are than the covariances say (at least 1), by the median and P.
+    /// Rousseeuw's factor for few corners, whose residuals a pose makes small (*Least median of squares
+    /// regression*, 1984).
     fn median_scale(&self, pose: &Isometry3<f64>) -> f64 {
         let all = self.seen.iter().map(|c| self.distance(pose, c));
-        (median(all) / CHI2_2_MEDIAN.sqrt()).max(1.0)
+        let freedom = (2.0 * self.seen.len() as f64 - 6.0).max(1.0);
+        ((1.0 + 5.0 / freedom) * median(all) / CHI2_2_MEDIAN.sqrt()).max(1.0)
     }
 
     pub fn information(&self, corner: &Seen) -> Matrix2<f64> {

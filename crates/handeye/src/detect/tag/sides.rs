@@ -49,6 +49,14 @@ const WORST_RESIDUAL: f64 = 0.35;
 /// A corner with a larger variance (px², both axes) was not measured.
 const UNKNOWN_PX2: f64 = 1.0;
 
+/// Rounds in which the corners of a tag are measured that is seen in part.
+const ROUNDS_IN_PART: usize = 2;
+/// An edge that wobbles by more than its pixels' noise says, as a factor on the variance, is not a
+/// tag's where nothing else says that there is one.
+const WORST_WOBBLE: f64 = 6.0;
+/// Nor is a corner that lies farther from where it should be, px.
+const OFF_IN_PART_PX: f64 = 1.0;
+
 /// What lies beside a tag's sides.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surroundings {
@@ -118,6 +126,44 @@ pub(super) fn refined(
     let near = |k: usize| inside(&quad[k]) && moved(k) < 2.0 + 0.1 * area(start).sqrt();
     let known = |c: &ImageCorner| c.covariance.trace() < UNKNOWN_PX2;
     ((0..4).all(near) && corners.iter().all(known)).then_some(corners)
+}
+
+/// The corners whose two sides are where `start` has them, of a tag of which a part may be hidden or
+/// too bright. Nothing else says that there is a tag: each side must look like an edge, and lie where
+/// it should.
+pub(super) fn seen_in_part(
+    image: &GrayImage,
+    start: &Quad,
+    around: &Surroundings,
+) -> [Option<ImageCorner>; 4] {
+    let mut quad = *start;
+    let mut corners = [None; 4];
+    let mut blur_px = USUAL_BLUR_PX;
+    for _ in 0..ROUNDS_IN_PART {
+        let one = |k: usize| {
+            let mut line = side(image, &Place::new(&quad, k, around, blur_px), None)?;
+            let wobble = (line.wobble.squares / line.wobble.freedom.max(1.0)).max(1.0);
+            line.covariance *= wobble;
+            (wobble < WORST_WOBBLE).then_some(line)
+        };
+        let sides = [one(0), one(1), one(2), one(3)];
+        let met = |k: usize| {
+            let (a, b) = (sides[(k + 3) % 4].as_ref()?, sides[k].as_ref()?);
+            let corner = meet(k as u32, a, b)?;
+            let near = (corner.pixel - start[k]).norm() < OFF_IN_PART_PX;
+            (near && corner.covariance.trace() < UNKNOWN_PX2).then_some(corner)
+        };
+        corners = [met(0), met(1), met(2), met(3)];
+        quad = std::array::from_fn(|k| corners[k].map_or(start[k], |corner| corner.pixel));
+        let blurs = || sides.iter().flatten().map(|side| side.at[4].exp());
+        blur_px = blurs().sum::<f64>() / blurs().count().max(1) as f64;
+        if corners.iter().all(Option::is_none) {
+            break;
+        }
+    }
+    let size = Vector2::new(image.width() as f64 - 1.0, image.height() as f64 - 1.0);
+    let inside = |p: &Vector2<f64>| p.x > 0.0 && p.y > 0.0 && p.x < size.x && p.y < size.y;
+    corners.map(|corner| corner.filter(|c| inside(&c.pixel)))
 }
 
 /// By how much larger the lines' covariances are than their pixels' noise says: light, print, paper
