@@ -2,15 +2,14 @@
 //!
 //! Patches with the outline of an ellipse (`blobs`) are joined into lattices (`lattice`), and a
 //! lattice is the target if its labels fill it. Each circle's ellipse is then fitted to the picture
-//! (`ellipse`), and the centres of the ellipses are turned into images of the circles' centres
-//! (`view`). A wrong labelling is worse than none: all circles must be found (of a grid with a
+//! (`ellipse`), and the centres of the ellipses are turned into images of the circles' centres by the
+//! view of the board. A wrong labelling is worse than none: all circles must be found (of a grid with a
 //! larger circle, half of them and that one), they must lie where one view of the board puts them,
 //! and be as large as it says.
 
 mod blobs;
 mod ellipse;
 mod lattice;
-pub(super) mod view;
 
 use std::collections::BTreeMap;
 
@@ -18,11 +17,11 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::board::NotFound;
 use super::pyramid::Scaled;
+use super::view::{Sighting, View};
 use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel, linalg::median};
 use blobs::Blob;
 use ellipse::{Ellipse, Rough};
 use lattice::{Board, Lattice};
-use view::{Sighting, View};
 
 /// Larger pictures (px) are looked at halved first.
 const LARGE: usize = 1_600_000;

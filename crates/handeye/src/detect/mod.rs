@@ -29,6 +29,7 @@ pub mod subpixel;
 pub mod surface;
 pub mod tag;
 mod tags;
+mod view;
 
 pub use board::{NotFound, detect, detect_with};
 pub use planar_pose::{

@@ -8,7 +8,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::circles::view::{Sighting, View};
+use super::view::{Sighting, View};
 use crate::linalg::median;
 use crate::{ImageCorner, Intrinsics, TargetModel};
 

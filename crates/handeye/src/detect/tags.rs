@@ -11,10 +11,10 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix2, Vector2};
 
 use super::board::{NotFound, Outcome};
-use super::circles::view::{Sighting, View};
 use super::fits::sorted;
 use super::homography;
 use super::tag::{Level, Levels, Print, Quad, SeenTag};
+use super::view::{Sighting, View};
 use crate::target::PlacedTag;
 use crate::{GrayImage, ImageCorner, TargetModel};
 

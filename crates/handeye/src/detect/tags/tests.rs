@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Vector2, Vector3};
 
 use super::*;
 use crate::detect::detect;
-use crate::simulate::{Conditions, Optics, Random, Scene};
+use crate::simulate::{Conditions, Occlusion, Optics, Random, Scene, Shape};
 use crate::{Camera, Distortion, Intrinsics, Pose, Target};
 
 fn grid(dictionary: &str, tags_x: u32, tags_y: u32) -> TargetModel {
@@ -238,4 +238,30 @@ fn grids_of_tags_are_found_out_of_focus_and_from_the_side() {
         println!("{tilt}: {} corners, {farthest:.3} px", found.len());
         assert!(found.len() >= least && farthest < most, "{tilt}: {} {farthest}", found.len());
     }
+}
+
+#[test]
+fn of_tags_that_are_hidden_in_part_the_corners_in_sight_are_found() {
+    let mut random = Random::new(9);
+    let target = grid("DICT_5X5_100", 6, 5);
+    let mut in_part = 0;
+    for k in 0..4_u32 {
+        let scene = placed(&target, turned(&mut random), 0.45, (0.0, 0.0));
+        let shape = Shape::Side { share: 0.5, towards_rad: 1.3 * f64::from(k) };
+        let occlusion = Some(Occlusion { shape, grey: 150.0, seed: u64::from(k) });
+        let conditions = Conditions { occlusion, ..Conditions::default() };
+        let optics = Optics::default();
+        let image = scene.picture_under(&conditions, &optics, u64::from(k));
+        let found = detect(&image, &target).unwrap();
+        let truth = scene.corners_under(&conditions, &optics);
+        for c in &found {
+            let true_one = truth.iter().find(|t| t.id == c.id).unwrap();
+            let off = (c.pixel - true_one.pixel).norm();
+            assert!(true_one.visible != Some(false) && off < 2.0, "{k} {}: {off}", c.id);
+        }
+        let mut of_tag: BTreeMap<u32, usize> = BTreeMap::new();
+        found.iter().for_each(|c| *of_tag.entry(c.id / 4).or_default() += 1);
+        in_part += of_tag.values().filter(|count| **count < 4).count();
+    }
+    assert!(in_part >= 4, "{in_part} tags seen in part");
 }

@@ -26,7 +26,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, SMatrix, SVector, Vector2};
 use crate::Intrinsics;
 use crate::detect::homography;
 
-/// A circle's centre on the board and in the picture.
+/// A corner, or a circle's centre, on the board and in the picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Sighting {
     /// On the board, in units of its pitch.
