@@ -140,8 +140,8 @@ impl Search<'_> {
             let marks: Vec<Marks> = seen.iter().map(Seen::marks).collect();
             write_atomically(drawing, &drawing::marked(&image, &marks))?;
         }
-        let all: Vec<_> = seen.iter().filter_map(|s| s.residuals.as_deref()).flatten().collect();
-        let all: Vec<_> = all.into_iter().copied().collect();
+        let residuals: Vec<_> =
+            seen.iter().filter_map(|s| s.residuals.as_deref()).flatten().copied().collect();
         let reason = match &seen[..] {
             [one] => one.reason.clone(),
             all if all.iter().all(|s| s.reason.is_some()) => Some("none of the targets".into()),
@@ -152,7 +152,7 @@ impl Search<'_> {
             found: reason.is_none(),
             reason,
             error: None,
-            residual_rms_px: (!all.is_empty()).then(|| residuals::rms(&all)),
+            residual_rms_px: (!residuals.is_empty()).then(|| residuals::rms(&residuals)),
             targets: seen.iter().filter_map(Seen::summary).collect(),
             corners: seen.iter().flat_map(Seen::listed).collect(),
         })

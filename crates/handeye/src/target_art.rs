@@ -145,10 +145,18 @@ fn checkerboard(across: u32, down: u32, side: f64, white_first: bool, origin: (f
 
 /// The markers in the white squares of a ChArUco board.
 fn markers(target: &TargetModel, white_first: bool) -> Result<Vec<Shape>, Error> {
-    let TargetModel::Charuco { squares_x, squares_y, square_mm, marker_mm, .. } = *target else {
+    let &TargetModel::Charuco {
+        squares_x,
+        squares_y,
+        square_mm,
+        marker_mm,
+        ref dictionary,
+        first_id,
+        ..
+    } = target
+    else {
         return Ok(vec![]);
     };
-    let TargetModel::Charuco { dictionary, first_id, .. } = target else { return Ok(vec![]) };
     let dictionary = named(dictionary)?;
     let mut shapes = vec![];
     let inset = 0.5 * (square_mm - marker_mm);

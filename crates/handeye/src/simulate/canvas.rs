@@ -89,19 +89,8 @@ impl Canvas {
         square: &[Vector2<f64>; 4],
     ) {
         let (i, j) = ((u - self.window.left) as usize, (v - self.window.top) as usize);
-        let [a, b, c, d] = square;
-        let at = |x: f64, y: f64| {
-            a * ((1.0 - x) * (1.0 - y)) + b * (x * (1.0 - y)) + c * ((1.0 - x) * y) + d * (x * y)
-        };
-        let reach = 0.6 * (d - a).norm().max((c - b).norm());
-        let (middle, side) = (at(0.5, 0.5), 1.0 / CELLS as f64);
-        // along the picture's rows and columns, in the print
-        let across = [(b + d) - (a + c), (c + d) - (a + b)].map(|v| 0.5 * side * v);
-        let ink = |at: &Vector2<f64>| texture.covers(at).then(|| texture.grey(at, optics));
-        let whole = match Sides::of(texture, &middle, reach) {
-            Some(sides) if ink(&sides.one) == ink(&sides.other) => Some(ink(&sides.one)),
-            _ => None,
-        };
+        let pixel = Pixel::new(texture, optics, square);
+        let whole = pixel.whole();
         if whole == Some(None) {
             return;
         }
@@ -109,22 +98,7 @@ impl Canvas {
             let (column, row) = (k % CELLS, k / CELLS);
             let cell = &mut self.values[(CELLS * j + row) * self.width + CELLS * i + column];
             let behind = f64::from(*cell);
-            let seen = |at: &Vector2<f64>| ink(at).unwrap_or(behind);
-            let (x, y) = (column as f64 * side, row as f64 * side);
-            let grey = whole.flatten().unwrap_or_else(|| {
-                let centre = at(x + 0.5 * side, y + 0.5 * side);
-                if let Some(sides) = Sides::of(texture, &centre, side * reach) {
-                    let (one, other) = (seen(&sides.one), seen(&sides.other));
-                    return one + (other - one) * sides.share_of_other(&across);
-                }
-                let (n, step) = LATTICE;
-                let sample = |s: usize| {
-                    let (p, q) = (s as f64 + 0.5, ((s * step) % n) as f64 + 0.5);
-                    seen(&at(x + side * p / n as f64, y + side * q / n as f64))
-                };
-                (0..n).map(sample).sum::<f64>() / n as f64
-            });
-            *cell = grey as f32;
+            *cell = whole.flatten().unwrap_or_else(|| pixel.cell((column, row), behind)) as f32;
         }
     }
 
@@ -171,6 +145,63 @@ impl Canvas {
             let row = &mut grey[y as usize * width..][left as usize..right as usize];
             row.iter_mut().zip(seen).for_each(|(value, seen)| *value = *seen);
         }
+    }
+}
+
+/// A pixel that sees a part of the print.
+struct Pixel<'a> {
+    texture: &'a Texture,
+    optics: &'a Optics,
+    /// What its corners see, row by row.
+    square: &'a [Vector2<f64>; 4],
+    /// No point of it is farther from its middle, m.
+    reach: f64,
+    /// A cell's sides along the picture's rows and columns, in the print, m.
+    sides: [Vector2<f64>; 2],
+}
+
+impl<'a> Pixel<'a> {
+    fn new(texture: &'a Texture, optics: &'a Optics, square: &'a [Vector2<f64>; 4]) -> Self {
+        let [a, b, c, d] = square;
+        let reach = 0.6 * (d - a).norm().max((c - b).norm());
+        let sides = [(b + d) - (a + c), (c + d) - (a + b)].map(|v| v * (0.5 / CELLS as f64));
+        Self { texture, optics, square, reach, sides }
+    }
+
+    /// The point of the print at a place in the pixel, from (0, 0) to (1, 1).
+    fn at(&self, x: f64, y: f64) -> Vector2<f64> {
+        let [a, b, c, d] = self.square;
+        a * ((1.0 - x) * (1.0 - y)) + b * (x * (1.0 - y)) + c * ((1.0 - x) * y) + d * (x * y)
+    }
+
+    /// `None` beside the paper.
+    fn ink(&self, at: &Vector2<f64>) -> Option<f64> {
+        self.texture.covers(at).then(|| self.texture.grey(at, self.optics))
+    }
+
+    /// What it sees if it sees the same everywhere.
+    fn whole(&self) -> Option<Option<f64>> {
+        let sides = Sides::of(self.texture, &self.at(0.5, 0.5), self.reach)?;
+        let (one, other) = (self.ink(&sides.one), self.ink(&sides.other));
+        (one == other).then_some(one)
+    }
+
+    /// The mean over a cell; `behind` is seen beside the paper.
+    fn cell(&self, (column, row): (usize, usize), behind: f64) -> f64 {
+        let seen = |at: &Vector2<f64>| self.ink(at).unwrap_or(behind);
+        let side = 1.0 / CELLS as f64;
+        let (x, y) = (column as f64 * side, row as f64 * side);
+        let centre = self.at(x + 0.5 * side, y + 0.5 * side);
+        if let Some(sides) = Sides::of(self.texture, &centre, side * self.reach) {
+            let (one, other) = (seen(&sides.one), seen(&sides.other));
+            return one + (other - one) * sides.share_of_other(&self.sides);
+        }
+        let (n, step) = LATTICE;
+        let sample = |s: usize| {
+            let (p, q) = (s as f64 + 0.5, ((s * step) % n) as f64 + 0.5);
+            seen(&self.at(x + side * p / n as f64, y + side * q / n as f64))
+        };
+        (0..n).map(sample).sum::<f64>() / n as f64
     }
 }
 
@@ -279,4 +310,29 @@ impl Planes {
 
 fn add(row: &mut [f32], values: &[f32], weight: f32) {
     row.iter_mut().zip(values).for_each(|(out, value)| *out += weight * value);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_beyond_an_edge_is_that_of_many_points() {
+        let sides = [Vector2::new(0.8, 0.3), Vector2::new(-0.5, 0.9)];
+        let upright = [Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0)];
+        for sides in [sides, upright] {
+            for (axis, beyond) in [(0, -0.7), (0, -0.3), (0, 0.0), (1, 0.12), (1, 0.45), (1, 2.0)] {
+                let n = 400;
+                let middle = |k: usize| (k as f64 + 0.5) / n as f64 - 0.5;
+                let is_other = |k: &usize| {
+                    let at = sides[0] * middle(k % n) + sides[1] * middle(k / n);
+                    at[axis] + beyond > 0.0
+                };
+                let counted = (0..n * n).filter(is_other).count() as f64 / (n * n) as f64;
+                let (one, other) = (Vector2::zeros(), Vector2::zeros());
+                let share = Sides { one, other, axis, beyond }.share_of_other(&sides);
+                assert!((share - counted).abs() < 3e-3, "{axis} {beyond}: {share} {counted}");
+            }
+        }
+    }
 }

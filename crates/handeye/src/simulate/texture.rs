@@ -403,7 +403,7 @@ mod tests {
                 marker_mm: 15.0,
                 dictionary: dictionary(),
                 legacy: true,
-                first_id: 0,
+                first_id: 30,
             },
             TargetModel::Tag { dictionary: dictionary(), id: 3, size_mm: 60.0 },
             TargetModel::CircleGrid { columns, rows, pitch_mm },
