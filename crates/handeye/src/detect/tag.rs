@@ -3,8 +3,9 @@
 //! Pixels darker than their surroundings form patches; the convex hull of a tag's black border is a
 //! quadrilateral (`quads`), and the bits inside say which tag it is, and how it is turned. That
 //! happens in the picture made small first. In the picture itself the four sides are measured
-//! (`sides`); they meet in the corners.
+//! (`edge`); they meet in the corners (`sides`).
 
+mod edge;
 mod patches;
 mod quads;
 mod sides;
@@ -16,9 +17,10 @@ use super::homography;
 use super::markers::{self, Dictionary};
 use super::pyramid::{Scaled, smoothed, stretched};
 use crate::{GrayImage, ImageCorner};
+use edge::Surroundings;
 pub(super) use quads::Quad;
 use quads::{area, quads};
-use sides::{Surroundings, approached, refined, seen_in_part};
+use sides::{approached, refined, seen_in_part};
 
 /// A cell of the tag (border and bits) must be this large, px.
 const LEAST_CELL_PX: f64 = 1.6;
