@@ -15,6 +15,7 @@ mod erf;
 mod fits;
 mod grid;
 pub mod homography;
+mod levenberg;
 pub mod markers;
 mod mesh;
 mod partial;

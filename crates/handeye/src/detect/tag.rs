@@ -3,12 +3,14 @@
 //! Pixels darker than their surroundings form patches; the convex hull of a tag's black border is a
 //! quadrilateral (`quads`), and the bits inside say which tag it is, and how it is turned. That
 //! happens in the picture made small first. In the picture itself the four sides are measured
-//! (`edge`); they meet in the corners (`sides`).
+//! (`edge`); they meet in the corners (`sides`). Where blur does not leave the sides alone, the tag is
+//! measured with all its bits (`whole`).
 
 mod edge;
 mod patches;
 mod quads;
 mod sides;
+mod whole;
 
 use nalgebra::{Matrix3, Vector2};
 
@@ -17,10 +19,11 @@ use super::homography;
 use super::markers::{self, Dictionary};
 use super::pyramid::{Scaled, smoothed, stretched};
 use crate::{GrayImage, ImageCorner};
-use edge::Surroundings;
+use edge::{Surroundings, is_crowded};
 pub(super) use quads::Quad;
 use quads::{area, quads};
 use sides::{approached, refined, seen_in_part};
+use whole::Pattern;
 
 /// A cell of the tag (border and bits) must be this large, px.
 const LEAST_CELL_PX: f64 = 1.6;
@@ -33,6 +36,8 @@ const MOST_WRONG: f64 = 0.12;
 /// Rounds in which corners are measured, from a pixel away and from some tenths of one.
 const ROUNDS: usize = 3;
 const ROUNDS_WHEN_NEAR: usize = 2;
+/// Blur of a tag whose sides were not found, in cells.
+const BLURRED_CELLS: f64 = 0.25;
 /// Longest side of the smallest picture that is searched, px, at most.
 const COARSEST: usize = 900;
 
@@ -45,7 +50,8 @@ pub fn detect(image: &GrayImage, name: &str, id: u32) -> Result<Vec<ImageCorner>
     let mut blurred = false;
     let corners = Levels::new(image).search(|level, clear| {
         let best = best(print.read_all(level.image(), clear, [id]))?;
-        let corners = level.refined(&level.original(&best.quad), &print);
+        let quad = level.original(&best.quad);
+        let corners = level.refined(&SeenTag { quad, ..best }, &print);
         blurred |= corners.is_none();
         corners
     });
@@ -109,6 +115,39 @@ impl Print {
         let cells = self.cells() as f64;
         let clear = (self.white * cells).min(self.border as f64);
         Surroundings { cells, clear, bows: [0.0; 4] }
+    }
+
+    fn pattern(&self, id: u32) -> Pattern {
+        let cells = self.cells();
+        let black = |row: usize, column: usize| {
+            let inside = row < cells && column < cells;
+            let at = (column, row);
+            inside && self.dictionary.is_cell_black(id, self.border as u32, false, at)
+        };
+        let cell = |row: usize, column: usize| f32::from(u8::from(black(row, column)));
+        let row = |row: usize| std::array::from_fn(|column| cell(row, column));
+        Pattern { cells, black: std::array::from_fn(row), white: self.white * cells as f64 }
+    }
+
+    /// The corners of a tag by its sides, or by all of it where these are not alone.
+    fn measure(
+        &self,
+        image: &GrayImage,
+        tag: &SeenTag,
+        bows: [f64; 4],
+        rounds: usize,
+    ) -> Option<[ImageCorner; 4]> {
+        let around = Surroundings { bows, ..self.surroundings() };
+        let sides = refined(image, &tag.quad, &around, rounds);
+        let cell = tag.area().sqrt() / around.cells;
+        let (quad, blur_px) = match &sides {
+            Some(found) if !is_crowded(&found.quad(), &around, found.blur_px) => {
+                return Some(found.corners);
+            }
+            Some(found) => (found.quad(), found.blur_px),
+            None => (tag.quad, BLURRED_CELLS * cell),
+        };
+        whole::fit(image, &quad, &self.pattern(tag.id), bows, blur_px)
     }
 
     /// All tags with one of `ids` in a picture, once for each dark patch. Patches are looked for in
@@ -207,11 +246,11 @@ impl Level<'_> {
         quad.each_ref().map(|p| self.scaled().reduced(p))
     }
 
-    /// The corners of a quadrilateral of the original, measured in the original.
-    pub fn refined(&self, quad: &Quad, print: &Print) -> Option<[ImageCorner; 4]> {
+    /// The corners of a tag of the original, measured in the original.
+    fn refined(&self, tag: &SeenTag, print: &Print) -> Option<[ImageCorner; 4]> {
         let (original, smaller) = self.levels.all[self.at..].split_last()?;
-        let near = nearer(quad, smaller, print);
-        refined(&original.image, &near, &print.surroundings(), ROUNDS)
+        let quad = nearer(&tag.quad, smaller, print);
+        print.measure(&original.image, &SeenTag { quad, ..*tag }, [0.0; 4], ROUNDS)
     }
 
     /// The corners of a quadrilateral that was approached here, to some tenths of the original's
@@ -220,12 +259,14 @@ impl Level<'_> {
         nearer(quad, &self.levels.all[self.at + 1..], print)
     }
 
-    /// The corners of a quadrilateral of the original that is near already; the lens bends its
-    /// sides by `bows`.
-    pub fn measured(&self, quad: &Quad, print: &Print, bows: [f64; 4]) -> Option<[ImageCorner; 4]> {
-        let original = self.levels.all.last()?;
-        let around = Surroundings { bows, ..print.surroundings() };
-        refined(&original.image, quad, &around, ROUNDS_WHEN_NEAR)
+    /// The corners of a tag of the original that is near already; the lens bends its sides by `bows`.
+    pub fn measured(
+        &self,
+        tag: &SeenTag,
+        print: &Print,
+        bows: [f64; 4],
+    ) -> Option<[ImageCorner; 4]> {
+        print.measure(&self.levels.all.last()?.image, tag, bows, ROUNDS_WHEN_NEAR)
     }
 
     /// The corners of such a quadrilateral that can be seen, where nothing was read in it.

@@ -256,7 +256,7 @@ impl<'a> Board<'a> {
         let view = self.view(image, &near);
         let measure = |tag: &SeenTag| {
             let bows = view.as_ref().and_then(|view| self.bows(view, tag.id)).unwrap_or_default();
-            Some((tag.id, level.measured(&tag.quad, &self.print, bows)?))
+            Some((tag.id, level.measured(tag, &self.print, bows)?))
         };
         let measured: BTreeMap<u32, [ImageCorner; 4]> = near.values().filter_map(measure).collect();
         let exact = |(id, corners): (&u32, &[ImageCorner; 4])| {

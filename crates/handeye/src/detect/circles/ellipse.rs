@@ -22,6 +22,7 @@ use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 use crate::GrayImage;
 use crate::detect::erf::erf;
+use crate::detect::levenberg::{Descent, Linearised, descend};
 
 /// An ellipse known to about a pixel.
 #[derive(Debug, Clone, Copy)]
@@ -56,8 +57,6 @@ const REACH: f64 = 0.65;
 const MOST_PIXELS: (usize, usize) = (300, 1200);
 /// Fewer do not determine ten parameters.
 const FEWEST_PIXELS: usize = 24;
-/// Most steps of a fit; it usually takes four.
-const MOST_STEPS: usize = 25;
 /// A fit has converged when the centre moves less than this, px.
 const STEP_PX: (f64, f64) = (0.05, 2e-3);
 /// Blur before it is measured, px.
@@ -85,7 +84,7 @@ type Normal = SMatrix<f64, 10, 10>;
 /// Fits the ellipse; `None` where there is none.
 pub(super) fn fit(image: &GrayImage, rough: &Rough) -> Option<Ellipse> {
     let first = Ring::gather(image, rough, FIRST_RING_PX, MOST_PIXELS.0)?;
-    let (near, ..) = first.descend(first.start(rough)?, STEP_PX.0)?;
+    let near = first.descend(first.start(rough)?, STEP_PX.0)?.at;
     let found =
         Rough { centre: first.centre + near.fixed_rows::<2>(0), shape: shape(&near)?, ..*rough };
     similar(rough, &found)?;
@@ -93,7 +92,7 @@ pub(super) fn fit(image: &GrayImage, rough: &Rough) -> Option<Ellipse> {
     let ring = Ring::gather(image, &found, width, MOST_PIXELS.1)?;
     let mut start = near;
     start.fixed_rows_mut::<2>(0).fill(0.0);
-    let (at, normal, cost) = ring.descend(start, STEP_PX.1)?;
+    let Descent { at, normal, cost, .. } = ring.descend(start, STEP_PX.1)?;
     let ellipse = ring.judge(&at, &normal, cost, rough.dark)?;
     similar(rough, &Rough { centre: ellipse.centre, shape: ellipse.shape, ..*rough })?;
     Some(ellipse)
@@ -193,34 +192,15 @@ impl Ring {
         ]))
     }
 
-    /// Levenberg-Marquardt until the centre moves less than `step_px`: parameters, `JᵀJ` and cost.
-    fn descend(&self, start: Parameters, step_px: f64) -> Option<(Parameters, Normal, f64)> {
-        let mut at = start;
-        let (mut normal, mut gradient, mut cost) = self.linearise(&at)?;
-        let mut damping = 1e-3;
-        for _ in 0..MOST_STEPS {
-            let mut damped = normal;
-            (0..10).for_each(|k| damped[(k, k)] *= 1.0 + damping);
-            let step = damped.cholesky()?.solve(&gradient);
-            let mut next = at + step;
-            next[7] = next[7].clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln());
-            match self.linearise(&next) {
-                Some((n, g, c)) if c <= cost => {
-                    (at, normal, gradient, cost) = (next, n, g, c);
-                    damping *= 0.1;
-                    if step[0].hypot(step[1]) < step_px {
-                        return Some((at, normal, cost));
-                    }
-                }
-                _ if damping > 1e6 => return Some((at, normal, cost)), // rounding
-                _ => damping *= 10.0,
-            }
-        }
-        None
+    /// Until the centre moves less than `step_px`: parameters, `JᵀJ` and cost.
+    fn descend(&self, start: Parameters, step_px: f64) -> Option<Descent<10>> {
+        let possible = |at: &mut Parameters| at[7] = at[7].clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln());
+        let short = |step: &Parameters| step[0].hypot(step[1]) < step_px;
+        descend(start, |at| self.linearise(at), possible, short).filter(|found| found.settled)
     }
 
     /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
-    fn linearise(&self, at: &Parameters) -> Option<(Normal, Parameters, f64)> {
+    fn linearise(&self, at: &Parameters) -> Option<Linearised<10>> {
         let model = Model::new(at)?;
         let (mut normal, mut gradient, mut cost) = ([[0.0; 10]; 10], [0.0; 10], 0.0);
         for &(x, y, grey) in &self.pixels {

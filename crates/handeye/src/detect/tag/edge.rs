@@ -14,6 +14,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::quads::Quad;
 use crate::GrayImage;
+use crate::detect::levenberg::{Descent, Linearised, descend};
 pub(super) use model::Parameters;
 use model::{LANES, Model, Normal, Pixels, place, products};
 
@@ -28,8 +29,6 @@ const END_PX: f64 = 1.5;
 /// many: then black and white themselves are not seen, and nothing is known.
 const CLEAR_BLURS: f64 = 3.0;
 const LEAST_BLURS: f64 = 1.7;
-/// Most steps of a fit.
-const MOST_STEPS: usize = 30;
 /// A fit has converged when the edge moves less than this, px: the next step, were it taken, would
 /// be some hundred times smaller.
 const STEP_PX: f64 = 1e-3;
@@ -55,6 +54,12 @@ pub(super) struct Surroundings {
     pub bows: [f64; 4],
 }
 
+/// Whether the blur of a tag's sides reaches that of the edges beside them.
+pub(super) fn is_crowded(quad: &Quad, around: &Surroundings, blur_px: f64) -> bool {
+    let free = |k: usize| Place::new(quad, k, around, blur_px).free;
+    (0..4).any(|k| free(k) < (CLEAR_BLURS + LEAST_BLURS) * blur_px)
+}
+
 /// An edge: `n·(p - middle) = ρ` with the normal `n` at `angle`, and the covariance of `ρ, θ`.
 pub(super) struct Line {
     pub middle: Vector2<f64>,
@@ -75,7 +80,7 @@ pub(super) struct Wobble {
 pub(super) fn side(image: &GrayImage, place: &Place, shape: Option<Parameters>) -> Option<Line> {
     let band = Band::gather(image, place)?;
     let start = shape.map_or_else(|| band.start(), moved_back);
-    let (at, normal, cost) = band.descend(start)?;
+    let Descent { at, normal, cost, .. } = band.descend(start)?;
     let freedom = band.count as f64 - 6.0;
     let variance = (cost / freedom).max(ROUNDING_VARIANCE);
     let inverse = normal.cholesky()?.inverse() * variance;
@@ -105,6 +110,8 @@ pub(super) struct Place {
     /// Half the band's length along the side and half its width across, px.
     half: f64,
     width: f64,
+    /// From the side to the edges beside it, px.
+    free: f64,
 }
 
 impl Place {
@@ -124,6 +131,7 @@ impl Place {
             bend: around.bows[k] / (0.5 * length).powi(2),
             half: (0.5 * length - (END_CELLS * cell + END_PX).max(clear)).max(0.0),
             width: width.clamp(BAND_PX.0, BAND_PX.1),
+            free,
         }
     }
 
@@ -197,30 +205,9 @@ impl Band {
         Parameters::from([0.0, 0.0, 0.5 * (inner + outer), 0.6 * (outer - inner), 0.0, 0.0])
     }
 
-    fn descend(&self, start: Parameters) -> Option<(Parameters, Normal, f64)> {
-        let mut at = start;
-        let (mut normal, mut gradient, mut cost) = self.linearise(&at);
-        let mut damping = 1e-3;
-        for _ in 0..MOST_STEPS {
-            let mut damped = normal;
-            (0..6).for_each(|k| damped[(k, k)] *= 1.0 + damping);
-            let step = damped.cholesky()?.solve(&gradient);
-            let mut next = at + step;
-            next[4] = next[4].clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln());
-            let (n, g, c) = self.linearise(&next);
-            if c.is_finite() && c <= cost {
-                (at, normal, gradient, cost) = (next, n, g, c);
-                damping *= 0.1;
-                if step[0].abs() < STEP_PX {
-                    break;
-                }
-            } else if damping > 1e6 {
-                break; // rounding: no step makes it better
-            } else {
-                damping *= 10.0;
-            }
-        }
-        cost.is_finite().then_some((at, normal, cost))
+    fn descend(&self, start: Parameters) -> Option<Descent<6>> {
+        let possible = |at: &mut Parameters| at[4] = at[4].clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln());
+        descend(start, |at| Some(self.linearise(at)), possible, |step| step[0].abs() < STEP_PX)
     }
 
     /// Each piece's own offset `Σ jr / Σ j²` from the fitted line, squared, over its variance
@@ -245,7 +232,7 @@ impl Band {
     }
 
     /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
-    fn linearise(&self, at: &Parameters) -> (Normal, Parameters, f64) {
+    fn linearise(&self, at: &Parameters) -> Linearised<6> {
         let products = products(&Model::new(at), &self.pixels);
         let sums = products.map(|lane| lane.iter().map(|v| f64::from(*v)).sum::<f64>());
         let at = |m: usize, n: usize| sums[place(m.min(n), m.max(n))];
@@ -271,7 +258,7 @@ mod tests {
             let (y, x) = (f64::from(turn) * std::f64::consts::FRAC_PI_6).sin_cos();
             let (middle, outwards) = (Vector2::new(29.3, 24.8), Vector2::new(x, y));
             let (half, width) = (12.41, 3.31);
-            let place = Place { middle, outwards, bow: 0.0, bend: 0.0, half, width };
+            let place = Place { middle, outwards, bow: 0.0, bend: 0.0, half, width, free: 9.0 };
             let inside = |k: usize| {
                 let d = Vector2::new((k % 60) as f64, (k / 60) as f64) - middle;
                 place.along().dot(&d).abs() <= half && outwards.dot(&d).abs() <= width

@@ -22,9 +22,23 @@ const WORST_WOBBLE: f64 = 6.0;
 /// Nor is a corner that lies farther from where it should be, px.
 const OFF_IN_PART_PX: f64 = 1.0;
 
+/// The corners of a tag by its sides.
+pub(super) struct Refined {
+    pub corners: [ImageCorner; 4],
+    /// Standard deviation of the blur, px.
+    pub blur_px: f64,
+}
+
+impl Refined {
+    /// The corners' pixels.
+    pub fn quad(&self) -> Quad {
+        self.corners.each_ref().map(|corner| corner.pixel)
+    }
+}
+
 /// The corners after one round: good enough to start from.
 pub(super) fn approached(image: &GrayImage, start: &Quad, around: &Surroundings) -> Option<Quad> {
-    Some(refined(image, start, around, 1)?.map(|corner| corner.pixel))
+    Some(refined(image, start, around, 1)?.quad())
 }
 
 /// The corners from the edges of all sides, their ids 0 to 3 as in `start`. In every round the band
@@ -34,7 +48,7 @@ pub(super) fn refined(
     start: &Quad,
     around: &Surroundings,
     rounds: usize,
-) -> Option<[ImageCorner; 4]> {
+) -> Option<Refined> {
     let mut quad = *start;
     let mut found = None;
     let mut shapes: [Option<Parameters>; 4] = [None; 4];
@@ -55,12 +69,10 @@ pub(super) fn refined(
         found = Some(corners);
     }
     let corners = found?;
-    let size = Vector2::new(image.width() as f64 - 1.0, image.height() as f64 - 1.0);
-    let inside = |p: &Vector2<f64>| p.x > 0.0 && p.y > 0.0 && p.x < size.x && p.y < size.y;
     let moved = |k: usize| (quad[k] - start[k]).norm();
-    let near = |k: usize| inside(&quad[k]) && moved(k) < 2.0 + 0.1 * area(start).sqrt();
+    let near = |k: usize| is_inside(image, &quad[k]) && moved(k) < 2.0 + 0.1 * area(start).sqrt();
     let known = |c: &ImageCorner| c.covariance.trace() < UNKNOWN_PX2;
-    ((0..4).all(near) && corners.iter().all(known)).then_some(corners)
+    ((0..4).all(near) && corners.iter().all(known)).then_some(Refined { corners, blur_px })
 }
 
 /// The corners whose two sides are where `start` has them, of a tag of which a part may be hidden or
@@ -96,9 +108,13 @@ pub(super) fn seen_in_part(
             break;
         }
     }
-    let size = Vector2::new(image.width() as f64 - 1.0, image.height() as f64 - 1.0);
-    let inside = |p: &Vector2<f64>| p.x > 0.0 && p.y > 0.0 && p.x < size.x && p.y < size.y;
-    corners.map(|corner| corner.filter(|c| inside(&c.pixel)))
+    corners.map(|corner| corner.filter(|c| is_inside(image, &c.pixel)))
+}
+
+/// Whether a pixel is in the picture.
+pub(super) fn is_inside(image: &GrayImage, p: &Vector2<f64>) -> bool {
+    let (right, bottom) = (image.width() as f64 - 1.0, image.height() as f64 - 1.0);
+    p.x > 0.0 && p.y > 0.0 && p.x < right && p.y < bottom
 }
 
 /// By how much larger the lines' covariances are than their pixels' noise says: light, print, paper
