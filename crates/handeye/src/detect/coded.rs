@@ -270,9 +270,10 @@ impl Coded<'_> {
         let h = homography::from_unit_square(&quad);
         let inset = |x: f64| 0.5 + (x - 0.5) * self.share;
         let bits = (self.dictionary.side(), self.border);
-        let cells = markers::read_cells(image, bits, |x, y| {
+        let greys = markers::Greys::of(image, bits, |x, y| {
             homography::apply(&h, &Vector2::new(inset(x), inset(y)))
         })?;
+        let cells = greys.read();
         if cells.border_errors > MOST_BORDER_ERRORS || cells.contrast < LEAST_CONTRAST {
             return None;
         }

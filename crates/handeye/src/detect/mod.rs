@@ -22,6 +22,7 @@ mod partial;
 pub mod planar_pose;
 mod pyramid;
 pub mod residuals;
+mod saturated;
 mod several;
 pub mod sight;
 pub mod sphere;

@@ -8,7 +8,8 @@
 //! I(p) = (a + b erf(d₁/(√2 s)) erf(d₂/(√2 s))) (1 + g·(p - p₀)),    dᵢ = nᵢ(θᵢ)·(p - c)
 //! ```
 //!
-//! Its nine parameters `c, θ₁, θ₂, a, b, ln s, g` are fitted to the pixels of a disc by
+//! or, where the light changes much and that fits better, `... + g·(p - p₀)` as under glare. Its nine
+//! parameters `c, θ₁, θ₂, a, b, ln s, g` are fitted to the pixels of a disc by
 //! Levenberg-Marquardt; the inverse normal matrix, scaled by the mean squared residual, is their
 //! covariance. The product of two error functions is exact for edges at right angles and close for
 //! others.
@@ -26,7 +27,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::GrayImage;
 use disc::Disc;
-use model::Parameters;
+use model::{Light, Parameters};
 
 /// A corner known to about a pixel, and the board around it.
 #[derive(Debug, Clone, Copy)]
@@ -89,6 +90,9 @@ const FARTHEST: f64 = 0.3;
 const STEP_PX: f64 = 5e-3;
 /// The small disc's fit ends when the corner moves less than this, px.
 const NEAR_STEP_PX: f64 = 0.05;
+/// Where light changes by more than this share from the middle of the disc to its rim, it may lie over
+/// the picture rather than multiply it.
+const SLOPED: f64 = 0.03;
 /// Radius of the small disc, px.
 const NEAR_PX: f64 = 6.0;
 
@@ -138,8 +142,19 @@ fn measure_disc(
     near: &NearCorner,
     radius: f64,
 ) -> Result<FittedCorner, Unfit> {
-    let disc = Disc::gather(image, &RoughCorner { pixel: near.pixel, ..*rough }, radius)?;
-    let (at, normal, cost) = disc.descend(near.shape, STEP_PX).ok_or(Unfit::NoCorner)?;
+    let mut disc = Disc::gather(image, &RoughCorner { pixel: near.pixel, ..*rough }, radius)?;
+    let mut found = disc.descend(near.shape, STEP_PX).ok_or(Unfit::NoCorner)?;
+    let at = &found.0;
+    if radius * at[7].hypot(at[8]) > SLOPED {
+        let mut start = *at;
+        start.fixed_rows_mut::<2>(7).scale_mut(at[4]);
+        disc.light = Light::Adds;
+        match disc.descend(start, STEP_PX) {
+            Some(added) if added.2 < found.2 => found = added,
+            _ => disc.light = Light::Multiplies,
+        }
+    }
+    let (at, normal, cost) = found;
     let fitted = disc.judge(&at, &normal, cost).ok_or(Unfit::NoCorner)?;
     not_far(rough, &fitted.pixel)?;
     Ok(fitted)

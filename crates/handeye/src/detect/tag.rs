@@ -16,7 +16,7 @@ use nalgebra::{Matrix3, Vector2};
 
 use super::board::NotFound;
 use super::homography;
-use super::markers::{self, Dictionary};
+use super::markers::{Cells, Dictionary, Greys};
 use super::pyramid::{Scaled, smoothed, stretched};
 use crate::{GrayImage, ImageCorner};
 use edge::{Surroundings, is_crowded};
@@ -163,25 +163,29 @@ impl Print {
         found.iter().filter_map(|quad| self.read(image, quad, ids.clone())).collect()
     }
 
-    /// The tag in a quadrilateral.
+    /// The tag in a quadrilateral, as it is seen or sharpened.
     pub fn read(
         &self,
         image: &GrayImage,
         quad: &Quad,
-        ids: impl IntoIterator<Item = u32>,
+        ids: impl IntoIterator<Item = u32> + Clone,
     ) -> Option<SeenTag> {
         let side = self.dictionary.side();
         let h: Matrix3<f64> = homography::from_unit_square(quad);
         let at = |x: f64, y: f64| homography::apply(&h, &Vector2::new(x, y));
-        let cells = markers::read_cells(image, (side, self.border), at)?;
+        let greys = Greys::of(image, (side, self.border), at)?;
         let most = |cells: usize| (MOST_WRONG * cells as f64) as u32;
         let rim = self.cells() * self.cells() - side * side;
-        if cells.contrast < LEAST_CONTRAST || cells.border_errors > most(rim) {
-            return None;
-        }
-        let reading = self.dictionary.read(cells.code, ids, most(side * side))?;
+        let reading = |cells: Cells| {
+            let legible = cells.contrast >= LEAST_CONTRAST && cells.border_errors <= most(rim);
+            let read = || self.dictionary.read(cells.code, ids.clone(), most(side * side));
+            let reading = if legible { read() } else { None }?;
+            Some((reading, reading.errors + cells.border_errors))
+        };
+        let (reading, errors) =
+            reading(greys.read()).or_else(|| reading(greys.sharpened().read()))?;
         let quad = std::array::from_fn(|k| quad[(k + reading.turns) % 4]);
-        Some(SeenTag { id: reading.id, errors: reading.errors + cells.border_errors, quad })
+        Some(SeenTag { id: reading.id, errors, quad })
     }
 }
 

@@ -23,6 +23,7 @@ use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 use crate::GrayImage;
 use crate::detect::erf::erf;
 use crate::detect::levenberg::{Descent, Linearised, descend};
+use crate::detect::saturated::share_within;
 
 /// An ellipse known to about a pixel.
 #[derive(Debug, Clone, Copy)]
@@ -205,12 +206,13 @@ impl Ring {
         let (mut normal, mut gradient, mut cost) = ([[0.0; 10]; 10], [0.0; 10], 0.0);
         for &(x, y, grey) in &self.pixels {
             let (value, j) = model.at(x, y);
+            let weight = f64::from(share_within(grey as f32, value as f32).powi(2));
             let r = grey - value;
-            cost += r * r;
+            cost += weight * r * r;
             for m in 0..10 {
-                gradient[m] += j[m] * r;
+                gradient[m] += weight * j[m] * r;
                 for n in m..10 {
-                    normal[m][n] += j[m] * j[n];
+                    normal[m][n] += weight * j[m] * j[n];
                 }
             }
         }

@@ -91,7 +91,7 @@ impl Disc {
 
     /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
     fn linearise(&self, at: &Parameters) -> (Normal, Parameters, f64) {
-        let products = products(&Model::new(at), self);
+        let products = products(&Model::new(at, self.light), self);
         let sums = products.map(|lane| lane.iter().map(|v| f64::from(*v)).sum::<f64>());
         let at = |m: usize, n: usize| sums[place(m.min(n), m.max(n))];
         (Normal::from_fn(at), Parameters::from_fn(|m, _| at(m, 9)), at(9, 9))
@@ -101,7 +101,7 @@ impl Disc {
     /// same after half a turn, whatever blurs it, and what does not change with half a turn does
     /// not move the corner. `None` where there are few pairs.
     fn odd_variance(&self, at: &Parameters) -> Option<f64> {
-        let residuals = residuals(&Model::new(at), self);
+        let residuals = residuals(&Model::new(at, self.light), self);
         let whole = self.centre.map(f64::round);
         // columns and rows from a corner of a square that holds the disc
         let middle = self.centre - whole + Vector2::repeat(MOST_ACROSS as f64 + 0.5);
@@ -122,9 +122,10 @@ impl Disc {
         for k in 0..self.count {
             let (i, j) = cell(k);
             let opposite = inside((turned.x - i, turned.y - j)).map(|(i, j)| square[j][i]);
-            if let Some(opposite) = opposite.filter(|r| r.is_finite()) {
+            let difference = opposite.map(|opposite| f64::from(residuals[k] - opposite));
+            if let Some(difference) = difference.filter(|d| d.is_finite()) {
                 // every pair comes twice
-                sum += 0.25 * f64::from(residuals[k] - opposite).powi(2);
+                sum += 0.25 * difference * difference;
                 pairs += 0.5;
             }
         }

@@ -4,8 +4,10 @@ use std::ops::Range;
 
 use nalgebra::{Matrix2, Vector2};
 
+use super::model::Light;
 use super::{REACH, RoughCorner, Unfit};
 use crate::GrayImage;
+use crate::detect::saturated::is_saturated;
 
 /// Fewer pixels than this do not determine nine parameters.
 const FEWEST_PIXELS: usize = 14;
@@ -33,6 +35,9 @@ pub(super) struct Disc {
     grey: Vec<f32>,
     weight: Vec<f32>,
     pub count: usize,
+    /// Whether some pixels are as bright or as dark as can be.
+    pub saturated: bool,
+    pub light: Light,
 }
 
 impl Disc {
@@ -68,7 +73,9 @@ impl Disc {
 
     fn with_room(count: usize, centre: Vector2<f64>) -> Self {
         let room = || Vec::with_capacity(count);
-        Self { centre, x: room(), y: room(), grey: room(), weight: room(), count: 0 }
+        let (saturated, light) = (false, Light::Multiplies);
+        let (x, y, grey, weight) = (room(), room(), room(), room());
+        Self { centre, x, y, grey, weight, count: 0, saturated, light }
     }
 
     /// Adds a part of a row.
@@ -81,6 +88,7 @@ impl Disc {
     }
 
     fn fill_up(&mut self) {
+        self.saturated = self.grey.iter().fold(false, |any, &grey| any | is_saturated(grey));
         let full = self.count.next_multiple_of(LANES);
         self.weight.resize(self.count, 1.0);
         for values in [&mut self.x, &mut self.y, &mut self.grey, &mut self.weight] {

@@ -1,5 +1,5 @@
 use super::disc::{LANES, Pixels};
-use super::model::{Model, PRODUCTS, place};
+use super::model::{Light, Model, PRODUCTS, place};
 use super::*;
 use crate::simulate::{Optics, Random, Scene};
 use crate::{Intrinsics, Pose, TargetModel};
@@ -8,15 +8,18 @@ use nalgebra::{Vector3, Vector6};
 #[test]
 fn the_jacobian_matches_central_differences() {
     let at = Parameters::from_column_slice(&[0.3, -0.2, 0.4, 1.8, 110.0, -60.0, 0.2, 0.01, -0.02]);
-    for (x, y) in [(0.5, 0.1), (-3.0, 2.0), (1.0, -4.0)] {
+    let lights = [Light::Multiplies, Light::Adds];
+    let places = [(0.5, 0.1), (-3.0, 2.0), (1.0, -4.0)];
+    for (light, (x, y)) in lights.iter().flat_map(|light| places.map(|place| (*light, place))) {
         let one = |v: f32| [v; LANES];
         let (x, y, grey, weight) = (&one(x), &one(y), &one(0.0), &one(1.0));
         let pixel = Pixels { x, y, grey, weight };
-        let rows = Model::new(&at).rows(&pixel);
+        let rows = Model::new(&at, light).rows::<false>(&pixel);
         for k in 0..9 {
             let mut step = Parameters::zeros();
             step[k] = 1e-2;
-            let value = |at: &Parameters| -f64::from(Model::new(at).rows(&pixel)[9][0]);
+            let value =
+                |at: &Parameters| -f64::from(Model::new(at, light).rows::<false>(&pixel)[9][0]);
             let numeric = (value(&(at + step)) - value(&(at - step))) / 2e-2;
             let analytic = f64::from(rows[k][0]);
             assert!((analytic - numeric).abs() < 3e-3 * (3.0 + numeric.abs()), "{k}");

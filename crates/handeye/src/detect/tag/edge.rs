@@ -15,6 +15,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::quads::Quad;
 use crate::GrayImage;
 use crate::detect::levenberg::{Descent, Linearised, descend};
+use crate::detect::saturated::is_saturated;
 pub(super) use model::Parameters;
 use model::{LANES, Model, Normal, Pixels, place, products};
 
@@ -81,7 +82,8 @@ pub(super) fn side(image: &GrayImage, place: &Place, shape: Option<Parameters>) 
     let band = Band::gather(image, place)?;
     let start = shape.map_or_else(|| band.start(), moved_back);
     let Descent { at, normal, cost, .. } = band.descend(start)?;
-    let freedom = band.count as f64 - 6.0;
+    // `∂I/∂a` of a pixel is its weight
+    let freedom = (normal[(2, 2)] - 6.0).max(1.0);
     let variance = (cost / freedom).max(ROUNDING_VARIANCE);
     let inverse = normal.cholesky()?.inverse() * variance;
     let sound = variance.sqrt() < WORST_RESIDUAL * at[3].abs() && at[3] > 0.0;
@@ -141,6 +143,7 @@ impl Place {
         (u, v - self.bow + self.bend * u * u)
     }
 
+    /// Unit vector along the side.
     fn along(&self) -> Vector2<f64> {
         Vector2::new(-self.outwards.y, self.outwards.x)
     }
@@ -163,6 +166,8 @@ impl Place {
 struct Band {
     pixels: Vec<Pixels>,
     count: usize,
+    /// Whether some pixels are as bright or as dark as can be.
+    saturated: bool,
 }
 
 impl Band {
@@ -170,7 +175,7 @@ impl Band {
         let middle = place.middle;
         let reach = place.along().y.abs() * place.half + place.outwards.y.abs() * place.width;
         let rows = range(middle.y, (-reach, reach), image.height());
-        let mut band = Self { pixels: vec![], count: 0 };
+        let mut band = Self { pixels: vec![], count: 0, saturated: false };
         for y in rows {
             let dy = y as f64 - middle.y;
             for x in range(middle.x, place.columns(dy), image.width()) {
@@ -190,6 +195,7 @@ impl Band {
             (last.u[k], last.v[k]) = (u as f32, v as f32);
             (last.grey[k], last.weight[k]) = (grey, 1.0);
         }
+        self.saturated |= is_saturated(grey);
         self.count += 1;
     }
 
@@ -216,7 +222,7 @@ impl Band {
         let mut sums = [(0.0, 0.0); PIECES];
         let model = Model::new(at);
         for pixels in &self.pixels {
-            let rows = model.rows(pixels);
+            let rows = model.rows::<false>(pixels);
             for k in 0..LANES {
                 let share = 0.5 * (1.0 + f64::from(pixels.u[k]) / half);
                 let (jr, jj) = &mut sums[((PIECES as f64 * share) as usize).min(PIECES - 1)];
@@ -233,7 +239,7 @@ impl Band {
 
     /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
     fn linearise(&self, at: &Parameters) -> Linearised<6> {
-        let products = products(&Model::new(at), &self.pixels);
+        let products = products(&Model::new(at), &self.pixels, self.saturated);
         let sums = products.map(|lane| lane.iter().map(|v| f64::from(*v)).sum::<f64>());
         let at = |m: usize, n: usize| sums[place(m.min(n), m.max(n))];
         (Normal::from_fn(at), Parameters::from_fn(|m, _| at(m, 6)), at(6, 6))

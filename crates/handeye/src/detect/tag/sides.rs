@@ -54,10 +54,7 @@ pub(super) fn refined(
     let mut shapes: [Option<Parameters>; 4] = [None; 4];
     let mut blur_px = USUAL_BLUR_PX;
     for _ in 0..rounds {
-        let one = |k: usize| {
-            let place = Place::new(&quad, k, around, blur_px);
-            side(image, &place, shapes[k])
-        };
+        let one = |k: usize| side(image, &Place::new(&quad, k, around, blur_px), shapes[k]);
         let mut sides = [one(0)?, one(1)?, one(2)?, one(3)?];
         let wobble = wobble(&sides);
         sides.iter_mut().for_each(|side| side.covariance *= wobble);

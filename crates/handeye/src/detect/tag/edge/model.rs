@@ -6,6 +6,7 @@ use multiversion::multiversion;
 use nalgebra::{SMatrix, SVector};
 
 use crate::detect::erf::erf;
+use crate::detect::saturated::share_within;
 
 pub(in super::super) type Parameters = SVector<f64, 6>;
 pub(super) type Normal = SMatrix<f64, 6, 6>;
@@ -36,10 +37,16 @@ pub(super) const fn place(m: usize, n: usize) -> usize {
 /// Products of all pairs of rows, summed over the pixels. Wider registers are used where there are
 /// any; they compute the same numbers.
 #[multiversion(targets("x86_64+avx2"))]
-pub(super) fn products(model: &Model, pixels: &[Pixels]) -> [Lane; PRODUCTS] {
+pub(super) fn products(model: &Model, pixels: &[Pixels], saturated: bool) -> [Lane; PRODUCTS] {
     let mut products = [[0.0; LANES]; PRODUCTS];
-    for pixels in pixels {
-        accumulate(&mut products, &model.rows(pixels));
+    if saturated {
+        for pixels in pixels {
+            accumulate(&mut products, &model.rows::<false>(pixels));
+        }
+    } else {
+        for pixels in pixels {
+            accumulate(&mut products, &model.rows::<true>(pixels));
+        }
     }
     products
 }
@@ -78,14 +85,18 @@ impl Model {
         Self { rho, sine, cosine, a, b, g, scale }
     }
 
-    /// Derivatives and residual at pixels; `d = v cos θ + u sin θ - ρ`.
+    /// Derivatives and residual at pixels, `d = v cos θ + u sin θ - ρ`; of a `PLAIN` picture nothing is
+    /// saturated.
     #[inline(always)]
-    pub fn rows(&self, pixels: &Pixels) -> Rows {
+    pub fn rows<const PLAIN: bool>(&self, pixels: &Pixels) -> Rows {
         let mut rows = [[0.0; LANES]; 7];
         for k in 0..LANES {
             let (u, v, weight) = (pixels.u[k], pixels.v[k], pixels.weight[k]);
             let d = v * self.cosine + u * self.sine - self.rho;
             let (value, slope) = erf(d * self.scale);
+            let seen = self.a + self.g * u + self.b * value;
+            let share = if PLAIN { 1.0 } else { share_within(pixels.grey[k], seen) };
+            let weight = weight * share;
             let by_d = weight * self.b * slope * self.scale;
             rows[0][k] = -by_d;
             rows[1][k] = by_d * (u * self.cosine - v * self.sine);
@@ -93,7 +104,7 @@ impl Model {
             rows[3][k] = weight * value;
             rows[4][k] = -by_d * d;
             rows[5][k] = weight * u;
-            rows[6][k] = weight * (pixels.grey[k] - (self.a + self.g * u + self.b * value));
+            rows[6][k] = weight * (pixels.grey[k] - seen);
         }
         rows
     }
@@ -109,8 +120,8 @@ mod tests {
         for (u, v) in [(3.0, 0.5), (-7.0, -1.2), (0.4, 0.1)] {
             let one = |x: f32| [x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
             let pixel = Pixels { u: one(u), v: one(v), grey: one(0.0), weight: one(1.0) };
-            let rows = Model::new(&at).rows(&pixel);
-            let value = |at: &Parameters| -f64::from(Model::new(at).rows(&pixel)[6][0]);
+            let rows = Model::new(&at).rows::<false>(&pixel);
+            let value = |at: &Parameters| -f64::from(Model::new(at).rows::<false>(&pixel)[6][0]);
             for k in 0..6 {
                 let mut step = Parameters::zeros();
                 step[k] = 1e-2;
