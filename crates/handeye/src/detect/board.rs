@@ -88,7 +88,7 @@ pub enum NotFound {
         /// The declared dictionary.
         dictionary: String,
     },
-    /// The tag was read, but one of its edges is no straight line.
+    /// The tag was read, but could not be measured.
     #[error("tag {id} of {dictionary} is there, but its edges are too blurred or covered")]
     BlurredTag {
         /// The declared dictionary.

@@ -93,6 +93,8 @@ const NEAR_STEP_PX: f64 = 0.05;
 /// Where light changes by more than this share from the middle of the disc to its rim, it may lie over
 /// the picture rather than multiply it.
 const SLOPED: f64 = 0.03;
+/// A disc smaller than this, in blurs, does not tell that from the edges beside it.
+const LIGHT_BLURS: f64 = 7.0;
 /// Radius of the small disc, px.
 const NEAR_PX: f64 = 6.0;
 
@@ -144,18 +146,21 @@ fn measure_disc(
 ) -> Result<FittedCorner, Unfit> {
     let mut disc = Disc::gather(image, &RoughCorner { pixel: near.pixel, ..*rough }, radius)?;
     let mut found = disc.descend(near.shape, STEP_PX).ok_or(Unfit::NoCorner)?;
-    let at = &found.0;
-    if radius * at[7].hypot(at[8]) > SLOPED {
+    let (at, there) = &found;
+    let clear = radius > LIGHT_BLURS * at[6].exp();
+    if clear && radius * at[7].hypot(at[8]) > SLOPED {
+        let multiplied = disc.misfit(at, there.cost);
         let mut start = *at;
         start.fixed_rows_mut::<2>(7).scale_mut(at[4]);
         disc.light = Light::Adds;
-        match disc.descend(start, STEP_PX) {
-            Some(added) if added.2 < found.2 => found = added,
-            _ => disc.light = Light::Multiplies,
+        let added = disc.descend(start, STEP_PX);
+        match added.filter(|(at, there)| disc.misfit(at, there.cost) < multiplied) {
+            Some(added) => found = added,
+            None => disc.light = Light::Multiplies,
         }
     }
-    let (at, normal, cost) = found;
-    let fitted = disc.judge(&at, &normal, cost).ok_or(Unfit::NoCorner)?;
+    let (at, there) = found;
+    let fitted = disc.judge(&at, &there).ok_or(Unfit::NoCorner)?;
     not_far(rough, &fitted.pixel)?;
     Ok(fitted)
 }

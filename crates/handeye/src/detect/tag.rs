@@ -19,11 +19,11 @@ use super::homography;
 use super::markers::{Cells, Dictionary, Greys};
 use super::pyramid::{Scaled, smoothed, stretched};
 use crate::{GrayImage, ImageCorner};
-use edge::{Surroundings, is_crowded};
+use edge::{Surroundings, is_crowded, is_roomy};
 pub(super) use quads::Quad;
 use quads::{area, quads};
 use sides::{approached, refined, seen_in_part};
-use whole::Pattern;
+use whole::{LINES, Pattern};
 
 /// A cell of the tag (border and bits) must be this large, px.
 const LEAST_CELL_PX: f64 = 1.6;
@@ -36,6 +36,8 @@ const MOST_WRONG: f64 = 0.12;
 /// Rounds in which corners are measured, from a pixel away and from some tenths of one.
 const ROUNDS: usize = 3;
 const ROUNDS_WHEN_NEAR: usize = 2;
+/// White around a tag that is no part of a board, cells.
+const WHITE_AROUND_ONE: f64 = 1.0;
 /// Blur of a tag whose sides were not found, in cells.
 const BLURRED_CELLS: f64 = 0.25;
 /// Longest side of the smallest picture that is searched, px, at most.
@@ -46,7 +48,7 @@ const COARSEST: usize = 900;
 /// # Errors
 /// Why it was not found.
 pub fn detect(image: &GrayImage, name: &str, id: u32) -> Result<Vec<ImageCorner>, NotFound> {
-    let print = Print::new(name, 1, 1.0, false)?;
+    let print = Print::new(name, 1, None, false)?;
     let mut blurred = false;
     let corners = Levels::new(image).search(|level, clear| {
         let best = best(print.read_all(level.image(), clear, [id]))?;
@@ -92,17 +94,25 @@ pub(super) struct Print {
     pub dictionary: Dictionary,
     /// Width of the black border, bits.
     border: usize,
-    /// Width of the white around a tag, over its side.
+    /// Width of the white around a tag, in cells.
     white: f64,
     /// Whether other black squares touch the tag's corners.
     pub touching: bool,
 }
 
 impl Print {
-    /// Tags by the name of their dictionary.
-    pub fn new(name: &str, border: usize, white: f64, touching: bool) -> Result<Self, NotFound> {
+    /// Tags by the name of their dictionary, with a black border of so many cells and a white gap to the
+    /// next tag, over their side; none for a tag alone.
+    pub fn new(
+        name: &str,
+        border: usize,
+        gap: Option<f64>,
+        touching: bool,
+    ) -> Result<Self, NotFound> {
         let dictionary =
             Dictionary::named(name).ok_or_else(|| NotFound::UnknownDictionary(name.into()))?;
+        let cells = (dictionary.side() + 2 * border) as f64;
+        let white = gap.map_or(WHITE_AROUND_ONE, |gap| gap * cells);
         Ok(Self { dictionary, border, white, touching })
     }
 
@@ -113,11 +123,12 @@ impl Print {
 
     fn surroundings(&self) -> Surroundings {
         let cells = self.cells() as f64;
-        let clear = (self.white * cells).min(self.border as f64);
+        let clear = self.white.min(self.border as f64);
         Surroundings { cells, clear, bows: [0.0; 4] }
     }
 
-    fn pattern(&self, id: u32) -> Pattern {
+    /// What a tag looks like, if it is not too large.
+    fn pattern(&self, id: u32) -> Option<Pattern> {
         let cells = self.cells();
         let black = |row: usize, column: usize| {
             let inside = row < cells && column < cells;
@@ -126,7 +137,8 @@ impl Print {
         };
         let cell = |row: usize, column: usize| f32::from(u8::from(black(row, column)));
         let row = |row: usize| std::array::from_fn(|column| cell(row, column));
-        Pattern { cells, black: std::array::from_fn(row), white: self.white * cells as f64 }
+        let black = std::array::from_fn(row);
+        (cells < LINES).then_some(Pattern { cells, black, white: self.white })
     }
 
     /// The corners of a tag by its sides, or by all of it where these are not alone.
@@ -145,9 +157,10 @@ impl Print {
                 return Some(found.corners);
             }
             Some(found) => (found.quad(), found.blur_px),
+            None if is_roomy(cell) => return None,
             None => (tag.quad, BLURRED_CELLS * cell),
         };
-        whole::fit(image, &quad, &self.pattern(tag.id), bows, blur_px)
+        whole::fit(image, &quad, &self.pattern(tag.id)?, bows, blur_px)
     }
 
     /// All tags with one of `ids` in a picture, once for each dark patch. Patches are looked for in
@@ -174,16 +187,18 @@ impl Print {
         let h: Matrix3<f64> = homography::from_unit_square(quad);
         let at = |x: f64, y: f64| homography::apply(&h, &Vector2::new(x, y));
         let greys = Greys::of(image, (side, self.border), at)?;
+        let seen = greys.read();
+        if seen.contrast < LEAST_CONTRAST {
+            return None;
+        }
         let most = |cells: usize| (MOST_WRONG * cells as f64) as u32;
         let rim = self.cells() * self.cells() - side * side;
         let reading = |cells: Cells| {
-            let legible = cells.contrast >= LEAST_CONTRAST && cells.border_errors <= most(rim);
             let read = || self.dictionary.read(cells.code, ids.clone(), most(side * side));
-            let reading = if legible { read() } else { None }?;
+            let reading = if cells.border_errors <= most(rim) { read() } else { None }?;
             Some((reading, reading.errors + cells.border_errors))
         };
-        let (reading, errors) =
-            reading(greys.read()).or_else(|| reading(greys.sharpened().read()))?;
+        let (reading, errors) = reading(seen).or_else(|| reading(greys.sharpened().read()))?;
         let quad = std::array::from_fn(|k| quad[(k + reading.turns) % 4]);
         Some(SeenTag { id: reading.id, errors, quad })
     }

@@ -69,7 +69,7 @@ impl<'a> Board<'a> {
             _ => return None,
         };
         let tags = target.tags().into_iter().map(|tag| (tag.marker, tag)).collect();
-        let print = Print::new(name, border, gap, touching);
+        let print = Print::new(name, border, Some(gap), touching);
         Some(print.map(|print| Self {
             target,
             print,
@@ -237,7 +237,7 @@ impl<'a> Board<'a> {
         missing.filter_map(read).collect()
     }
 
-    /// Whether a tag is hardly read by chance: `ids × turns × ways to err / codes`.
+    /// Whether a tag is hardly read by chance: `ids × turns × readings × ways to err / codes`.
     fn beyond_chance(&self, tag: &SeenTag) -> bool {
         let bits = self.print.dictionary.side().pow(2) as f64;
         let mut ways = 1.0; // to choose k wrong bits
@@ -246,7 +246,7 @@ impl<'a> Board<'a> {
             sum += ways;
             ways *= (bits - f64::from(k)) / f64::from(k + 1);
         }
-        self.tags.len() as f64 * 4.0 * sum / bits.exp2() < CHANCE
+        self.tags.len() as f64 * 4.0 * 2.0 * sum / bits.exp2() < CHANCE
     }
 
     /// The corners of a group, measured; of tags that are out of place none.

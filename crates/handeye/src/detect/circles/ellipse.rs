@@ -22,7 +22,7 @@ use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 use crate::GrayImage;
 use crate::detect::erf::erf;
-use crate::detect::levenberg::{Descent, Linearised, descend};
+use crate::detect::levenberg::{Bounded, Descent, Linearised, descend};
 use crate::detect::saturated::share_within;
 
 /// An ellipse known to about a pixel.
@@ -68,8 +68,6 @@ const BLUR_PX: (f64, f64) = (0.29, 8.0);
 const WORST_RESIDUAL: f64 = 0.06;
 /// Inside minus outside, grey values, below which there is no circle.
 const LEAST_CONTRAST: f64 = 8.0;
-/// Rounding to 8 bits alone leaves this variance, grey values squared.
-const ROUNDING_VARIANCE: f64 = 1.0 / 12.0;
 /// A lens sharper than the pixels shows edges that are not quite the model's: they move by this many
 /// px times what a Gaussian blur leaves of the pixels' frequency.
 const ALIAS_PX: f64 = 0.12;
@@ -80,7 +78,6 @@ const FARTHEST: f64 = 0.35;
 const UNKNOWN_PX2: f64 = 1.0;
 
 type Parameters = SVector<f64, 10>;
-type Normal = SMatrix<f64, 10, 10>;
 
 /// Fits the ellipse; `None` where there is none.
 pub(super) fn fit(image: &GrayImage, rough: &Rough) -> Option<Ellipse> {
@@ -93,8 +90,8 @@ pub(super) fn fit(image: &GrayImage, rough: &Rough) -> Option<Ellipse> {
     let ring = Ring::gather(image, &found, width, MOST_PIXELS.1)?;
     let mut start = near;
     start.fixed_rows_mut::<2>(0).fill(0.0);
-    let Descent { at, normal, cost, .. } = ring.descend(start, STEP_PX.1)?;
-    let ellipse = ring.judge(&at, &normal, cost, rough.dark)?;
+    let Descent { at, there, .. } = ring.descend(start, STEP_PX.1)?;
+    let ellipse = ring.judge(&at, &there, rough.dark)?;
     similar(rough, &Rough { centre: ellipse.centre, shape: ellipse.shape, ..*rough })?;
     Some(ellipse)
 }
@@ -193,22 +190,23 @@ impl Ring {
         ]))
     }
 
-    /// Until the centre moves less than `step_px`: parameters, `JᵀJ` and cost.
+    /// Until the centre moves less than `step_px`.
     fn descend(&self, start: Parameters, step_px: f64) -> Option<Descent<10>> {
-        let possible = |at: &mut Parameters| at[7] = at[7].clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln());
         let short = |step: &Parameters| step[0].hypot(step[1]) < step_px;
-        descend(start, |at| self.linearise(at), possible, short).filter(|found| found.settled)
+        descend(start, |at| self.linearise(at), &Bounded::blur(7, BLUR_PX), short)
+            .filter(|found| found.settled)
     }
 
-    /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
     fn linearise(&self, at: &Parameters) -> Option<Linearised<10>> {
         let model = Model::new(at)?;
-        let (mut normal, mut gradient, mut cost) = ([[0.0; 10]; 10], [0.0; 10], 0.0);
+        let (mut normal, mut gradient) = ([[0.0; 10]; 10], [0.0; 10]);
+        let (mut cost, mut count) = (0.0, 0.0);
         for &(x, y, grey) in &self.pixels {
             let (value, j) = model.at(x, y);
             let weight = f64::from(share_within(grey as f32, value as f32).powi(2));
             let r = grey - value;
             cost += weight * r * r;
+            count += weight;
             for m in 0..10 {
                 gradient[m] += weight * j[m] * r;
                 for n in m..10 {
@@ -216,20 +214,20 @@ impl Ring {
                 }
             }
         }
-        let full = Normal::from_fn(|m, n| normal[m.min(n)][m.max(n)]);
-        cost.is_finite().then(|| (full, Parameters::from(gradient), cost))
+        let (normal, gradient) =
+            (SMatrix::from_fn(|m, n| normal[m.min(n)][m.max(n)]), Parameters::from(gradient));
+        cost.is_finite().then_some(Linearised { normal, gradient, cost, count })
     }
 
-    fn judge(&self, at: &Parameters, normal: &Normal, cost: f64, dark: bool) -> Option<Ellipse> {
-        let freedom = self.pixels.len() as f64 - 10.0;
-        let variance = (cost / freedom).max(ROUNDING_VARIANCE);
+    fn judge(&self, at: &Parameters, there: &Linearised<10>, dark: bool) -> Option<Ellipse> {
+        let variance = there.variance()?;
         let contrast = 2.0 * at[6].abs();
         let noise_free = (variance.sqrt() / contrast).min(1.0);
         let sound = contrast > LEAST_CONTRAST
             && (at[6] < 0.0) == dark
             && noise_free < WORST_RESIDUAL.max(WORST_NOISE / contrast)
             && at[7].exp() < 0.99 * BLUR_PX.1;
-        let inverse = normal.cholesky()?.inverse() * variance;
+        let inverse = there.covariance(variance)?;
         let alias = ALIAS_PX * (-2.0 * (std::f64::consts::PI * at[7].exp()).powi(2)).exp();
         let floor = Matrix2::identity() * (alias * alias);
         let covariance: Matrix2<f64> = inverse.fixed_view::<2, 2>(0, 0) + floor;

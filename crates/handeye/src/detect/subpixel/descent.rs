@@ -1,10 +1,12 @@
 //! The fit of the model to a disc, and what it says about the corner.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, SMatrix, Vector2};
 
-use super::disc::Disc;
-use super::model::{Model, Normal, Parameters, place, products, residuals};
+use super::disc::{Disc, FEWEST_PIXELS};
+use super::model::{Model, Parameters, products, residuals};
 use super::{FittedCorner, RoughCorner};
+use crate::detect::gram::place;
+use crate::detect::levenberg::{Bounded, Linearised, ROUNDING_VARIANCE};
 
 /// No pixel of a disc is more columns or rows away from its middle.
 const MOST_ACROSS: i32 = 16;
@@ -18,8 +20,6 @@ const FREE: f64 = 0.05;
 const SETTLED_PX: f64 = 0.03;
 /// Residuals above this share of the contrast are not a corner's.
 const WORST_RESIDUAL: f64 = 0.25;
-/// Rounding to 8 bits alone leaves this variance, grey values squared.
-const ROUNDING_VARIANCE: f64 = 1.0 / 12.0;
 /// Blurs stay in this range (px): a pixel's own square blurs by 0.29, more than the upper bound is
 /// not a corner's. Without the lower bound an edge between two pixels would have no place.
 const BLUR_PX: (f64, f64) = (0.29, 6.0);
@@ -35,39 +35,36 @@ const UNKNOWN_PX2: f64 = 0.1;
 const SHALLOWEST_RAD: f64 = 0.15;
 
 impl Disc {
-    /// Levenberg-Marquardt until the corner moves less than `step_px`: parameters, `JᵀJ` and cost
-    /// before the last step.
-    pub fn descend(&self, start: Parameters, step_px: f64) -> Option<(Parameters, Normal, f64)> {
+    /// Levenberg-Marquardt until the corner moves less than `step_px`; what is known comes from before
+    /// the last step.
+    pub fn descend(&self, start: Parameters, step_px: f64) -> Option<(Parameters, Linearised<9>)> {
+        let bounded = Bounded::blur(6, BLUR_PX);
         let mut at = start;
-        let (mut normal, mut gradient, mut cost) = self.linearise(&at);
+        let mut there = self.linearise(&at);
         let mut damping = 1e-3;
         let mut last_px = f64::INFINITY;
         for _ in 0..MOST_STEPS {
-            let mut step = damped_step(&normal, &gradient, damping)?;
-            let blur = at[6] + step[6];
-            if blur != clamped(blur) && at[6] == clamped(blur) {
-                // at the end of its range the blur stays, and the others move alone
-                step = damped_step(&without_blur(&normal), &gradient, damping)?;
-                step[6] = 0.0;
+            let mut step = there.step(damping, None)?;
+            if bounded.holds(&at, &step) {
+                step = there.step(damping, Some(bounded.parameter))?;
             }
-            let mut next = at + step;
-            next[6] = clamped(next[6]);
+            let next = bounded.after(&at, &step);
             let length = step[0].hypot(step[1]);
             if length < step_px && last_px.is_finite() && damping < FREE {
-                return Some((next, normal, cost));
+                return Some((next, there));
             }
-            let (n, g, c) = self.linearise(&next);
-            if c.is_finite() && c <= cost {
-                (at, normal, gradient, cost) = (next, n, g, c);
+            let better = self.linearise(&next);
+            if better.cost.is_finite() && better.cost <= there.cost {
+                (at, there) = (next, better);
                 damping *= 0.1;
                 last_px = length;
             } else if damping > 1e6 {
-                return Some((at, normal, cost)); // rounding: no step makes it better
+                return Some((at, there)); // rounding: no step makes it better
             } else {
                 damping *= 10.0;
             }
         }
-        (last_px < SETTLED_PX).then_some((at, normal, cost))
+        (last_px < SETTLED_PX).then_some((at, there))
     }
 
     /// Where the corner of these parameters is in the picture.
@@ -89,19 +86,32 @@ impl Disc {
         Parameters::from_column_slice(&[0.0, 0.0, t1, t2, a, 1.2 * b, 0.0, 0.0, 0.0])
     }
 
-    /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
-    fn linearise(&self, at: &Parameters) -> (Normal, Parameters, f64) {
+    fn linearise(&self, at: &Parameters) -> Linearised<9> {
         let products = products(&Model::new(at, self.light), self);
         let sums = products.map(|lane| lane.iter().map(|v| f64::from(*v)).sum::<f64>());
-        let at = |m: usize, n: usize| sums[place(m.min(n), m.max(n))];
-        (Normal::from_fn(at), Parameters::from_fn(|m, _| at(m, 9)), at(9, 9))
+        let at = |m: usize, n: usize| sums[place::<10>(m.min(n), m.max(n))];
+        Linearised {
+            normal: SMatrix::from_fn(at),
+            gradient: Parameters::from_fn(|m, _| at(m, 9)),
+            cost: at(9, 9),
+            count: self.count as f64,
+        }
+    }
+
+    /// Mean squared residual of the pixels that are not saturated.
+    pub fn misfit(&self, at: &Parameters, cost: f64) -> f64 {
+        cost / self.told(&residuals(&Model::new(at, self.light), self))
+    }
+
+    /// Number of pixels that tell something.
+    fn told(&self, residuals: &[f32]) -> f64 {
+        residuals[..self.count].iter().filter(|r| r.is_finite()).count() as f64
     }
 
     /// Variance of what is different on opposite sides of the corner. A crossing of edges looks the
     /// same after half a turn, whatever blurs it, and what does not change with half a turn does
     /// not move the corner. `None` where there are few pairs.
-    fn odd_variance(&self, at: &Parameters) -> Option<f64> {
-        let residuals = residuals(&Model::new(at, self.light), self);
+    fn odd_variance(&self, at: &Parameters, residuals: &[f32]) -> Option<f64> {
         let whole = self.centre.map(f64::round);
         // columns and rows from a corner of a square that holds the disc
         let middle = self.centre - whole + Vector2::repeat(MOST_ACROSS as f64 + 0.5);
@@ -132,16 +142,20 @@ impl Disc {
         (pairs >= FEWEST_PAIRS).then(|| sum / (pairs - ODD_PARAMETERS))
     }
 
-    pub fn judge(&self, at: &Parameters, normal: &Normal, cost: f64) -> Option<FittedCorner> {
-        let freedom = self.count as f64 - 9.0;
-        let odd = self.odd_variance(at);
-        let variance = odd.unwrap_or(cost / freedom).max(ROUNDING_VARIANCE);
+    pub fn judge(&self, at: &Parameters, there: &Linearised<9>) -> Option<FittedCorner> {
+        let residuals = residuals(&Model::new(at, self.light), self);
+        // a perfectly sharp print has black and white only; what little it tells is in the normal matrix
+        let told = Some(self.told(&residuals)).filter(|told| *told >= FEWEST_PIXELS as f64);
+        let there = Linearised { count: told.unwrap_or(there.count), ..*there };
+        let all = there.variance()?;
+        let variance =
+            self.odd_variance(at, &residuals).map_or(all, |odd| odd.max(ROUNDING_VARIANCE));
         let blur_px = at[6].exp();
         let crossing = (at[2] - at[3]).sin().abs();
-        let sound = (cost / freedom).sqrt() < WORST_RESIDUAL * at[5].abs()
+        let sound = all.sqrt() < WORST_RESIDUAL * at[5].abs()
             && blur_px < 0.99 * BLUR_PX.1
             && crossing > SHALLOWEST_RAD.sin();
-        let inverse = normal.cholesky()?.inverse() * variance;
+        let inverse = there.covariance(variance)?;
         let own = Matrix2::identity() * MODEL_PX.powi(2);
         let covariance: Matrix2<f64> = inverse.fixed_view::<2, 2>(0, 0).into_owned() + own;
         let known = covariance.determinant() > 0.0 && covariance.trace() < UNKNOWN_PX2;
@@ -152,25 +166,4 @@ impl Disc {
             contrast: 2.0 * at[5].abs(),
         })
     }
-}
-
-fn clamped(ln_blur: f64) -> f64 {
-    ln_blur.clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln())
-}
-
-/// Normal equations in which the blur moves nothing.
-fn without_blur(normal: &Normal) -> Normal {
-    let mut without = *normal;
-    for k in (0..9).filter(|k| *k != 6) {
-        (without[(6, k)], without[(k, 6)]) = (0.0, 0.0);
-    }
-    without
-}
-
-fn damped_step(normal: &Normal, gradient: &Parameters, damping: f64) -> Option<Parameters> {
-    let mut damped = *normal;
-    for k in 0..9 {
-        damped[(k, k)] *= 1.0 + damping;
-    }
-    Some(damped.cholesky()?.solve(gradient))
 }

@@ -10,7 +10,7 @@ use crate::GrayImage;
 use crate::detect::saturated::is_saturated;
 
 /// Fewer pixels than this do not determine nine parameters.
-const FEWEST_PIXELS: usize = 14;
+pub(super) const FEWEST_PIXELS: usize = 14;
 /// Markers are cut out with this margin, px, for their blur.
 const MARKER_MARGIN_PX: f64 = 2.0;
 

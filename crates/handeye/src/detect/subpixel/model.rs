@@ -3,14 +3,14 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use multiversion::multiversion;
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 use super::disc::{Disc, LANES, Lane, Pixels};
 use crate::detect::erf::erf;
+use crate::detect::gram::{accumulate, pairs};
 use crate::detect::saturated::share_within;
 
 pub(super) type Parameters = SVector<f64, 9>;
-pub(super) type Normal = SMatrix<f64, 9, 9>;
 
 /// How the slope of the light gets into the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +41,7 @@ impl Model {
         Self { p, multiplies, n1: normal(at[2]), n2: normal(at[3]), scale }
     }
 
-    /// Picture minus model; NaN where the picture is saturated.
+    /// Picture minus model; NaN where both are beyond what a picture can have.
     #[inline(always)]
     fn residual(&self, pixels: &Pixels) -> Lane {
         let [cx, cy, _, _, a, b, _, gx, gy] = self.p;
@@ -107,12 +107,7 @@ const SUMS: usize = 8;
 /// Derivatives by the nine parameters, and the residual.
 pub(super) type Rows = [Lane; 10];
 /// Products of two of them.
-pub(super) const PRODUCTS: usize = 55;
-
-/// Where the product of rows `m <= n` is kept.
-pub(super) const fn place(m: usize, n: usize) -> usize {
-    m * 10 - m * (m + 1) / 2 + n
-}
+const PRODUCTS: usize = pairs(10);
 
 /// Products of all pairs of rows, summed over the pixels. Wider registers are used where there are
 /// any; they compute the same numbers.
@@ -131,7 +126,7 @@ pub(super) fn products(model: &Model, disc: &Disc) -> [[f32; SUMS]; PRODUCTS] {
     products
 }
 
-/// Picture minus model at every pixel, NaN where the picture is saturated.
+/// Picture minus model at every pixel, NaN where both are beyond what a picture can have.
 #[multiversion(targets("x86_64+avx2"))]
 pub(super) fn residuals(model: &Model, disc: &Disc) -> Vec<f32> {
     let mut all = Vec::with_capacity(disc.x.len());
@@ -139,21 +134,4 @@ pub(super) fn residuals(model: &Model, disc: &Disc) -> Vec<f32> {
         all.extend_from_slice(&model.residual(&pixels));
     }
     all
-}
-
-#[inline(always)]
-fn accumulate(products: &mut [[f32; SUMS]; PRODUCTS], rows: &Rows) {
-    let mut next = 0;
-    for m in 0..10 {
-        for n in m..10 {
-            let mut sum = products[next];
-            for from in (0..LANES).step_by(SUMS) {
-                for k in 0..SUMS {
-                    sum[k] += rows[m][from + k] * rows[n][from + k];
-                }
-            }
-            products[next] = sum;
-            next += 1;
-        }
-    }
 }

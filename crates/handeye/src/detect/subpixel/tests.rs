@@ -1,5 +1,5 @@
 use super::disc::{LANES, Pixels};
-use super::model::{Light, Model, PRODUCTS, place};
+use super::model::{Light, Model};
 use super::*;
 use crate::simulate::{Optics, Random, Scene};
 use crate::{Intrinsics, Pose, TargetModel};
@@ -25,12 +25,6 @@ fn the_jacobian_matches_central_differences() {
             assert!((analytic - numeric).abs() < 3e-3 * (3.0 + numeric.abs()), "{k}");
         }
     }
-}
-
-#[test]
-fn products_of_rows_have_a_place_each() {
-    let all: Vec<usize> = (0..10).flat_map(|m| (m..10).map(move |n| place(m, n))).collect();
-    assert_eq!(all, (0..PRODUCTS).collect::<Vec<_>>());
 }
 
 /// Fits every corner of six pictures from starts 0.5 px off: errors and their covariances.

@@ -10,14 +10,15 @@
 
 mod model;
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, SMatrix, Vector2};
 
 use super::quads::Quad;
 use crate::GrayImage;
-use crate::detect::levenberg::{Descent, Linearised, descend};
+use crate::detect::gram::place;
+use crate::detect::levenberg::{Bounded, Descent, Linearised, descend};
 use crate::detect::saturated::is_saturated;
 pub(super) use model::Parameters;
-use model::{LANES, Model, Normal, Pixels, place, products};
+use model::{LANES, Model, Pixels, products};
 
 /// Half the width of the band around a side in which its edge is fitted, as a share of the way to
 /// the next edges, and px.
@@ -39,8 +40,6 @@ const FEWEST_PIXELS: usize = 16;
 const PIECES: usize = 8;
 /// Blurs stay in this range, px.
 const BLUR_PX: (f64, f64) = (0.29, 4.0);
-/// Rounding to 8 bits alone leaves this variance.
-const ROUNDING_VARIANCE: f64 = 1.0 / 12.0;
 /// Residuals above this share of the contrast are not an edge's.
 const WORST_RESIDUAL: f64 = 0.35;
 
@@ -57,8 +56,20 @@ pub(super) struct Surroundings {
 
 /// Whether the blur of a tag's sides reaches that of the edges beside them.
 pub(super) fn is_crowded(quad: &Quad, around: &Surroundings, blur_px: f64) -> bool {
-    let free = |k: usize| Place::new(quad, k, around, blur_px).free;
-    (0..4).any(|k| free(k) < (CLEAR_BLURS + LEAST_BLURS) * blur_px)
+    (0..4).any(|k| free_px(quad, k, around) < (CLEAR_BLURS + LEAST_BLURS) * blur_px)
+}
+
+/// Whether the largest blur that can be measured leaves the sides of a tag alone.
+pub(super) fn is_roomy(cell_px: f64) -> bool {
+    cell_px > (CLEAR_BLURS + LEAST_BLURS) * BLUR_PX.1
+}
+
+/// From a side to the edges beside it, px.
+fn free_px(quad: &Quad, k: usize, around: &Surroundings) -> f64 {
+    let [a, b, c, d] = [0, 1, 2, 3].map(|i| quad[(k + i) % 4]);
+    let along = (b - a).normalize();
+    let across = Vector2::new(along.y, -along.x).dot(&(a - (c + d) * 0.5));
+    around.clear * across / around.cells
 }
 
 /// An edge: `n·(p - middle) = ρ` with the normal `n` at `angle`, and the covariance of `ρ, θ`.
@@ -71,7 +82,7 @@ pub(super) struct Line {
 }
 
 /// How far the pieces of an edge lie off its line, in their own variances.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub(super) struct Wobble {
     pub squares: f64,
     pub freedom: f64,
@@ -81,11 +92,9 @@ pub(super) struct Wobble {
 pub(super) fn side(image: &GrayImage, place: &Place, shape: Option<Parameters>) -> Option<Line> {
     let band = Band::gather(image, place)?;
     let start = shape.map_or_else(|| band.start(), moved_back);
-    let Descent { at, normal, cost, .. } = band.descend(start)?;
-    // `∂I/∂a` of a pixel is its weight
-    let freedom = (normal[(2, 2)] - 6.0).max(1.0);
-    let variance = (cost / freedom).max(ROUNDING_VARIANCE);
-    let inverse = normal.cholesky()?.inverse() * variance;
+    let Descent { at, there, .. } = band.descend(start)?;
+    let variance = there.variance().filter(|_| there.count >= FEWEST_PIXELS as f64)?;
+    let inverse = there.covariance(variance)?;
     let sound = variance.sqrt() < WORST_RESIDUAL * at[3].abs() && at[3] > 0.0;
     sound.then(|| Line {
         middle: place.middle,
@@ -112,18 +121,15 @@ pub(super) struct Place {
     /// Half the band's length along the side and half its width across, px.
     half: f64,
     width: f64,
-    /// From the side to the edges beside it, px.
-    free: f64,
 }
 
 impl Place {
     /// From corner `k` to the next one.
     pub fn new(quad: &Quad, k: usize, around: &Surroundings, blur_px: f64) -> Self {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|i| quad[(k + i) % 4]);
+        let (a, b) = (quad[k], quad[(k + 1) % 4]);
         let (length, along) = ((b - a).norm(), (b - a).normalize());
         let outwards = Vector2::new(along.y, -along.x);
-        let across = outwards.dot(&(a - (c + d) * 0.5));
-        let (cell, free) = (length / around.cells, around.clear * across / around.cells);
+        let (cell, free) = (length / around.cells, free_px(quad, k, around));
         let clear = CLEAR_BLURS * blur_px;
         let width = (free - clear).max(LEAST_BLURS * blur_px).min(BAND_SHARE * free);
         Self {
@@ -133,7 +139,6 @@ impl Place {
             bend: around.bows[k] / (0.5 * length).powi(2),
             half: (0.5 * length - (END_CELLS * cell + END_PX).max(clear)).max(0.0),
             width: width.clamp(BAND_PX.0, BAND_PX.1),
-            free,
         }
     }
 
@@ -212,8 +217,8 @@ impl Band {
     }
 
     fn descend(&self, start: Parameters) -> Option<Descent<6>> {
-        let possible = |at: &mut Parameters| at[4] = at[4].clamp(BLUR_PX.0.ln(), BLUR_PX.1.ln());
-        descend(start, |at| Some(self.linearise(at)), possible, |step| step[0].abs() < STEP_PX)
+        let bounded = Bounded::blur(4, BLUR_PX);
+        descend(start, |at| Some(self.linearise(at)), &bounded, |step| step[0].abs() < STEP_PX)
     }
 
     /// Each piece's own offset `Σ jr / Σ j²` from the fitted line, squared, over its variance
@@ -237,12 +242,16 @@ impl Band {
         }
     }
 
-    /// `JᵀJ`, `Jᵀr` and `rᵀr` of `r = I - model`.
     fn linearise(&self, at: &Parameters) -> Linearised<6> {
         let products = products(&Model::new(at), &self.pixels, self.saturated);
         let sums = products.map(|lane| lane.iter().map(|v| f64::from(*v)).sum::<f64>());
-        let at = |m: usize, n: usize| sums[place(m.min(n), m.max(n))];
-        (Normal::from_fn(at), Parameters::from_fn(|m, _| at(m, 6)), at(6, 6))
+        let at = |m: usize, n: usize| sums[place::<7>(m.min(n), m.max(n))];
+        Linearised {
+            normal: SMatrix::from_fn(at),
+            gradient: Parameters::from_fn(|m, _| at(m, 6)),
+            cost: at(6, 6),
+            count: at(2, 2), // `∂I/∂a` of a pixel is its weight
+        }
     }
 }
 
@@ -264,7 +273,7 @@ mod tests {
             let (y, x) = (f64::from(turn) * std::f64::consts::FRAC_PI_6).sin_cos();
             let (middle, outwards) = (Vector2::new(29.3, 24.8), Vector2::new(x, y));
             let (half, width) = (12.41, 3.31);
-            let place = Place { middle, outwards, bow: 0.0, bend: 0.0, half, width, free: 9.0 };
+            let place = Place { middle, outwards, bow: 0.0, bend: 0.0, half, width };
             let inside = |k: usize| {
                 let d = Vector2::new((k % 60) as f64, (k / 60) as f64) - middle;
                 place.along().dot(&d).abs() <= half && outwards.dot(&d).abs() <= width

@@ -5,7 +5,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::edge::{Line, Parameters, Place, Surroundings, side};
+use super::edge::{Line, Parameters, Place, Surroundings, is_crowded, side};
 use super::quads::{Quad, area};
 use crate::{GrayImage, ImageCorner};
 
@@ -104,6 +104,10 @@ pub(super) fn seen_in_part(
         if corners.iter().all(Option::is_none) {
             break;
         }
+    }
+    // blurred sides are off by what lies beside them
+    if is_crowded(&quad, around, blur_px) {
+        return [None; 4];
     }
     corners.map(|corner| corner.filter(|c| is_inside(image, &c.pixel)))
 }

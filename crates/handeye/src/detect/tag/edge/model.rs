@@ -3,13 +3,13 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use multiversion::multiversion;
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 use crate::detect::erf::erf;
+use crate::detect::gram::{accumulate, pairs};
 use crate::detect::saturated::share_within;
 
 pub(in super::super) type Parameters = SVector<f64, 6>;
-pub(super) type Normal = SMatrix<f64, 6, 6>;
 
 /// Pixels that are computed at once.
 pub(super) const LANES: usize = 8;
@@ -27,12 +27,7 @@ pub(super) struct Pixels {
 /// Derivatives by the six parameters, and the residual.
 pub(super) type Rows = [Lane; 7];
 /// Products of two of them.
-pub(super) const PRODUCTS: usize = 28;
-
-/// Where the product of rows `m <= n` is kept.
-pub(super) const fn place(m: usize, n: usize) -> usize {
-    m * 7 - m * (m + 1) / 2 + n
-}
+const PRODUCTS: usize = pairs(7);
 
 /// Products of all pairs of rows, summed over the pixels. Wider registers are used where there are
 /// any; they compute the same numbers.
@@ -49,19 +44,6 @@ pub(super) fn products(model: &Model, pixels: &[Pixels], saturated: bool) -> [La
         }
     }
     products
-}
-
-#[inline(always)]
-fn accumulate(products: &mut [Lane; PRODUCTS], rows: &Rows) {
-    let mut next = 0;
-    for m in 0..7 {
-        for n in m..7 {
-            for k in 0..LANES {
-                products[next][k] += rows[m][k] * rows[n][k];
-            }
-            next += 1;
-        }
-    }
 }
 
 /// The model at one set of parameters: `ρ θ a b ln(s) g`.
@@ -130,11 +112,5 @@ mod tests {
                 assert!((numeric - analytic).abs() < 3e-3 * (3.0 + numeric.abs()), "{k}");
             }
         }
-    }
-
-    #[test]
-    fn products_of_rows_have_a_place_each() {
-        let all: Vec<usize> = (0..7).flat_map(|m| (m..7).map(move |n| place(m, n))).collect();
-        assert_eq!(all, (0..PRODUCTS).collect::<Vec<_>>());
     }
 }
