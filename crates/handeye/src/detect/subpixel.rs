@@ -160,9 +160,8 @@ fn measure_disc(
         }
     }
     let (at, there) = found;
-    let fitted = disc.judge(&at, &there).ok_or(Unfit::NoCorner)?;
-    not_far(rough, &fitted.pixel)?;
-    Ok(fitted)
+    not_far(rough, &disc.place(&at))?;
+    disc.judge(&at, &there).ok_or(Unfit::NoCorner)
 }
 
 /// Both steps for a corner alone.
