@@ -6,6 +6,8 @@ use nalgebra::{Const, DimMin, SMatrix, SVector};
 pub(super) const ROUNDING_VARIANCE: f64 = 1.0 / 12.0;
 /// Most steps of a fit; it usually takes four.
 const MOST_STEPS: usize = 30;
+/// Damping below this hardly shortens a step.
+const FREE: f64 = 0.05;
 
 /// A model and its pixels at one set of parameters; `r = I - model`.
 #[derive(Clone, Copy)]
@@ -21,6 +23,13 @@ pub(super) struct Linearised<const N: usize> {
 }
 
 impl<const N: usize> Linearised<N> {
+    /// By the sums of products of columns `m <= n` of `(J, r)`.
+    pub fn of(product: impl Fn(usize, usize) -> f64, count: f64) -> Self {
+        let normal = SMatrix::from_fn(|m, n| product(m.min(n), m.max(n)));
+        let gradient = SVector::from_fn(|m, _| product(m, N));
+        Self { normal, gradient, cost: product(N, N), count }
+    }
+
     /// Of one pixel, from the residuals; `None` where there are no more pixels than parameters.
     pub fn variance(&self) -> Option<f64> {
         let freedom = self.count - N as f64;
@@ -87,12 +96,15 @@ impl Bounded {
 /// Where a fit ended.
 pub(super) struct Descent<const N: usize> {
     pub at: SVector<f64, N>,
+    /// What is known there, or from before the last, short step.
     pub there: Linearised<N>,
-    /// Whether the last step was short, or rounding forbade a better one.
+    /// The last step that was taken.
+    pub step: SVector<f64, N>,
+    /// Whether that was short, or rounding forbade a better one.
     pub settled: bool,
 }
 
-/// Steps until one that makes the fit better is `short`. `None` where there is no direction to go.
+/// Steps until one is `short`, the first excepted. `None` where there is no direction to go.
 pub(super) fn descend<const N: usize>(
     start: SVector<f64, N>,
     linearise: impl Fn(&SVector<f64, N>) -> Option<Linearised<N>>,
@@ -105,6 +117,7 @@ where
     let mut at = start;
     let mut there = linearise(&at)?;
     let mut damping = 1e-3;
+    let mut last = None;
     let mut settled = false;
     for _ in 0..MOST_STEPS {
         let mut step = there.step(damping, None)?;
@@ -112,9 +125,13 @@ where
             step = there.step(damping, Some(bounded.parameter))?;
         }
         let next = bounded.after(&at, &step);
+        if last.is_some() && damping < FREE && short(&step) {
+            (at, last, settled) = (next, Some(step), true);
+            break;
+        }
         match linearise(&next) {
             Some(better) if better.cost <= there.cost => {
-                (at, there) = (next, better);
+                (at, there, last) = (next, better, Some(step));
                 damping *= 0.1;
                 settled = short(&step);
             }
@@ -126,7 +143,8 @@ where
             break;
         }
     }
-    there.cost.is_finite().then_some(Descent { at, there, settled })
+    let step = last.unwrap_or_else(SVector::zeros);
+    there.cost.is_finite().then_some(Descent { at, there, step, settled })
 }
 
 #[cfg(test)]

@@ -113,7 +113,7 @@ pub struct NearCorner {
 /// Why there is none.
 pub fn approach(image: &GrayImage, rough: &RoughCorner) -> Result<NearCorner, Unfit> {
     let disc = Disc::gather(image, rough, radius(rough)?.min(NEAR_PX))?;
-    let (at, ..) = disc.descend(disc.start(rough), NEAR_STEP_PX).ok_or(Unfit::NoCorner)?;
+    let at = disc.descend(disc.start(rough), NEAR_STEP_PX).ok_or(Unfit::NoCorner)?.at;
     let pixel = disc.place(&at);
     not_far(rough, &pixel)?;
     let mut shape = at;
@@ -146,22 +146,21 @@ fn measure_disc(
 ) -> Result<FittedCorner, Unfit> {
     let mut disc = Disc::gather(image, &RoughCorner { pixel: near.pixel, ..*rough }, radius)?;
     let mut found = disc.descend(near.shape, STEP_PX).ok_or(Unfit::NoCorner)?;
-    let (at, there) = &found;
+    let at = found.at;
     let clear = radius > LIGHT_BLURS * at[6].exp();
     if clear && radius * at[7].hypot(at[8]) > SLOPED {
-        let multiplied = disc.misfit(at, there.cost);
-        let mut start = *at;
+        let multiplied = disc.misfit(&found);
+        let mut start = at;
         start.fixed_rows_mut::<2>(7).scale_mut(at[4]);
         disc.light = Light::Adds;
         let added = disc.descend(start, STEP_PX);
-        match added.filter(|(at, there)| disc.misfit(at, there.cost) < multiplied) {
+        match added.filter(|added| disc.misfit(added) < multiplied) {
             Some(added) => found = added,
             None => disc.light = Light::Multiplies,
         }
     }
-    let (at, there) = found;
-    not_far(rough, &disc.place(&at))?;
-    disc.judge(&at, &there).ok_or(Unfit::NoCorner)
+    not_far(rough, &disc.place(&found.at))?;
+    disc.judge(&found).ok_or(Unfit::NoCorner)
 }
 
 /// Both steps for a corner alone.

@@ -18,7 +18,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
+use nalgebra::{Matrix2, SVector, Vector2};
 
 use crate::GrayImage;
 use crate::detect::erf::erf;
@@ -199,24 +199,20 @@ impl Ring {
 
     fn linearise(&self, at: &Parameters) -> Option<Linearised<10>> {
         let model = Model::new(at)?;
-        let (mut normal, mut gradient) = ([[0.0; 10]; 10], [0.0; 10]);
-        let (mut cost, mut count) = (0.0, 0.0);
+        let (mut sums, mut count) = ([[0.0; 11]; 11], 0.0);
         for &(x, y, grey) in &self.pixels {
             let (value, j) = model.at(x, y);
             let weight = f64::from(share_within(grey as f32, value as f32).powi(2));
-            let r = grey - value;
-            cost += weight * r * r;
+            let row: [f64; 11] = std::array::from_fn(|k| j.get(k).copied().unwrap_or(grey - value));
             count += weight;
-            for m in 0..10 {
-                gradient[m] += weight * j[m] * r;
-                for n in m..10 {
-                    normal[m][n] += weight * j[m] * j[n];
+            for m in 0..11 {
+                for n in m..11 {
+                    sums[m][n] += weight * row[m] * row[n];
                 }
             }
         }
-        let (normal, gradient) =
-            (SMatrix::from_fn(|m, n| normal[m.min(n)][m.max(n)]), Parameters::from(gradient));
-        cost.is_finite().then_some(Linearised { normal, gradient, cost, count })
+        let there = Linearised::of(|m, n| sums[m][n], count);
+        there.cost.is_finite().then_some(there)
     }
 
     fn judge(&self, at: &Parameters, there: &Linearised<10>, dark: bool) -> Option<Ellipse> {

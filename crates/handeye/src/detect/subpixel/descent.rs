@@ -1,21 +1,17 @@
 //! The fit of the model to a disc, and what it says about the corner.
 
-use nalgebra::{Matrix2, SMatrix, Vector2};
+use nalgebra::{Matrix2, Vector2};
 
 use super::disc::{Disc, FEWEST_PIXELS};
 use super::model::{Model, Parameters, products, residuals};
 use super::{FittedCorner, RoughCorner};
 use crate::detect::gram::place;
-use crate::detect::levenberg::{Bounded, Linearised, ROUNDING_VARIANCE};
+use crate::detect::levenberg::{Bounded, Descent, Linearised, ROUNDING_VARIANCE, descend};
 
 /// No pixel of a disc is more columns or rows away from its middle.
 const MOST_ACROSS: i32 = 16;
 /// Columns and rows of a square that holds any disc.
 const ACROSS: usize = 2 * MOST_ACROSS as usize + 1;
-/// Most steps of the fit; it usually takes four.
-const MOST_STEPS: usize = 30;
-/// Damping below this hardly shortens a step.
-const FREE: f64 = 0.05;
 /// In a sharpened picture the fit may creep to and fro between pixels, by less than this, px.
 const SETTLED_PX: f64 = 0.03;
 /// Residuals above this share of the contrast are not a corner's.
@@ -35,36 +31,13 @@ const UNKNOWN_PX2: f64 = 0.1;
 const SHALLOWEST_RAD: f64 = 0.15;
 
 impl Disc {
-    /// Levenberg-Marquardt until the corner moves less than `step_px`; what is known comes from before
-    /// the last step.
-    pub fn descend(&self, start: Parameters, step_px: f64) -> Option<(Parameters, Linearised<9>)> {
+    /// Until the corner moves less than `step_px`.
+    pub fn descend(&self, start: Parameters, step_px: f64) -> Option<Descent<9>> {
+        let length = |step: &Parameters| step[0].hypot(step[1]);
+        let short = |step: &Parameters| length(step) < step_px;
         let bounded = Bounded::blur(6, BLUR_PX);
-        let mut at = start;
-        let mut there = self.linearise(&at);
-        let mut damping = 1e-3;
-        let mut last_px = f64::INFINITY;
-        for _ in 0..MOST_STEPS {
-            let mut step = there.step(damping, None)?;
-            if bounded.holds(&at, &step) {
-                step = there.step(damping, Some(bounded.parameter))?;
-            }
-            let next = bounded.after(&at, &step);
-            let length = step[0].hypot(step[1]);
-            if length < step_px && last_px.is_finite() && damping < FREE {
-                return Some((next, there));
-            }
-            let better = self.linearise(&next);
-            if better.cost.is_finite() && better.cost <= there.cost {
-                (at, there) = (next, better);
-                damping *= 0.1;
-                last_px = length;
-            } else if damping > 1e6 {
-                return Some((at, there)); // rounding: no step makes it better
-            } else {
-                damping *= 10.0;
-            }
-        }
-        (last_px < SETTLED_PX).then_some((at, there))
+        let found = descend(start, |at| Some(self.linearise(at)), &bounded, short)?;
+        (found.settled || length(&found.step) < SETTLED_PX).then_some(found)
     }
 
     /// Where the corner of these parameters is in the picture.
@@ -89,18 +62,12 @@ impl Disc {
     fn linearise(&self, at: &Parameters) -> Linearised<9> {
         let products = products(&Model::new(at, self.light), self);
         let sums = products.map(|lane| lane.iter().map(|v| f64::from(*v)).sum::<f64>());
-        let at = |m: usize, n: usize| sums[place::<10>(m.min(n), m.max(n))];
-        Linearised {
-            normal: SMatrix::from_fn(at),
-            gradient: Parameters::from_fn(|m, _| at(m, 9)),
-            cost: at(9, 9),
-            count: self.count as f64,
-        }
+        Linearised::of(|m, n| sums[place::<10>(m, n)], self.count as f64)
     }
 
     /// Mean squared residual of the pixels that are not saturated.
-    pub fn misfit(&self, at: &Parameters, cost: f64) -> f64 {
-        cost / self.told(&residuals(&Model::new(at, self.light), self))
+    pub fn misfit(&self, found: &Descent<9>) -> f64 {
+        found.there.cost / self.told(&residuals(&Model::new(&found.at, self.light), self))
     }
 
     /// Number of pixels that tell something.
@@ -142,7 +109,7 @@ impl Disc {
         (pairs >= FEWEST_PAIRS).then(|| sum / (pairs - ODD_PARAMETERS))
     }
 
-    pub fn judge(&self, at: &Parameters, there: &Linearised<9>) -> Option<FittedCorner> {
+    pub fn judge(&self, Descent { at, there, .. }: &Descent<9>) -> Option<FittedCorner> {
         let residuals = residuals(&Model::new(at, self.light), self);
         // a perfectly sharp print has black and white only; what little it tells is in the normal matrix
         let told = Some(self.told(&residuals)).filter(|told| *told >= FEWEST_PIXELS as f64);

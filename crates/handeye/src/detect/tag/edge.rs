@@ -10,7 +10,7 @@
 
 mod model;
 
-use nalgebra::{Matrix2, SMatrix, Vector2};
+use nalgebra::{Matrix2, Vector2};
 
 use super::quads::Quad;
 use crate::GrayImage;
@@ -245,13 +245,8 @@ impl Band {
     fn linearise(&self, at: &Parameters) -> Linearised<6> {
         let products = products(&Model::new(at), &self.pixels, self.saturated);
         let sums = products.map(|lane| lane.iter().map(|v| f64::from(*v)).sum::<f64>());
-        let at = |m: usize, n: usize| sums[place::<7>(m.min(n), m.max(n))];
-        Linearised {
-            normal: SMatrix::from_fn(at),
-            gradient: Parameters::from_fn(|m, _| at(m, 6)),
-            cost: at(6, 6),
-            count: at(2, 2), // `∂I/∂a` of a pixel is its weight
-        }
+        let product = |m: usize, n: usize| sums[place::<7>(m, n)];
+        Linearised::of(product, product(2, 2)) // `∂I/∂a` of a pixel is its weight
     }
 }
 

@@ -27,7 +27,7 @@
 use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 use multiversion::multiversion;
-use nalgebra::{Matrix2, Matrix3, RowVector2, SMatrix, SVector, Vector2};
+use nalgebra::{Matrix2, Matrix3, RowVector2, SVector, Vector2};
 
 use super::quads::{Quad, area};
 use super::sides::is_inside;
@@ -148,14 +148,9 @@ impl<'a> Tag<'a> {
     fn linearise(&self, at: &Parameters) -> Option<Linearised<UNKNOWN>> {
         let view = self.view(at)?;
         let sums = products(&view, self);
-        let product = |m: usize, n: usize| sums[m.min(n)][m.max(n)];
-        let cost = product(UNKNOWN, UNKNOWN);
-        cost.is_finite().then(|| Linearised {
-            normal: SMatrix::from_fn(product),
-            gradient: SVector::from_fn(|m, _| product(m, UNKNOWN)),
-            cost,
-            count: product(8, 8), // `∂I/∂a` of a pixel is its weight
-        })
+        // `∂I/∂a` of a pixel is its weight
+        let there = Linearised::of(|m, n| sums[m][n], sums[8][8]);
+        there.cost.is_finite().then_some(there)
     }
 
     fn view(&self, at: &Parameters) -> Option<View> {
