@@ -40,7 +40,13 @@ fn labelled(image: &GrayImage, grids: &[Grid], target: &TargetModel) -> Outcome 
     let fits = Fits { image, clean: 1.0, pairs: false, lines: None };
     let seen = joined(image, grids);
     let fitted = fits.all(&grow(&seen, &fits, size), &seen);
-    let known = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };
+    let sure = fitted.iter().filter(|(_, f)| f.in_sight);
+    let extent = Grid { corners: sure.map(|(k, f)| (*k, f.pixel)).collect() }.bounds();
+    let (low, high) = extent.ok_or(NotFound::NoCorners)?;
+    let inside =
+        |k: &(i32, i32)| (low.0..=high.0).contains(&k.0) && (low.1..=high.1).contains(&k.1);
+    let within = fitted.iter().filter(|(k, _)| inside(k));
+    let known = Grid { corners: within.map(|(k, f)| (*k, f.pixel)).collect() };
     let board = match whole(image, &known, size) {
         Ok(board) => board,
         Err(reason) => partial::on_board(image, &known, target).ok_or(reason)?,

@@ -57,6 +57,9 @@ pub struct FittedCorner {
     pub blur_px: f64,
     /// White minus black, grey values.
     pub contrast: f64,
+    /// Whether all four quadrants are seen to be what they are: where light drowns one that should be
+    /// dark, the corner of a single square looks like a crossing.
+    pub in_sight: bool,
 }
 
 /// Why a corner was left out.

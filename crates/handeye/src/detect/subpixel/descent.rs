@@ -29,6 +29,8 @@ const ODD_PARAMETERS: f64 = 4.0;
 const UNKNOWN_PX2: f64 = 0.1;
 /// Edges that cross at a smaller angle (rad) do not fix a point.
 const SHALLOWEST_RAD: f64 = 0.15;
+/// Share of a quadrant that may be lost in the other colour's limit.
+const MOST_DROWNED: f64 = 0.7;
 
 impl Disc {
     /// Until the corner moves less than `step_px`.
@@ -109,6 +111,22 @@ impl Disc {
         (pairs >= FEWEST_PAIRS).then(|| sum / (pairs - ODD_PARAMETERS))
     }
 
+    /// Whether no quadrant is lost in the other colour's limit.
+    fn is_crossing(&self, at: &Parameters, residuals: &[f32]) -> bool {
+        let normals = [at[2], at[3]].map(|t| (t.cos(), t.sin()));
+        let (mut all, mut drowned) = ([0.0; 4], [0.0; 4]);
+        for ((x, y, grey), residual) in self.each().zip(residuals) {
+            let [first, second] =
+                normals.map(|(n_x, n_y)| n_x * (x - at[0]) + n_y * (y - at[1]) > 0.0);
+            let is_dark = (first == second) == (at[5] < 0.0);
+            let quadrant = usize::from(first) + 2 * usize::from(second);
+            all[quadrant] += 1.0;
+            let is_other = is_dark == (grey > at[4]);
+            drowned[quadrant] += f64::from(u8::from(is_other && residual.is_nan()));
+        }
+        (0..4).all(|k| drowned[k] <= MOST_DROWNED * all[k])
+    }
+
     pub fn judge(&self, Descent { at, there, .. }: &Descent<9>) -> Option<FittedCorner> {
         let residuals = residuals(&Model::new(at, self.light), self);
         // a perfectly sharp print has black and white only; what little it tells is in the normal matrix
@@ -131,6 +149,7 @@ impl Disc {
             covariance,
             blur_px,
             contrast: 2.0 * at[5].abs(),
+            in_sight: !self.saturated || self.is_crossing(at, &residuals),
         })
     }
 }

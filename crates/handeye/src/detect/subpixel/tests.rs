@@ -168,3 +168,31 @@ fn perfectly_sharp_corners_are_all_found() {
         }
     }
 }
+
+/// Black below and to the right of the middle, white elsewhere, under a veil that gets brighter to the
+/// upper left; `chequered` is black to the upper left too.
+fn square_in_glare(light: f64, chequered: bool) -> GrayImage {
+    let grey = |x: f64, y: f64| {
+        let side = |d: f64| 1.0 / (1.0 + (-1.5 * d).exp());
+        let other = if chequered { side(-x) * side(-y) } else { 0.0 };
+        let veil = light * (-(x + y) / 6.0).exp();
+        (210.0 - 170.0 * (side(x) * side(y) + other) + veil).round().clamp(0.0, 255.0) as f32
+    };
+    let at = |k: usize| grey((k % 60) as f64 - 30.0, (k / 60) as f64 - 30.0);
+    GrayImage::new(60, 60, (0..3600).map(at).collect()).unwrap()
+}
+
+#[test]
+fn where_glare_drowns_a_black_square_its_corner_is_not_in_sight() {
+    let rough = RoughCorner {
+        pixel: Vector2::new(30.2, 29.9),
+        along_x: Vector2::new(20.0, 0.0),
+        along_y: Vector2::new(0.0, 20.0),
+        clean: 1.0,
+        marker: None,
+    };
+    let in_sight =
+        |light, chequered| fit(&square_in_glare(light, chequered), &rough).map(|f| f.in_sight);
+    assert_eq!(in_sight(110.0, false), Ok(false));
+    assert_eq!(in_sight(10.0, true), Ok(true));
+}
