@@ -175,7 +175,7 @@ impl Task<'_> {
                 });
             }
         }
-        Some(rigid_fit(&from, &to, &vec![1.0; from.len()], None).ok()?.rms_m.powi(2))
+        Some(rigid_fit(&from, &to).ok()?.rms_m.powi(2))
     }
 }
 

@@ -173,7 +173,7 @@ pub fn fit_touches(
     let mut stop = None;
     let mut wrong_matches = 0;
     let fit = match registration {
-        Registration::Svd => register::rigid_fit(&source, &target, &vec![1.0; source.len()], None)?,
+        Registration::Svd => register::rigid_fit(&source, &target)?,
         Registration::Icp(config) => {
             let icp = register::point_to_point(&source, &target, start.iso(), &config)?;
             stop = Some((icp.iterations, icp.stop));

@@ -95,7 +95,7 @@ impl Reach {
     pub fn rigid(&self, covariance: &DMatrix<f64>) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
         let from: Vec<Vector3<f64>> = self.places.iter().map(|k| k.p).collect();
         let to: Vec<Vector3<f64>> = self.places.iter().map(|k| k.p + k.shift).collect();
-        let fit = rigid_fit(&from, &to, &vec![1.0; from.len()], None).ok()?;
+        let fit = rigid_fit(&from, &to).ok()?;
         let x = Pose::claim(self.x.iso() * fit.target_from_source);
         let mut squares = Matrix6::zeros();
         let mut by_all = DMatrix::zeros(6, covariance.nrows());

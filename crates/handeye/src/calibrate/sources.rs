@@ -112,7 +112,7 @@ fn scan_pose(surface: &[SurfaceCorner], target: &TargetModel) -> Option<TargetPo
         .iter()
         .filter_map(|c| Some((target.corner(c.id)?.vector(), c.in_camera.vector())))
         .unzip();
-    let fit = register::rigid_fit(&model, &seen, &vec![1.0; model.len()], None).ok()?;
+    let fit = register::rigid_fit(&model, &seen).ok()?;
     Some(TargetPose {
         camera_from_target: Pose::claim(fit.target_from_source),
         covariance: fit.covariance,

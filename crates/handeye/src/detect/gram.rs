@@ -6,7 +6,7 @@ pub(super) const fn pairs(rows: usize) -> usize {
 }
 
 /// Where the product of rows `m <= n` of `ROWS` is kept.
-pub(super) const fn place<const ROWS: usize>(m: usize, n: usize) -> usize {
+pub(crate) const fn place<const ROWS: usize>(m: usize, n: usize) -> usize {
     m * ROWS - m * (m + 1) / 2 + n
 }
 

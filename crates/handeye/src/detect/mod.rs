@@ -13,7 +13,7 @@ mod coded;
 mod crossings;
 mod erf;
 mod fits;
-mod gram;
+pub(crate) mod gram;
 mod grid;
 pub mod homography;
 mod levenberg;

@@ -12,7 +12,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::{RigidFit, rigid_fit, rigid_fit::judge};
+use super::{RigidFit, rigid_fit};
 use crate::{Error, lie};
 
 /// When to match and when to stop.
@@ -75,7 +75,7 @@ pub fn point_to_point(
     while iterations < config.max_iterations {
         iterations += 1;
         let (p, q) = matched(source, target, &matches);
-        let next = rigid_fit(&p, &q, &vec![1.0; p.len()], None)?.target_from_source;
+        let next = rigid_fit(&p, &q)?.target_from_source;
         let change = lie::log(&at.inv_mul(&next)).amax();
         at = next;
         matches = nearest(source, target, &at, config);
@@ -88,7 +88,7 @@ pub fn point_to_point(
     if p.len() < 3 {
         return Err(Error::TooFewPoints { found: p.len(), needed: 3 });
     }
-    let fit = judge(&p, &q, &vec![1.0; p.len()], at, None);
+    let fit = rigid_fit(&p, &q)?;
     Ok(Icp { fit, iterations, stop, matches })
 }
 
@@ -184,10 +184,10 @@ mod tests {
     #[test]
     fn with_known_correspondences_the_start_does_not_matter() {
         let (p, b) = (touched(), apply(&truth(), &touched()));
-        let direct = rigid_fit(&p, &b, &[1.0; 6], None).unwrap().target_from_source;
+        let direct = rigid_fit(&p, &b).unwrap().target_from_source;
         for start in [start(), Isometry3::identity(), truth().inverse()] {
             let moved = apply(&start, &p);
-            let correction = rigid_fit(&moved, &b, &[1.0; 6], None).unwrap().target_from_source;
+            let correction = rigid_fit(&moved, &b).unwrap().target_from_source;
             assert!(close(&(correction * start), &direct));
         }
     }

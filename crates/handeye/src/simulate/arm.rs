@@ -184,7 +184,7 @@ mod tests {
                 real.push(arm.base_from_flange(&q).translation());
                 said.push(arm.model.base_from_flange(&q).translation());
             }
-            let fit = rigid_fit::rigid_fit(&real, &said, &vec![1.0; real.len()], None).unwrap();
+            let fit = rigid_fit::rigid_fit(&real, &said).unwrap();
             for (a, b) in real.iter().zip(&said) {
                 sum += (fit.target_from_source.transform_point(&(*a).into()).coords - b)
                     .norm_squared();

@@ -29,7 +29,7 @@ mod tsai_lenz;
 mod wu;
 mod zhuang;
 
-use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Vector3};
 
 use crate::{Error, HandEye, Pose, PosePair, linalg};
 
@@ -218,11 +218,6 @@ impl PosePair {
     pub(crate) fn t_b(&self) -> Vector3<f64> {
         self.camera_from_target.inverse().translation()
     }
-}
-
-pub(crate) fn isometry(rotation: &Matrix3<f64>, translation: Vector3<f64>) -> Isometry3<f64> {
-    let pose = Pose::<(), ()>::from_parts(rotation, Vector3::zeros());
-    Isometry3::from_parts(Translation3::from(translation), pose.iso().rotation)
 }
 
 /// The target's place that fits best once the camera's is known: the mean of `A X B⁻¹`.
