@@ -1,9 +1,15 @@
 //! Registration of point sets.
 
 pub mod icp;
+pub mod measured_fit;
 mod moments;
 pub mod rigid_fit;
+pub mod robust_fit;
 mod rotation;
+pub mod similarity_fit;
 
 pub use icp::{Icp, IcpConfig, Stop, point_to_point};
+pub use measured_fit::{MeasuredFit, MeasuredPoint, measured_fit};
 pub use rigid_fit::{RigidFit, rigid_fit, weighted_rigid_fit};
+pub use robust_fit::{RobustFit, robust_fit};
+pub use similarity_fit::{SimilarityFit, similarity_fit};

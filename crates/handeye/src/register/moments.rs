@@ -47,6 +47,16 @@ impl Moments {
         }
     }
 
+    /// With all `p` times a scale.
+    pub fn scaled(&self, scale: f64) -> Self {
+        Self {
+            p_mean: self.p_mean * scale,
+            cross: self.cross * scale,
+            scatter: self.scatter * (scale * scale),
+            ..*self
+        }
+    }
+
     /// `Σ w |p - p̄|²`.
     pub fn p_squared(&self) -> f64 {
         self.scatter.trace()

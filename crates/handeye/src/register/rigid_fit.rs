@@ -30,7 +30,7 @@ pub struct RigidFit {
     pub rms_m: f64,
     /// Error of one point of mean weight, per axis, m: given, or estimated from the residuals.
     pub sigma_m: f64,
-    /// `3 K - 6`.
+    /// `3 K - 6`; one less with a scale.
     pub degrees_of_freedom: f64,
     /// Covariance for a point error of 1 m.
     unit: Matrix6<f64>,
@@ -93,20 +93,33 @@ fn fit(
     if squares < ROUNDED * ROUNDED * spread / moments.weight {
         squares = mean_square(&fit, source, target, weights, moments.weight);
     }
-    let unit = unit_covariance(&moments, count).ok_or(Error::Collinear { ratio: 0.0 })?;
-    let degrees_of_freedom = 3.0 * count - 6.0;
-    let sigma_m = (squares * count / degrees_of_freedom).sqrt();
-    Ok(RigidFit {
-        target_from_source: fit,
-        covariance: (count > 3.0).then(|| unit * (sigma_m * sigma_m)),
-        rms_m: squares.sqrt(),
-        sigma_m,
-        degrees_of_freedom,
-        unit,
-    })
+    RigidFit::new(fit, &moments, count, squares, 6.0)
 }
 
 impl RigidFit {
+    /// Of `count` points with these moments, whose residuals are `mean_square` (m²) after so many
+    /// parameters were fitted.
+    pub(super) fn new(
+        target_from_source: Isometry3<f64>,
+        moments: &Moments,
+        count: f64,
+        mean_square: f64,
+        parameters: f64,
+    ) -> Result<Self, Error> {
+        let unit = unit_covariance(moments, count).ok_or(Error::Collinear { ratio: 0.0 })?;
+        let degrees_of_freedom = 3.0 * count - parameters;
+        let mean_square = mean_square.max(0.0);
+        let sigma_m = (mean_square * count / degrees_of_freedom).sqrt();
+        Ok(Self {
+            target_from_source,
+            covariance: (count > 3.0).then(|| unit * (sigma_m * sigma_m)),
+            rms_m: mean_square.sqrt(),
+            sigma_m,
+            degrees_of_freedom,
+            unit,
+        })
+    }
+
     /// With the error of one point per axis (m) known beforehand: the residuals do not count.
     pub fn with_point_error(mut self, sigma_m: f64) -> Self {
         self.sigma_m = sigma_m;
