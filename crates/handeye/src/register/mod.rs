@@ -1,6 +1,7 @@
 //! Registration of point sets.
 
 pub mod icp;
+pub mod kd_tree;
 pub mod measured_fit;
 mod moments;
 pub mod rigid_fit;
@@ -9,6 +10,7 @@ mod rotation;
 pub mod similarity_fit;
 
 pub use icp::{Icp, IcpConfig, Stop, point_to_point};
+pub use kd_tree::{KdTree, Neighbour};
 pub use measured_fit::{MeasuredFit, MeasuredPoint, measured_fit};
 pub use rigid_fit::{RigidFit, rigid_fit, weighted_rigid_fit};
 pub use robust_fit::{RobustFit, robust_fit};
