@@ -18,6 +18,7 @@ pub mod lens;
 pub mod lie;
 pub mod linalg;
 pub mod observation;
+pub mod parallel;
 pub mod pivot;
 pub mod pixel_origin;
 pub mod plan;

@@ -1,14 +1,19 @@
 //! Registration of point sets.
 
+pub mod dense;
+mod grid_view;
 pub mod icp;
 pub mod kd_tree;
 pub mod measured_fit;
 mod moments;
+mod patch;
 pub mod rigid_fit;
 pub mod robust_fit;
 mod rotation;
 pub mod similarity_fit;
+mod surface;
 
+pub use dense::{Dense, DenseConfig, register};
 pub use icp::{Icp, IcpConfig, Stop, point_to_point};
 pub use kd_tree::{KdTree, Neighbour};
 pub use measured_fit::{MeasuredFit, MeasuredPoint, measured_fit};

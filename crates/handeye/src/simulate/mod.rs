@@ -11,6 +11,7 @@ pub mod random;
 pub mod recording;
 pub mod render;
 mod robot_error;
+pub mod room;
 #[cfg(test)]
 mod tests;
 pub(crate) mod texture;
@@ -23,3 +24,4 @@ pub use mistakes::{Mistake, spoil};
 pub use random::Random;
 pub use recording::{Recording, Truth};
 pub use render::{BitDepth, DepthSensor, Optics, Scene};
+pub use room::{Room, Solid, Thing};
