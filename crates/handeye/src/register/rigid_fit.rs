@@ -193,12 +193,19 @@ pub(super) fn moments(
 pub(super) fn best_rotation(moments: &Moments) -> Result<nalgebra::UnitQuaternion<f64>, Error> {
     let bound = 0.5 * (moments.p_squared() + moments.q_squared);
     let found = rotation::align(&moments.cross, bound).ok_or(Error::Collinear { ratio: 0.0 })?;
-    if found.is_clear() {
+    let clear = found.is_clear();
+    if clear && rotation::spread_is_clear(&moments.scatter) {
         return Ok(found.rotation);
     }
     let [first, second, last] = found.singular().into();
-    if !(second > COLLINEAR * first) {
-        return Err(Error::Collinear { ratio: second.max(0.0) / first });
+    // errors of the points tell of a turn about their line, but not the true one
+    let [along, across, _] = rotation::eigenvalues(&moments.scatter).into();
+    let ratio = (second / first).min(across / along);
+    if !(ratio > COLLINEAR) {
+        return Err(Error::Collinear { ratio: ratio.max(0.0) });
+    }
+    if clear {
+        return Ok(found.rotation);
     }
     if !(second + last > MIRRORED * first) {
         return Err(Error::NotDetermined {
@@ -293,6 +300,15 @@ mod tests {
         let line: Vec<_> = (0..9).map(|i| Vector3::new(0.03 * f64::from(i), 0.0, 1.0)).collect();
         let error = rigid_fit(&line, &moved(&line)).unwrap_err();
         assert!(matches!(error, Error::Collinear { .. }), "{error}");
+        let mut random = Random::new(6);
+        let mut shaken = |points: &[Vector3<f64>], sigma: f64| -> Vec<Vector3<f64>> {
+            points.iter().map(|p| p + random.normal3() * sigma).collect()
+        };
+        for _ in 0..200 {
+            let (source, target) = (shaken(&line, 1e-3), shaken(&moved(&line), 2e-3));
+            let error = rigid_fit(&source, &target).unwrap_err();
+            assert!(matches!(error, Error::Collinear { .. }), "{error}");
+        }
         let same = vec![Vector3::new(0.1, 0.2, 0.3); 5];
         assert!(rigid_fit(&same, &moved(&same)).is_err());
     }

@@ -28,7 +28,7 @@ const ROOT_ACCURACY: f64 = 1e-9;
 const MOST_STEPS: usize = 8;
 /// The rotation has settled when a step turns it by less than this, rad.
 const SETTLED_RAD: f64 = 1e-9;
-/// Bounds the sum of the lesser two singular values from below, see [`Alignment::is_clear`].
+/// Bounds the sum of the lesser two singular values from below, see [`spread_is_clear`].
 const CLEAR: f64 = 0.01;
 
 /// `H = R S`, `S` symmetric: the best rotation, and how well `H` determines it.
@@ -48,13 +48,17 @@ impl Alignment {
         eigenvalues(&self.stretch)
     }
 
-    /// Whether `σ₂ + σ₃` is surely above 0.5 % of `σ₁`: with `s = σ₁ + σ₂ + σ₃` it is at least
-    /// `det(s I - S) / 2 s²`.
+    /// Whether all turns but small ones are surely worse, see [`spread_is_clear`].
     pub fn is_clear(&self) -> bool {
-        let sum = self.stretch.trace();
-        let curvature = Matrix3::identity() * sum - self.stretch;
-        curvature.determinant() > CLEAR * sum.powi(3)
+        spread_is_clear(&self.stretch)
     }
+}
+
+/// Whether `σ₂ + σ₃` is surely above 0.5 % of `σ₁`, of the eigenvalues of a symmetric matrix: with
+/// `s = σ₁ + σ₂ + σ₃` it is at least `det(s I - S) / 2 s²`.
+pub fn spread_is_clear(s: &Matrix3<f64>) -> bool {
+    let sum = s.trace();
+    (Matrix3::identity() * sum - s).determinant() > CLEAR * sum.powi(3)
 }
 
 /// With an upper bound of the sum of the singular values, as near as it is to be had. `None` of what is
@@ -172,7 +176,7 @@ fn newton(s: &Matrix3<f64>) -> Option<Vector3<f64>> {
 /// digits.
 ///
 /// O. Smith, *Eigenvalues of a symmetric 3 x 3 matrix*, Comm. ACM 4(4), 1961.
-fn eigenvalues(s: &Matrix3<f64>) -> Vector3<f64> {
+pub fn eigenvalues(s: &Matrix3<f64>) -> Vector3<f64> {
     let mean = s.trace() / 3.0;
     let centred = (s + s.transpose()) * 0.5 - Matrix3::identity() * mean;
     let spread = (centred.norm_squared() / 6.0).sqrt();
