@@ -15,7 +15,7 @@
 
 use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3, Vector6};
 
-use super::{grid_view::GridView, icp::Stop, patch::Patch, surface::Surface};
+use super::{icp::Stop, patch::Patch, surface::Surface};
 use crate::{Error, Scan, linalg, parallel};
 
 /// When to match and when to stop.
@@ -82,12 +82,13 @@ pub fn register(
     start: &Isometry3<f64>,
     config: &DenseConfig,
 ) -> Result<Dense, Error> {
-    let [source, target] = [organised(source, "source")?, organised(target, "target")?];
-    let view = GridView::of(&target).ok_or_else(|| {
-        Error::Invalid("the rows and columns of the target scan are not those of a camera".into())
-    })?;
+    let surface = |scan: &Scan, name| {
+        Surface::of(scan, config.threads)
+            .ok_or_else(|| Error::Invalid(format!("the {name} scan shows no surface")))
+    };
+    let (source, target) = (surface(source, "source")?, surface(target, "target")?);
     let sigma = f64::INFINITY;
-    let mut round = Round { source: &source, target: &target, view, config, sigma, stride: 1 };
+    let mut round = Round { source: &source, target: &target, config, sigma, stride: 1 };
     let mut found = Dense {
         target_from_source: *start,
         iterations: 0,
@@ -102,15 +103,6 @@ pub fn register(
     Ok(found)
 }
 
-fn organised(scan: &Scan, name: &str) -> Result<Surface, Error> {
-    if !scan.is_organised() {
-        return Err(Error::Invalid(format!(
-            "the {name} scan is not organised in rows and columns"
-        )));
-    }
-    Ok(Surface::of(scan))
-}
-
 /// Turned about `middle` of the target, then shifted.
 fn moved(at: &Isometry3<f64>, step: &Vector6<f64>, middle: &Vector3<f64>) -> Isometry3<f64> {
     let turn = UnitQuaternion::from_scaled_axis(Vector3::new(step[0], step[1], step[2]));
@@ -122,7 +114,6 @@ fn moved(at: &Isometry3<f64>, step: &Vector6<f64>, middle: &Vector3<f64>) -> Iso
 struct Round<'a> {
     source: &'a Surface,
     target: &'a Surface,
-    view: GridView,
     config: &'a DenseConfig,
     /// Standard deviation of residuals over their scatter.
     sigma: f64,
@@ -205,17 +196,12 @@ impl Round<'_> {
         let middle = self.middle(at);
         let (r, t) = (at.rotation.to_rotation_matrix().into_inner(), at.translation.vector);
         let moved = |patch: &Patch| (r * patch.mean + t, r * patch.normal);
-        let columns = self.source.size.0;
-        let is_looked_at = |k: &usize| {
-            self.stride == 1
-                || (k % columns).is_multiple_of(self.stride)
-                    && (k / columns).is_multiple_of(self.stride)
-        };
+        let is_looked_at = |k: &usize| self.source.is_in(*k, self.stride);
         for own in range.filter(is_looked_at).filter_map(|k| self.source.patches[k].as_ref()) {
             total.all += 1.0;
             let (p, n) = moved(own);
-            if let Some(other) = self.matching(&p, &n) {
-                let variance = own.across + other.across + LEAST;
+            if let Some((other, n)) = self.matching(&p, &n) {
+                let variance = own.across / own.held + other.across / other.held + LEAST;
                 total.add(
                     &(p - middle),
                     &((n + other.normal) * 0.5),
@@ -228,13 +214,16 @@ impl Round<'_> {
         total
     }
 
-    /// The target's window in the direction of a moved one, if it is near and lies alike.
+    /// The target's window at a moved one, if it is near and lies alike; and the moved normal, on its side.
     #[inline(always)]
-    fn matching(&self, p: &Vector3<f64>, n: &Vector3<f64>) -> Option<&Patch> {
-        let other = self.view.find(self.target, p)?;
+    fn matching(&self, p: &Vector3<f64>, n: &Vector3<f64>) -> Option<(&Patch, Vector3<f64>)> {
         let gate = self.config.max_correspondence_distance_m;
+        let other = self.target.find(p, gate)?;
         let is_near = (p - other.mean).norm_squared() <= gate * gate;
-        (is_near && n.dot(&other.normal) >= COSINE).then_some(other)
+        let cosine = n.dot(&other.normal);
+        let is_facing = self.source.is_facing && self.target.is_facing;
+        let n = if cosine < 0.0 && !is_facing { -n } else { *n };
+        (is_near && n.dot(&other.normal) >= COSINE).then_some((other, n))
     }
 }
 

@@ -5,13 +5,15 @@
 
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 
-use super::{patch::Patch, surface::Surface};
+use super::patch::Patch;
 
 /// From directions to columns and rows of windows.
 #[derive(Debug, Clone, Copy)]
 pub struct GridView {
     linear: Matrix2<f64>,
     offset: Vector2<f64>,
+    /// Columns and rows.
+    size: (usize, usize),
 }
 
 /// A grid of which the directions are off by more than this many windows (RMS) is no camera's.
@@ -19,10 +21,10 @@ const FARTHEST: f64 = 2.0;
 
 impl GridView {
     /// `None` where the grid is not that of a camera at the origin.
-    pub fn of(surface: &Surface) -> Option<Self> {
-        let columns = surface.size.0;
+    pub fn of(patches: &[Option<Patch>], size: (usize, usize)) -> Option<Self> {
+        let columns = size.0;
         let all = || {
-            surface.patches.iter().enumerate().filter_map(move |(k, patch)| {
+            patches.iter().enumerate().filter_map(move |(k, patch)| {
                 let patch = patch.as_ref().filter(|p| p.mean.z > 0.0)?;
                 let at = Vector2::new((k % columns) as f64, (k / columns) as f64);
                 Some((direction(&patch.mean).push(1.0), at))
@@ -35,7 +37,7 @@ impl GridView {
         }
         let solution = normal.try_inverse()? * right;
         let linear = solution.fixed_rows::<2>(0).transpose();
-        let view = Self { linear, offset: solution.row(2).transpose() };
+        let view = Self { linear, offset: solution.row(2).transpose(), size };
         let (mut sum, mut count) = (0.0, 0.0);
         for (d, at) in all() {
             sum += (view.linear * d.xy() + view.offset - at).norm_squared();
@@ -46,31 +48,31 @@ impl GridView {
 
     /// The window that has the point's direction.
     #[inline]
-    pub fn find<'a>(&self, surface: &'a Surface, p: &Vector3<f64>) -> Option<&'a Patch> {
+    pub fn find<'a>(&self, patches: &'a [Option<Patch>], p: &Vector3<f64>) -> Option<&'a Patch> {
         if p.z <= 0.0 {
             return None;
         }
         let d = direction(p);
         let at = self.linear * d + self.offset;
-        let k = index(surface, &at)?;
-        let Some(patch) = &surface.patches[k] else { return None };
-        let columns = surface.size.0;
+        let k = self.index(&at)?;
+        let Some(patch) = &patches[k] else { return None };
+        let columns = self.size.0;
         let here = Vector2::new((k % columns) as f64, (k / columns) as f64);
         let beside = here + self.linear * (d - direction(&patch.mean));
-        let k = index(surface, &beside)?;
-        surface.patches[k].as_ref()
+        let k = self.index(&beside)?;
+        patches[k].as_ref()
+    }
+
+    #[inline(always)]
+    fn index(&self, at: &Vector2<f64>) -> Option<usize> {
+        let (x, y) = (at.x + 0.5, at.y + 0.5);
+        let (columns, rows) = self.size;
+        let inside = x >= 0.0 && y >= 0.0 && x < columns as f64 && y < rows as f64;
+        inside.then(|| y as usize * columns + x as usize)
     }
 }
 
 #[inline(always)]
 fn direction(p: &Vector3<f64>) -> Vector2<f64> {
     p.xy() / p.z
-}
-
-#[inline(always)]
-fn index(surface: &Surface, at: &Vector2<f64>) -> Option<usize> {
-    let (x, y) = (at.x + 0.5, at.y + 0.5);
-    let (columns, rows) = surface.size;
-    let inside = x >= 0.0 && y >= 0.0 && x < columns as f64 && y < rows as f64;
-    inside.then(|| y as usize * columns + x as usize)
 }

@@ -12,6 +12,7 @@ pub mod robust_fit;
 mod rotation;
 pub mod similarity_fit;
 mod surface;
+mod voxels;
 
 pub use dense::{Dense, DenseConfig, register};
 pub use icp::{Icp, IcpConfig, Stop, point_to_point};

@@ -45,7 +45,9 @@ pub struct Patch {
     pub across: f64,
     /// The smaller of the variances along the plane, m².
     pub along: f64,
-    /// Number of its points.
+    /// Number of points of which it is the mean.
+    pub held: f64,
+    /// Number of points that tell the normal.
     pub count: f64,
 }
 
@@ -102,6 +104,7 @@ impl Patch {
             normal: rows[longest] / length,
             across,
             along,
+            held: n,
             count: n,
         })
     }

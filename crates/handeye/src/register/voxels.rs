@@ -1,0 +1,355 @@
+//! A cloud of points in any order, cut into cubes.
+//!
+//! Cubes are as large as it takes to hold some points of a surface each. Within its cube a point is
+//! counted in whole steps of a 32768th of the edge: sums of whole numbers are the same in whatever order
+//! the points come, and are carried over to a neighbouring cube without an error.
+
+use nalgebra::Vector3;
+
+use super::patch::{Patch, Sums};
+use crate::parallel;
+
+/// Steps along the edge of a cube, as a power of two.
+const STEP_BITS: u32 = 15;
+/// Steps along the edge of a cube.
+const STEPS: i64 = 1 << STEP_BITS;
+/// Cubes along an axis, as a power of two.
+const CUBE_BITS: u32 = 21;
+/// Points that tell the density of all.
+const SAMPLE: usize = 1 << 14;
+/// Points of the sample in a cube in which they are counted.
+const COUNTED: f64 = 8.0;
+/// Share of the points beyond each end of an axis that do not count for its length.
+const BEYOND: usize = 500;
+/// Cubes that a thread works on at once.
+const CHUNK: usize = 4096;
+/// Cubes that are no neighbours.
+const NOWHERE: u32 = u32::MAX;
+
+/// Sums over the points of a cube, in steps from its middle.
+#[derive(Debug, Clone, Copy, Default)]
+struct Cube {
+    key: u64,
+    count: i64,
+    first: [i64; 3],
+    second: [i64; 6],
+}
+
+impl Cube {
+    #[inline(always)]
+    fn add(&mut self, [x, y, z]: [i64; 3]) {
+        self.count += 1;
+        let second = [x * x, x * y, x * z, y * y, y * z, z * z];
+        (0..3).for_each(|k| self.first[k] += [x, y, z][k]);
+        (0..6).for_each(|k| self.second[k] += second[k]);
+    }
+
+    /// Adds the points of a cube that lies `by` steps away.
+    #[inline(always)]
+    fn add_all(&mut self, other: &Self, by: [i64; 3]) {
+        let (n, s) = (other.count, &other.first);
+        self.count += n;
+        (0..3).for_each(|k| self.first[k] += s[k] + n * by[k]);
+        let mut k = 0;
+        for a in 0..3 {
+            for b in a..3 {
+                self.second[k] += other.second[k] + by[a] * s[b] + by[b] * s[a] + n * by[a] * by[b];
+                k += 1;
+            }
+        }
+    }
+}
+
+/// Which cube a point is in.
+#[derive(Debug, Clone, Copy)]
+struct Lattice {
+    origin: [f64; 3],
+    /// Steps of a metre.
+    per_m: f64,
+}
+
+impl Lattice {
+    /// Key of the cube, and steps from its middle; `None` where it is not finite or too far away.
+    #[inline(always)]
+    fn place(&self, point: &[f32; 3]) -> Option<(u64, [i64; 3])> {
+        const ALL: f64 = (1u64 << (STEP_BITS + CUBE_BITS)) as f64;
+        let (mut key, mut steps, mut inside) = (0, [0; 3], true);
+        for k in (0..3).rev() {
+            let along = (f64::from(point[k]) - self.origin[k]) * self.per_m + 0.5 * ALL;
+            inside &= along >= 0.0 && along < ALL;
+            let whole = along as u64;
+            key = key << CUBE_BITS | whole >> STEP_BITS;
+            steps[k] = (whole & (STEPS as u64 - 1)) as i64 - STEPS / 2;
+        }
+        inside.then_some((key, steps))
+    }
+
+    /// From steps about the middle of a cube to metres.
+    fn metres(&self, key: u64, steps: &Vector3<f64>) -> Vector3<f64> {
+        let half = f64::from(1 << (CUBE_BITS - 1));
+        Vector3::from_fn(|k, _| {
+            let cube = (key >> (CUBE_BITS * k as u32) & ((1 << CUBE_BITS) - 1)) as f64 - half;
+            // a step is its middle
+            self.origin[k] + ((cube + 0.5) * STEPS as f64 + steps[k] + 0.5) / self.per_m
+        })
+    }
+}
+
+/// All cubes that hold points, sorted by their keys.
+#[derive(Debug, Clone)]
+pub struct Voxels {
+    lattice: Lattice,
+    cubes: Vec<Cube>,
+}
+
+impl Voxels {
+    /// With about so many points in a cube. `None` of fewer than three finite points, and of points at one
+    /// place.
+    pub fn of(points: &[[f32; 3]], held: f64, threads: usize) -> Option<Self> {
+        let lattice = lattice(points, held)?;
+        let share = points.len().div_ceil(threads.max(1)).max(1);
+        let parts = parallel::in_order(points.len().div_ceil(share), threads, |k| {
+            let mut table = Table::new(lattice);
+            table.add(&points[share * k..points.len().min(share * (k + 1))]);
+            table.sorted()
+        });
+        Some(Self { lattice, cubes: parts.into_iter().reduce(merged)? })
+    }
+
+    /// For each cube the plane through its points and those of its 26 neighbours, about the mean of its own;
+    /// `None` where there are fewer than `fewest`, or no plane.
+    pub fn patches(&self, fewest: f64, threads: usize) -> Vec<Option<Patch>> {
+        let count = self.cubes.len();
+        let parts = parallel::in_order(count.div_ceil(CHUNK), threads, |k| {
+            let range = CHUNK * k..count.min(CHUNK * (k + 1));
+            let mut rows = Rows::at(&self.cubes, self.cubes[range.start].key);
+            range
+                .map(|k| self.patch(k, &rows.around(self.cubes[k].key), fewest))
+                .collect::<Vec<_>>()
+        });
+        parts.concat()
+    }
+
+    fn patch(&self, k: usize, around: &[[u32; 3]; 9], fewest: f64) -> Option<Patch> {
+        let own = &self.cubes[k];
+        let mut window = Cube::default();
+        for (row, cubes) in around.iter().enumerate() {
+            for (x, other) in cubes.iter().enumerate() {
+                if *other != NOWHERE {
+                    let by = [x, row % 3, row / 3].map(|step| (step as i64 - 1) * STEPS);
+                    window.add_all(&self.cubes[*other as usize], by);
+                }
+            }
+        }
+        if (window.count as f64) < fewest {
+            return None;
+        }
+        let sums = Sums {
+            count: window.count as f64,
+            first: window.first.map(|s| s as f64),
+            second: window.second.map(|s| s as f64),
+        };
+        let patch = Patch::of(&sums)?;
+        let held = own.count as f64;
+        let mean = Vector3::from(own.first.map(|s| s as f64)) / held;
+        let squared = self.lattice.per_m * self.lattice.per_m;
+        Some(Patch {
+            mean: self.lattice.metres(own.key, &mean),
+            across: patch.across / squared,
+            along: patch.along / squared,
+            held,
+            ..patch
+        })
+    }
+}
+
+/// A place beside each cube in turn, in nine rows around it.
+struct Rows<'a> {
+    cubes: &'a [Cube],
+    /// The first cube of each row that is not before the place.
+    next: [usize; 9],
+}
+
+impl<'a> Rows<'a> {
+    fn at(cubes: &'a [Cube], key: u64) -> Self {
+        let next = std::array::from_fn(|row| {
+            let first = Self::first(key, row);
+            cubes.partition_point(|cube| cube.key < first)
+        });
+        Self { cubes, next }
+    }
+
+    /// The key before the middle of a row.
+    #[inline(always)]
+    fn first(key: u64, row: usize) -> u64 {
+        let step = |by: usize, axis: u32| (by as u64).wrapping_sub(1) << (CUBE_BITS * axis);
+        // keys at the very rim wrap around: nothing is there
+        key.wrapping_add(step(row % 3, 1)).wrapping_add(step(row / 3, 2)).wrapping_sub(1)
+    }
+
+    /// Cubes around a key, which must not be less than that before.
+    #[inline(always)]
+    fn around(&mut self, key: u64) -> [[u32; 3]; 9] {
+        let mut around = [[NOWHERE; 3]; 9];
+        for (row, cubes) in around.iter_mut().enumerate() {
+            let first = Self::first(key, row);
+            let next = &mut self.next[row];
+            while self.cubes.get(*next).is_some_and(|cube| cube.key < first) {
+                *next += 1;
+            }
+            for (k, cube) in self.cubes[*next..].iter().take(3).enumerate() {
+                let place = cube.key.wrapping_sub(first);
+                if place < 3 {
+                    cubes[place as usize] = (*next + k) as u32;
+                }
+            }
+        }
+        around
+    }
+}
+
+/// Cubes in the order in which they came, found by their keys.
+struct Table {
+    lattice: Lattice,
+    cubes: Vec<Cube>,
+    /// Numbers of cubes, at places that their keys tell.
+    slots: Vec<u32>,
+}
+
+impl Table {
+    fn new(lattice: Lattice) -> Self {
+        Self { lattice, cubes: vec![], slots: vec![NOWHERE; 1 << 10] }
+    }
+
+    fn add(&mut self, points: &[[f32; 3]]) {
+        let mut last = (u64::MAX, 0);
+        for point in points {
+            let Some((key, steps)) = self.lattice.place(point) else { continue };
+            if key != last.0 {
+                last = (key, self.find(key));
+            }
+            self.cubes[last.1].add(steps);
+        }
+    }
+
+    #[inline(always)]
+    fn find(&mut self, key: u64) -> usize {
+        let slot = self.slot(key);
+        let found = self.slots[slot];
+        if found != NOWHERE {
+            return found as usize;
+        }
+        let number = self.cubes.len();
+        self.slots[slot] = number as u32;
+        self.cubes.push(Cube { key, ..Cube::default() });
+        if 2 * self.cubes.len() > self.slots.len() {
+            self.grow();
+        }
+        number
+    }
+
+    /// Where a cube's number is, or belongs.
+    #[inline(always)]
+    fn slot(&self, key: u64) -> usize {
+        let mask = self.slots.len() - 1;
+        let mut slot = (scrambled(key) >> 32) as usize & mask;
+        while self.slots[slot] != NOWHERE && self.cubes[self.slots[slot] as usize].key != key {
+            slot = (slot + 1) & mask;
+        }
+        slot
+    }
+
+    #[cold]
+    fn grow(&mut self) {
+        self.slots = vec![NOWHERE; 4 * self.slots.len()];
+        for number in 0..self.cubes.len() {
+            let slot = self.slot(self.cubes[number].key);
+            self.slots[slot] = number as u32;
+        }
+    }
+
+    fn sorted(self) -> Vec<Cube> {
+        let mut order: Vec<(u64, u32)> =
+            self.cubes.iter().enumerate().map(|(k, cube)| (cube.key, k as u32)).collect();
+        order.sort_unstable();
+        order.into_iter().map(|(_, k)| self.cubes[k as usize]).collect()
+    }
+}
+
+/// Two sorted lists in one.
+fn merged(one: Vec<Cube>, other: Vec<Cube>) -> Vec<Cube> {
+    let mut all = Vec::with_capacity(one.len().max(other.len()));
+    let (mut one, mut other) = (one.into_iter().peekable(), other.into_iter().peekable());
+    while let (Some(a), Some(b)) = (one.peek(), other.peek()) {
+        match a.key.cmp(&b.key) {
+            std::cmp::Ordering::Less => all.extend(one.next()),
+            std::cmp::Ordering::Greater => all.extend(other.next()),
+            std::cmp::Ordering::Equal => {
+                let mut sum = *a;
+                sum.add_all(b, [0; 3]);
+                all.push(sum);
+                (one.next(), other.next());
+            }
+        }
+    }
+    all.extend(one);
+    all.extend(other);
+    all
+}
+
+/// Spreads a number over all bits.
+///
+/// S. Vigna's variant 13 of D. Stafford's mixers.
+#[inline(always)]
+fn scrambled(key: u64) -> u64 {
+    let key = (key ^ key >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let key = (key ^ key >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    key ^ key >> 31
+}
+
+/// With cubes that hold about so many points. A sample tells the size of the surface; whether a point
+/// belongs to it, its coordinates decide and not its place in the list.
+fn lattice(points: &[[f32; 3]], held: f64) -> Option<Lattice> {
+    let every = (points.len() / SAMPLE).max(1) as u64;
+    let chosen = |p: &&[f32; 3]| {
+        let bits = |k: usize| u64::from(p[k].to_bits());
+        let is_finite = p.iter().all(|x| x.is_finite());
+        is_finite && (every == 1 || scrambled(bits(0) << 32 ^ bits(1) << 16 ^ bits(2)) % every == 0)
+    };
+    let sample: Vec<[f32; 3]> = points.iter().filter(chosen).copied().collect();
+    if sample.len() < 3 {
+        return None;
+    }
+    let finite = points.iter().filter(|p| p.iter().all(|x| x.is_finite())).count() as f64;
+    let (origin, longest) = extent(&sample);
+    let mut edge = longest / 64.0;
+    if !(edge > 0.0) {
+        return None;
+    }
+    for _ in 0..2 {
+        let cubes = occupied(&sample, &Lattice { origin, per_m: STEPS as f64 / edge });
+        edge *= (COUNTED * cubes / sample.len() as f64).sqrt();
+    }
+    edge *= (held / COUNTED * sample.len() as f64 / finite).sqrt();
+    Some(Lattice { origin, per_m: STEPS as f64 / edge })
+}
+
+/// Middle and longest side of a box that holds almost all points.
+fn extent(points: &[[f32; 3]]) -> ([f64; 3], f64) {
+    let beyond = points.len() / BEYOND;
+    let sides: [(f64, f64); 3] = std::array::from_fn(|axis| {
+        let mut values: Vec<f32> = points.iter().map(|p| p[axis]).collect();
+        let high = values.len() - 1 - beyond;
+        let mut end = |k| f64::from(*values.select_nth_unstable_by(k, f32::total_cmp).1);
+        (end(beyond), end(high))
+    });
+    let length = sides.map(|(low, high)| high - low);
+    (sides.map(|(low, high)| 0.5 * (low + high)), length.into_iter().fold(0.0, f64::max))
+}
+
+fn occupied(points: &[[f32; 3]], lattice: &Lattice) -> f64 {
+    let mut keys: Vec<u64> = points.iter().filter_map(|p| Some(lattice.place(p)?.0)).collect();
+    keys.sort_unstable();
+    keys.dedup();
+    keys.len() as f64
+}
