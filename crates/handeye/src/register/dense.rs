@@ -68,6 +68,12 @@ const NEAR: f64 = 1.0;
 const FEWEST: f64 = 20.0;
 /// Windows that a thread works on at once.
 const CHUNK: usize = 4096;
+/// Windows stay matched while none moves by more than this share of the spread of one.
+const MATCHED: f64 = 0.2;
+/// Among all windows none is matched farther away than this many times the spread of one.
+const FINE: f64 = 2.0;
+/// No window.
+const NOWHERE: u32 = u32::MAX;
 /// No scatter is less, m²: rounding of single precision.
 const LEAST: f64 = 1e-12;
 
@@ -88,7 +94,8 @@ pub fn register(
     };
     let (source, target) = (surface(source, "source")?, surface(target, "target")?);
     let sigma = f64::INFINITY;
-    let mut round = Round { source: &source, target: &target, config, sigma, stride: 1 };
+    let matches = Matches { stride: 0, at: *start, places: vec![] };
+    let mut round = Round { source: &source, target: &target, config, sigma, stride: 1, matches };
     let mut found = Dense {
         target_from_source: *start,
         iterations: 0,
@@ -118,6 +125,17 @@ struct Round<'a> {
     /// Standard deviation of residuals over their scatter.
     sigma: f64,
     stride: usize,
+    matches: Matches,
+}
+
+/// Which window of the target belongs to each of the source. Small steps do not change that.
+struct Matches {
+    /// Of one window in so many rows and columns.
+    stride: usize,
+    /// Where the source was.
+    at: Isometry3<f64>,
+    /// Numbers of windows.
+    places: Vec<u32>,
 }
 
 /// Normal equations over matches, in the target frame.
@@ -141,6 +159,7 @@ impl Round<'_> {
         found.stop = Stop::MaxIterations;
         while found.iterations < self.config.max_iterations {
             found.iterations += 1;
+            self.match_all(&found.target_from_source);
             let sums = self.sums(&found.target_from_source);
             if sums.inliers < FEWEST {
                 return Err(Error::TooFewPoints {
@@ -173,13 +192,42 @@ impl Round<'_> {
         at.transform_point(&self.source.middle.into()).coords
     }
 
-    fn sums(&self, at: &Isometry3<f64>) -> Totals {
+    /// In chunks, by all threads.
+    fn chunks<T: Send>(&self, work: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
         let count = self.source.patches.len();
-        let parts = parallel::in_order(count.div_ceil(CHUNK), self.config.threads, |k| {
-            self.part(at, CHUNK * k..count.min(CHUNK * (k + 1)))
-        });
+        parallel::in_order(count.div_ceil(CHUNK), self.config.threads, |k| {
+            work(CHUNK * k..count.min(CHUNK * (k + 1)))
+        })
+    }
+
+    /// Looks for the windows that belong together, unless they are known from a place nearby.
+    fn match_all(&mut self, at: &Isometry3<f64>) {
+        let last = &self.matches;
+        let reach = MATCHED * self.target.spread;
+        let is_near = |p: &Vector3<f64>| {
+            let p = (*p).into();
+            (at.transform_point(&p) - last.at.transform_point(&p)).norm() <= reach
+        };
+        if last.stride == self.stride && self.source.corners.iter().all(is_near) {
+            return;
+        }
+        let mut gate = self.config.max_correspondence_distance_m;
+        if self.stride == 1 {
+            gate = gate.min(FINE * self.target.spread);
+        }
+        let (r, t) = (at.rotation.to_rotation_matrix().into_inner(), at.translation.vector);
+        let place = |k: usize| {
+            let own = self.source.patches[k].as_ref().filter(|_| self.source.is_in(k, self.stride));
+            own.and_then(|own| self.target.find(&(r * own.mean + t), gate))
+                .map_or(NOWHERE, |k| k as u32)
+        };
+        let places = self.chunks(|range| range.map(place).collect::<Vec<u32>>()).concat();
+        self.matches = Matches { stride: self.stride, at: *at, places };
+    }
+
+    fn sums(&self, at: &Isometry3<f64>) -> Totals {
         let mut total = Totals::none();
-        for part in parts {
+        for part in self.chunks(|range| self.part(at, range)) {
             total.information += part.information;
             total.gradient += part.gradient;
             total.residuals.extend(part.residuals);
@@ -195,12 +243,16 @@ impl Round<'_> {
         let mut total = Totals::none();
         let middle = self.middle(at);
         let (r, t) = (at.rotation.to_rotation_matrix().into_inner(), at.translation.vector);
-        let moved = |patch: &Patch| (r * patch.mean + t, r * patch.normal);
-        let is_looked_at = |k: &usize| self.source.is_in(*k, self.stride);
-        for own in range.filter(is_looked_at).filter_map(|k| self.source.patches[k].as_ref()) {
+        for k in range.filter(|k| self.source.is_in(*k, self.stride)) {
+            let Some(own) = &self.source.patches[k] else { continue };
             total.all += 1.0;
-            let (p, n) = moved(own);
-            if let Some((other, n)) = self.matching(&p, &n) {
+            let place = self.matches.places[k];
+            let Some(other) = self.target.patches.get(place as usize).and_then(Option::as_ref)
+            else {
+                continue;
+            };
+            let p = r * own.mean + t;
+            if let Some(n) = self.facing(&(p - other.mean), &(r * own.normal), other) {
                 let variance = own.across / own.held + other.across / other.held + LEAST;
                 total.add(
                     &(p - middle),
@@ -214,16 +266,20 @@ impl Round<'_> {
         total
     }
 
-    /// The target's window at a moved one, if it is near and lies alike; and the moved normal, on its side.
+    /// The moved normal on the other's side, of windows that are near and lie alike.
     #[inline(always)]
-    fn matching(&self, p: &Vector3<f64>, n: &Vector3<f64>) -> Option<(&Patch, Vector3<f64>)> {
+    fn facing(
+        &self,
+        apart: &Vector3<f64>,
+        n: &Vector3<f64>,
+        other: &Patch,
+    ) -> Option<Vector3<f64>> {
         let gate = self.config.max_correspondence_distance_m;
-        let other = self.target.find(p, gate)?;
-        let is_near = (p - other.mean).norm_squared() <= gate * gate;
+        let is_near = apart.norm_squared() <= gate * gate;
         let cosine = n.dot(&other.normal);
         let is_facing = self.source.is_facing && self.target.is_facing;
         let n = if cosine < 0.0 && !is_facing { -n } else { *n };
-        (is_near && n.dot(&other.normal) >= COSINE).then_some((other, n))
+        (is_near && n.dot(&other.normal) >= COSINE).then_some(n)
     }
 }
 
@@ -382,8 +438,43 @@ mod tests {
         let away = Isometry3::translation(0.0, 0.0, 1.0) * truth;
         let error = register(&source, &target, &away, &DenseConfig::default()).unwrap_err();
         assert!(matches!(error, Error::TooFewPoints { .. }), "{error}");
-        let row = Scan::new(source.points().len(), 1, source.points().to_vec()).unwrap();
-        let error = register(&row, &target, &truth, &DenseConfig::default()).unwrap_err();
+        let nothing = Scan::new(4, 1, vec![[f32::NAN; 3]; 4]).unwrap();
+        let error = register(&nothing, &target, &truth, &DenseConfig::default()).unwrap_err();
         assert!(error.to_string().contains("source scan"), "{error}");
+    }
+
+    /// The points that were seen, in any order.
+    fn shuffled(scan: &Scan, seed: u64) -> Scan {
+        let mut random = Random::new(seed);
+        let mut points: Vec<[f32; 3]> =
+            scan.points().iter().filter(|p| p[0].is_finite()).copied().collect();
+        for k in (1..points.len()).rev() {
+            points.swap(k, (random.unit() * (k + 1) as f64) as usize);
+        }
+        Scan::new(points.len(), 1, points).unwrap()
+    }
+
+    #[test]
+    fn clouds_are_brought_together_whatever_the_order_of_their_points() {
+        let (mut turned, mut shifted) = (vec![], vec![]);
+        for seed in 0..6 {
+            let (source, target, truth) = scans(seed, |k| k);
+            let start = off(&truth, &mut Random::new(100 + seed));
+            let with = |order: u64, threads| {
+                let (source, target) = (shuffled(&source, order), shuffled(&target, order + 1));
+                let config = DenseConfig { threads, ..DenseConfig::default() };
+                register(&source, &target, &start, &config).unwrap()
+            };
+            let found = with(1, 1);
+            assert_eq!(found, with(3, 2));
+            assert_eq!(found.stop, Stop::Converged);
+            let (turn, shift) = errors(&truth, &found.target_from_source);
+            assert!(turn < 0.1 && shift < 0.4, "{seed}: {turn} deg, {shift} mm");
+            turned.push(turn);
+            shifted.push(shift);
+        }
+        let (turn, shift) = (linalg::median(turned), linalg::median(shifted));
+        println!("{turn:.4} deg, {shift:.3} mm");
+        assert!(turn < 0.04 && shift < 0.15, "{turn} deg, {shift} mm");
     }
 }

@@ -48,7 +48,7 @@ impl GridView {
 
     /// The window that has the point's direction.
     #[inline]
-    pub fn find<'a>(&self, patches: &'a [Option<Patch>], p: &Vector3<f64>) -> Option<&'a Patch> {
+    pub fn find(&self, patches: &[Option<Patch>], p: &Vector3<f64>) -> Option<usize> {
         if p.z <= 0.0 {
             return None;
         }
@@ -59,8 +59,7 @@ impl GridView {
         let columns = self.size.0;
         let here = Vector2::new((k % columns) as f64, (k / columns) as f64);
         let beside = here + self.linear * (d - direction(&patch.mean));
-        let k = self.index(&beside)?;
-        patches[k].as_ref()
+        self.index(&beside).filter(|k| patches[*k].is_some())
     }
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Registration of point sets.
 
+mod blocks;
 pub mod dense;
 mod grid_view;
 pub mod icp;

@@ -53,8 +53,8 @@ pub struct Patch {
 
 /// Most steps to the smallest eigenvalue.
 const MOST_STEPS: usize = 20;
-/// Known well enough at this share of the trace.
-const SETTLED: f64 = 1e-10;
+/// A step of less than this share of the trace is the last: what is left is its square.
+const SETTLED: f64 = 1e-5;
 
 impl Patch {
     /// `None` of fewer than three points, and of points on a line.
@@ -63,8 +63,9 @@ impl Patch {
         if n < 3.0 {
             return None;
         }
-        let [x, y, z] = sums.first.map(|s| s / n);
-        let [xx, xy, xz, yy, yz, zz] = sums.second.map(|s| s / n);
+        let share = 1.0 / n;
+        let [x, y, z] = sums.first.map(|s| s * share);
+        let [xx, xy, xz, yy, yz, zz] = sums.second.map(|s| s * share);
         let (xx, yy, zz) = (xx - x * x, yy - y * y, zz - z * z);
         let (xy, xz, yz) = (xy - x * y, xz - x * z, yz - y * z);
         let trace = xx + yy + zz;

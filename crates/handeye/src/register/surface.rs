@@ -7,17 +7,16 @@
 
 use nalgebra::Vector3;
 
-use super::{
-    grid_view::GridView,
-    kd_tree::KdTree,
-    patch::{Patch, Sums},
-    voxels::Voxels,
-};
+use super::{blocks, grid_view::GridView, kd_tree::KdTree, patch::Patch, voxels::Voxels};
 use crate::{Scan, linalg};
 
-/// Side of a block in a scan of 100 000 points, pixels; the square root of the points in a cube. It grows
-/// with the fourth root of their number: half of finer pixels goes into finer windows, half into quieter ones.
+/// Side of a block in a scan of 100 000 points, pixels. It grows with the power 0.4 of their number: finer
+/// pixels go into quieter windows more than into smaller ones.
 const SIDE: f64 = 2.2;
+/// Points in a cube of a cloud of 100 000. They grow with the power 0.6 of the cloud's number.
+const HELD: f64 = 7.3;
+/// Points in a cube of the smallest clouds.
+const FEWEST: f64 = 2.0;
 /// A window must have this share of the points of nine blocks.
 const FILLED: f64 = 0.6;
 /// Scatter across a plane above this many times the usual one is no plane's.
@@ -31,6 +30,10 @@ pub struct Surface {
     pub patches: Vec<Option<Patch>>,
     /// Of the mean of all of them, m.
     pub middle: Vector3<f64>,
+    /// Spread of the points of a usual window along it, m.
+    pub spread: f64,
+    /// Corners of a box around all of them: when the scan moves, none moves more than one of these.
+    pub corners: [Vector3<f64>; 8],
     /// Whether normals point to the side from which the surface was seen.
     pub is_facing: bool,
     /// Windows along a row, of an organised scan.
@@ -49,38 +52,25 @@ enum Finder {
 impl Surface {
     /// `None` where nothing in the scan is a surface.
     pub fn of(scan: &Scan, threads: usize) -> Option<Self> {
-        Self::of_grid(scan).or_else(|| Self::of_cloud(scan.points(), threads))
+        Self::of_grid(scan, threads).or_else(|| Self::of_cloud(scan.points(), threads))
     }
 
     /// `None` where rows and columns are not those of a camera.
-    fn of_grid(scan: &Scan) -> Option<Self> {
+    fn of_grid(scan: &Scan, threads: usize) -> Option<Self> {
         if !scan.is_organised() {
             return None;
         }
-        let side = (side(scan.points().len()) as usize).max(1);
-        let size = (scan.width().div_ceil(side), scan.height().div_ceil(side));
-        let (columns, rows) = size;
-        let blocks = blocks(scan, side, columns, rows);
-        let windows = windows(&blocks, columns, rows);
+        let points = scan.points().len() as f64;
+        let side = ((SIDE * (points / 1e5).powf(0.4)) as usize).max(1);
         let fewest = FILLED * (9 * side * side) as f64;
-        let mut patches: Vec<Option<Patch>> = windows
-            .iter()
-            .zip(&blocks)
-            .map(|(window, block)| {
-                let patch =
-                    Patch::of(window).filter(|_| window.count >= fewest && block.count > 0.0)?;
-                let mean = Vector3::from(block.first) / block.count;
-                Some(facing_camera(Patch { mean, held: block.count, ..patch }))
-            })
-            .collect();
+        let (mut patches, size) = blocks::patches(scan, side, fewest, threads);
         leave_out_rough(&mut patches);
         let finder = Finder::Camera(GridView::of(&patches, size)?);
-        let middle = middle(&patches);
-        Some(Self { patches, middle, is_facing: true, columns: Some(columns), finder })
+        Some(Self::new(patches, finder, Some(size.0)))
     }
 
     fn of_cloud(points: &[[f32; 3]], threads: usize) -> Option<Self> {
-        let held = side(points.len()).powi(2);
+        let held = (HELD * (points.len() as f64 / 1e5).powf(0.6)).max(FEWEST);
         let voxels = Voxels::of(points, held, threads)?;
         let mut patches = voxels.patches(FILLED * 9.0 * held, threads);
         leave_out_rough(&mut patches);
@@ -88,18 +78,26 @@ impl Surface {
         let means: Vec<[f32; 3]> =
             patches.iter().flatten().map(|p| p.mean.map(|x| x as f32).into()).collect();
         let finder = Finder::Nearest(KdTree::new(&means));
-        let middle = middle(&patches);
-        Some(Self { patches, middle, is_facing: false, columns: None, finder })
+        Some(Self::new(patches, finder, None))
+    }
+
+    fn new(patches: Vec<Option<Patch>>, finder: Finder, columns: Option<usize>) -> Self {
+        let count = patches.iter().flatten().count() as f64;
+        let sum: Vector3<f64> = patches.iter().flatten().map(|p| p.mean).sum();
+        let spread = linalg::median(patches.iter().flatten().map(|p| p.along)).sqrt();
+        let middle = sum / count.max(1.0);
+        let corners = corners(&patches);
+        Self { patches, middle, spread, corners, is_facing: columns.is_some(), columns, finder }
     }
 
     /// A window near a place, the nearest or that in the same direction.
     #[inline(always)]
-    pub fn find(&self, p: &Vector3<f64>, within: f64) -> Option<&Patch> {
+    pub fn find(&self, p: &Vector3<f64>, within: f64) -> Option<usize> {
         match &self.finder {
             Finder::Camera(view) => view.find(&self.patches, p),
             Finder::Nearest(tree) => {
                 let found = tree.nearest(&p.map(|x| x as f32).into(), within as f32)?;
-                self.patches[found.index as usize].as_ref()
+                Some(found.index as usize)
             }
         }
     }
@@ -117,58 +115,16 @@ impl Surface {
     }
 }
 
-fn side(points: usize) -> f64 {
-    SIDE * (points as f64 / 1e5).powf(0.25)
-}
-
-fn middle(patches: &[Option<Patch>]) -> Vector3<f64> {
-    let count = patches.iter().flatten().count() as f64;
-    patches.iter().flatten().map(|p| p.mean).sum::<Vector3<f64>>() / count.max(1.0)
-}
-
-fn facing_camera(patch: Patch) -> Patch {
-    let away = patch.normal.dot(&patch.mean) > 0.0;
-    Patch { normal: if away { -patch.normal } else { patch.normal }, ..patch }
-}
-
-fn blocks(scan: &Scan, side: usize, columns: usize, rows: usize) -> Vec<Sums> {
-    let mut blocks = vec![Sums::default(); columns * rows];
-    for (y, row) in scan.points().chunks(scan.width().max(1)).enumerate() {
-        let line = &mut blocks[(y / side) * columns..][..columns];
-        for (block, points) in line.iter_mut().zip(row.chunks(side)) {
-            for point in points {
-                if point[2].is_finite() {
-                    block.add(point.map(f64::from));
-                }
-            }
-        }
-    }
-    blocks
-}
-
-/// Each block with its neighbours: sums along rows, then along columns.
-fn windows(blocks: &[Sums], columns: usize, rows: usize) -> Vec<Sums> {
-    let three = |all: &[Sums], at: usize, step: usize, first: bool, last: bool| {
-        let mut sum = all[at];
-        if !first {
-            sum += &all[at - step];
-        }
-        if !last {
-            sum += &all[at + step];
-        }
-        sum
-    };
-    let along: Vec<Sums> = (0..blocks.len())
-        .map(|k| three(blocks, k, 1, k % columns == 0, (k + 1) % columns == 0))
-        .collect();
-    (0..blocks.len())
-        .map(|k| three(&along, k, columns, k < columns, k / columns + 1 == rows))
-        .collect()
-}
-
 fn leave_out_rough(patches: &mut [Option<Patch>]) {
     let usual = linalg::median(patches.iter().flatten().map(|p| p.across));
     for patch in patches {
         *patch = patch.filter(|p| p.across <= (ROUGH * usual).max(FLAT * p.along));
     }
+}
+
+fn corners(patches: &[Option<Patch>]) -> [Vector3<f64>; 8] {
+    let all = || patches.iter().flatten().map(|p| p.mean);
+    let low = all().reduce(|a, b| a.inf(&b)).unwrap_or_default();
+    let high = all().reduce(|a, b| a.sup(&b)).unwrap_or_default();
+    std::array::from_fn(|k| Vector3::from_fn(|axis, _| [low, high][k >> axis & 1][axis]))
 }

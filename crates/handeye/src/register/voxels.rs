@@ -37,7 +37,8 @@ struct Cube {
 
 impl Cube {
     #[inline(always)]
-    fn add(&mut self, [x, y, z]: [i64; 3]) {
+    fn add(&mut self, steps: [i32; 3]) {
+        let [x, y, z] = steps.map(i64::from);
         self.count += 1;
         let second = [x * x, x * y, x * z, y * y, y * z, z * z];
         (0..3).for_each(|k| self.first[k] += [x, y, z][k]);
@@ -71,15 +72,17 @@ struct Lattice {
 impl Lattice {
     /// Key of the cube, and steps from its middle; `None` where it is not finite or too far away.
     #[inline(always)]
-    fn place(&self, point: &[f32; 3]) -> Option<(u64, [i64; 3])> {
+    fn place(&self, point: &[f32; 3]) -> Option<(u64, [i32; 3])> {
         const ALL: f64 = (1u64 << (STEP_BITS + CUBE_BITS)) as f64;
+        /// Added to a lesser number, it leaves its whole part in the last bits.
+        const WHOLE: f64 = (1u64 << 52) as f64;
         let (mut key, mut steps, mut inside) = (0, [0; 3], true);
         for k in (0..3).rev() {
             let along = (f64::from(point[k]) - self.origin[k]) * self.per_m + 0.5 * ALL;
-            inside &= along >= 0.0 && along < ALL;
-            let whole = along as u64;
+            inside &= along >= 0.0 && along < ALL - 1.0;
+            let whole = (along + WHOLE).to_bits() & ((1 << (STEP_BITS + CUBE_BITS)) - 1);
             key = key << CUBE_BITS | whole >> STEP_BITS;
-            steps[k] = (whole & (STEPS as u64 - 1)) as i64 - STEPS / 2;
+            steps[k] = (whole & (STEPS as u64 - 1)) as i32 - STEPS as i32 / 2;
         }
         inside.then_some((key, steps))
     }
@@ -89,8 +92,7 @@ impl Lattice {
         let half = f64::from(1 << (CUBE_BITS - 1));
         Vector3::from_fn(|k, _| {
             let cube = (key >> (CUBE_BITS * k as u32) & ((1 << CUBE_BITS) - 1)) as f64 - half;
-            // a step is its middle
-            self.origin[k] + ((cube + 0.5) * STEPS as f64 + steps[k] + 0.5) / self.per_m
+            self.origin[k] + ((cube + 0.5) * STEPS as f64 + steps[k]) / self.per_m
         })
     }
 }
@@ -212,35 +214,46 @@ impl<'a> Rows<'a> {
 struct Table {
     lattice: Lattice,
     cubes: Vec<Cube>,
-    /// Numbers of cubes, at places that their keys tell.
-    slots: Vec<u32>,
+    /// Keys and numbers of cubes, at places that their keys tell.
+    slots: Vec<(u64, u32)>,
 }
+
+/// Points that are looked up before the first of them is added: memory answers all at once.
+const BATCH: usize = 32;
 
 impl Table {
     fn new(lattice: Lattice) -> Self {
-        Self { lattice, cubes: vec![], slots: vec![NOWHERE; 1 << 10] }
+        Self { lattice, cubes: vec![], slots: vec![(0, NOWHERE); 1 << 10] }
     }
 
     fn add(&mut self, points: &[[f32; 3]]) {
         let mut last = (u64::MAX, 0);
-        for point in points {
-            let Some((key, steps)) = self.lattice.place(point) else { continue };
-            if key != last.0 {
-                last = (key, self.find(key));
+        let mut found = [(0u32, [0i32; 3]); BATCH];
+        for batch in points.chunks(BATCH) {
+            let mut count = 0;
+            for point in batch {
+                let Some((key, steps)) = self.lattice.place(point) else { continue };
+                if key != last.0 {
+                    last = (key, self.find(key));
+                }
+                found[count] = (last.1, steps);
+                count += 1;
             }
-            self.cubes[last.1].add(steps);
+            for (number, steps) in &found[..count] {
+                self.cubes[*number as usize].add(*steps);
+            }
         }
     }
 
     #[inline(always)]
-    fn find(&mut self, key: u64) -> usize {
+    fn find(&mut self, key: u64) -> u32 {
         let slot = self.slot(key);
-        let found = self.slots[slot];
+        let found = self.slots[slot].1;
         if found != NOWHERE {
-            return found as usize;
+            return found;
         }
-        let number = self.cubes.len();
-        self.slots[slot] = number as u32;
+        let number = self.cubes.len() as u32;
+        self.slots[slot] = (key, number);
         self.cubes.push(Cube { key, ..Cube::default() });
         if 2 * self.cubes.len() > self.slots.len() {
             self.grow();
@@ -253,7 +266,7 @@ impl Table {
     fn slot(&self, key: u64) -> usize {
         let mask = self.slots.len() - 1;
         let mut slot = (scrambled(key) >> 32) as usize & mask;
-        while self.slots[slot] != NOWHERE && self.cubes[self.slots[slot] as usize].key != key {
+        while self.slots[slot].1 != NOWHERE && self.slots[slot].0 != key {
             slot = (slot + 1) & mask;
         }
         slot
@@ -261,10 +274,10 @@ impl Table {
 
     #[cold]
     fn grow(&mut self) {
-        self.slots = vec![NOWHERE; 4 * self.slots.len()];
-        for number in 0..self.cubes.len() {
-            let slot = self.slot(self.cubes[number].key);
-            self.slots[slot] = number as u32;
+        self.slots = vec![(0, NOWHERE); 4 * self.slots.len()];
+        for (number, cube) in self.cubes.iter().enumerate() {
+            let slot = self.slot(cube.key);
+            self.slots[slot] = (cube.key, number as u32);
         }
     }
 
@@ -310,17 +323,21 @@ fn scrambled(key: u64) -> u64 {
 /// With cubes that hold about so many points. A sample tells the size of the surface; whether a point
 /// belongs to it, its coordinates decide and not its place in the list.
 fn lattice(points: &[[f32; 3]], held: f64) -> Option<Lattice> {
-    let every = (points.len() / SAMPLE).max(1) as u64;
-    let chosen = |p: &&[f32; 3]| {
-        let bits = |k: usize| u64::from(p[k].to_bits());
-        let is_finite = p.iter().all(|x| x.is_finite());
-        is_finite && (every == 1 || scrambled(bits(0) << 32 ^ bits(1) << 16 ^ bits(2)) % every == 0)
-    };
-    let sample: Vec<[f32; 3]> = points.iter().filter(chosen).copied().collect();
+    let bits = (points.len() / SAMPLE).max(1).ilog2();
+    let (mut sample, mut finite) = (Vec::with_capacity(4 * SAMPLE), 0.0);
+    for point in points {
+        let [x, y, z] = point.map(f32::to_bits);
+        // not finite either where one of the three is not
+        let is_finite = (point[0] + point[1] + point[2]).is_finite();
+        finite += f64::from(u8::from(is_finite));
+        let mixed = (x ^ y.rotate_left(11) ^ z.rotate_left(21)).wrapping_mul(0x9e37_79b9);
+        if is_finite && mixed.unbounded_shr(32 - bits) == 0 {
+            sample.push(*point);
+        }
+    }
     if sample.len() < 3 {
         return None;
     }
-    let finite = points.iter().filter(|p| p.iter().all(|x| x.is_finite())).count() as f64;
     let (origin, longest) = extent(&sample);
     let mut edge = longest / 64.0;
     if !(edge > 0.0) {
