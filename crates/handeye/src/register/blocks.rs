@@ -8,11 +8,13 @@ use crate::{Scan, parallel};
 /// Rows of blocks that a thread works on at once.
 const CHUNK: usize = 32;
 
-/// For each block the plane through its points and those of its eight neighbours, about the mean of its
-/// own; `None` where there are fewer than `fewest`, or no plane. With the blocks along a row, and rows.
+/// For each block the plane through its points and those of all blocks within `reach` rows and columns,
+/// about the mean of its own; `None` where there are fewer than `fewest`, or no plane. With the number of
+/// blocks along a row, and of rows.
 pub fn patches(
     scan: &Scan,
     side: usize,
+    reach: usize,
     fewest: f64,
     threads: usize,
 ) -> (Vec<Option<Patch>>, (usize, usize)) {
@@ -20,9 +22,9 @@ pub fn patches(
     let parts = parallel::in_order(rows.div_ceil(CHUNK), threads, |k| {
         let range = CHUNK * k..rows.min(CHUNK * (k + 1));
         let mut patches = Vec::with_capacity(columns * range.len());
-        let mut band = Band::before(scan, side, range.start);
+        let mut band = Band::before(scan, side, reach, range.start);
         for row in range {
-            band.next(row + 1 < rows);
+            band.next(row + reach < rows);
             patches.extend((0..columns).map(|k| band.patch(k, fewest)));
         }
         patches
@@ -34,33 +36,33 @@ fn joined<T>(mut parts: Vec<Vec<T>>) -> Vec<T> {
     if parts.len() == 1 { parts.remove(0) } else { parts.into_iter().flatten().collect() }
 }
 
-/// Three rows of blocks, one below the other.
+/// Some rows of blocks, one below the other.
 struct Band<'a> {
     scan: &'a Scan,
     side: usize,
+    reach: usize,
     /// The row of blocks that comes next.
     below: usize,
     /// Sums of blocks, and of each with its left and right neighbours.
-    rows: [(Vec<Sums>, Vec<Sums>); 3],
+    rows: Vec<(Vec<Sums>, Vec<Sums>)>,
 }
 
 impl<'a> Band<'a> {
-    /// Its last row is the first one.
-    fn before(scan: &'a Scan, side: usize, first: usize) -> Self {
-        let empty = || vec![Sums::default(); scan.width().div_ceil(side)];
-        let rows = std::array::from_fn(|_| (empty(), empty()));
-        let mut band = Self { scan, side, below: first.saturating_sub(1), rows };
-        if first > 0 {
-            band.next(true);
-        }
-        band.next(true);
+    /// Its middle is the row before the first.
+    fn before(scan: &'a Scan, side: usize, reach: usize, first: usize) -> Self {
+        let empty = vec![Sums::default(); scan.width().div_ceil(side)];
+        let rows = vec![(empty.clone(), empty); 2 * reach + 1];
+        let below = first.saturating_sub(reach);
+        let mut band = Self { scan, side, reach, below, rows };
+        let rows = scan.height().div_ceil(side);
+        (below..first + reach).for_each(|row| band.next(row < rows));
         band
     }
 
     /// Goes down by a row, which has nothing in it where there is none.
     fn next(&mut self, is_there: bool) {
         self.rows.rotate_left(1);
-        let (blocks, along) = &mut self.rows[2];
+        let (blocks, along) = &mut self.rows[2 * self.reach];
         blocks.fill(Sums::default());
         if is_there {
             let width = self.scan.width().max(1);
@@ -75,23 +77,17 @@ impl<'a> Band<'a> {
             self.below += 1;
         }
         for k in 0..blocks.len() {
-            along[k] = blocks[k];
-            if k > 0 {
-                along[k] += &blocks[k - 1];
-            }
-            if let Some(right) = blocks.get(k + 1) {
-                along[k] += right;
-            }
+            let window = &blocks[k.saturating_sub(self.reach)..blocks.len().min(k + self.reach + 1)];
+            along[k] = Sums::default();
+            window.iter().for_each(|block| along[k] += block);
         }
     }
 
     /// Of a block in the middle row.
     fn patch(&self, k: usize, fewest: f64) -> Option<Patch> {
-        let [above, (blocks, along), below] = &self.rows;
-        let block = &blocks[k];
-        let mut window = along[k];
-        window += &above.1[k];
-        window += &below.1[k];
+        let block = &self.rows[self.reach].0[k];
+        let mut window = Sums::default();
+        self.rows.iter().for_each(|(_, along)| window += &along[k]);
         if block.count == 0.0 || window.count < fewest {
             return None;
         }

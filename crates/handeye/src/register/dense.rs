@@ -1,22 +1,15 @@
-//! Registration of two organised scans.
-//!
-//! Windows of the source, moved by the current transform, are compared with those that the target's camera
-//! sees in the same direction, along the mean of both normals:
-//!
-//! ```text
-//! r = ½ (R n_p + n_q) · (R p + t - q)        J = [(R p + t) × m, m]  with m = ½ (R n_p + n_q)
-//! ```
-//!
-//! With both normals, a match that is off along the surface does no harm to second order. Residuals are
-//! weighed by the scatter across both windows, and those beyond some standard deviations do
-//! not count (Tukey).
-//!
-//! S. Rusinkiewicz, *A symmetric objective function for ICP*, ACM Trans. Graph. 38(4), 2019.
+//! Registration of two scans, organised or in any order.
 
-use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix6};
 
-use super::{icp::Stop, patch::Patch, surface::Surface};
-use crate::{Error, Scan, linalg, parallel};
+use super::{
+    descent::Descent,
+    freedom::Freedom,
+    icp::Stop,
+    rivals::{self, Opinions},
+    surface::Surface,
+};
+use crate::{Error, Scan};
 
 /// When to match and when to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +24,7 @@ pub struct DenseConfig {
 
 impl Default for DenseConfig {
     fn default() -> Self {
-        Self { max_correspondence_distance_m: 0.01, max_iterations: 60, threads: 1 }
+        Self { max_correspondence_distance_m: 0.05, max_iterations: 60, threads: 1 }
     }
 }
 
@@ -40,6 +33,8 @@ impl Default for DenseConfig {
 pub struct Dense {
     /// The whole transform, the start included.
     pub target_from_source: Isometry3<f64>,
+    /// 6 x 6, rotation first, perturbed on the right (in the source frame).
+    pub covariance: Option<Matrix6<f64>>,
     /// Rounds over all windows, and over some.
     pub iterations: usize,
     /// Why it ended.
@@ -50,34 +45,10 @@ pub struct Dense {
     pub rms_m: f64,
 }
 
-/// Only each so manieth window of a row, and row, at first.
-const STRIDES: [usize; 2] = [4, 1];
-/// Normals of a match are within 30 degrees.
-const COSINE: f64 = 0.866;
-/// Beyond so many standard deviations residuals do not count.
-const TUKEY: f64 = 4.685;
-/// Standard deviations in a median absolute deviation.
-const MAD: f64 = 1.4826;
-/// A round that moves by less than this share of the answer's standard deviation is the last.
-const SETTLED: f64 = 0.02;
-/// Rounds over some windows end earlier.
-const SETTLED_SOME: f64 = 0.5;
-/// Steps shorter than this many standard deviations may be noise.
-const NEAR: f64 = 1.0;
-/// Fewer matches are none.
-const FEWEST: f64 = 20.0;
-/// Windows that a thread works on at once.
-const CHUNK: usize = 4096;
-/// Windows stay matched while none moves by more than this share of the spread of one.
-const MATCHED: f64 = 0.2;
-/// Among all windows none is matched farther away than this many times the spread of one.
-const FINE: f64 = 2.0;
-/// No window.
-const NOWHERE: u32 = u32::MAX;
-/// No scatter is less, m²: rounding of single precision.
-const LEAST: f64 = 1e-12;
+/// Windows that are looked at first.
+const COARSE: f64 = 1500.0;
 
-/// Registers two organised scans, from a start that is right to some millimetres and degrees.
+/// Registers two scans, from a start that is right to some centimetres and degrees.
 ///
 /// # Errors
 /// [`Error::TooFewPoints`] where nothing can be compared, [`Error::NotDetermined`] where the common surface
@@ -93,245 +64,59 @@ pub fn register(
             .ok_or_else(|| Error::Invalid(format!("the {name} scan shows no surface")))
     };
     let (source, target) = (surface(source, "source")?, surface(target, "target")?);
-    let sigma = f64::INFINITY;
-    let matches = Matches { stride: 0, at: *start, places: vec![] };
-    let mut round = Round { source: &source, target: &target, config, sigma, stride: 1, matches };
-    let mut found = Dense {
-        target_from_source: *start,
-        iterations: 0,
-        stop: Stop::MaxIterations,
-        inlier_fraction: 0.0,
-        rms_m: 0.0,
-    };
-    for stride in STRIDES {
-        round.stride = stride;
-        round.descend(&mut found)?;
-    }
-    Ok(found)
-}
-
-/// Turned about `middle` of the target, then shifted.
-fn moved(at: &Isometry3<f64>, step: &Vector6<f64>, middle: &Vector3<f64>) -> Isometry3<f64> {
-    let turn = UnitQuaternion::from_scaled_axis(Vector3::new(step[0], step[1], step[2]));
-    let shift = Vector3::new(step[3], step[4], step[5]);
-    let t = turn * (at.translation.vector - middle) + middle + shift;
-    Isometry3::from_parts(Translation3::from(t), turn * at.rotation)
-}
-
-struct Round<'a> {
-    source: &'a Surface,
-    target: &'a Surface,
-    config: &'a DenseConfig,
-    /// Standard deviation of residuals over their scatter.
-    sigma: f64,
-    stride: usize,
-    matches: Matches,
-}
-
-/// Which window of the target belongs to each of the source. Small steps do not change that.
-struct Matches {
-    /// Of one window in so many rows and columns.
-    stride: usize,
-    /// Where the source was.
-    at: Isometry3<f64>,
-    /// Numbers of windows.
-    places: Vec<u32>,
-}
-
-/// Normal equations over matches, in the target frame.
-struct Totals {
-    information: Matrix6<f64>,
-    gradient: Vector6<f64>,
-    /// Lengths, over their scatter.
-    residuals: Vec<f32>,
-    /// Of those that count, m².
-    squares: f64,
-    inliers: f64,
-    /// Windows looked at.
-    all: f64,
-}
-
-impl Round<'_> {
-    /// Rounds until steps are short.
-    fn descend(&mut self, found: &mut Dense) -> Result<(), Error> {
-        let settled = if self.stride == 1 { SETTLED } else { SETTLED_SOME };
-        let mut last = f64::INFINITY;
-        found.stop = Stop::MaxIterations;
-        while found.iterations < self.config.max_iterations {
-            found.iterations += 1;
-            self.match_all(&found.target_from_source);
-            let sums = self.sums(&found.target_from_source);
-            if sums.inliers < FEWEST {
-                return Err(Error::TooFewPoints {
-                    found: sums.inliers as usize,
-                    needed: FEWEST as usize,
-                });
-            }
-            self.sigma = MAD * linalg::median(sums.residuals.iter().map(|r| f64::from(*r)));
-            let inverse = linalg::invert_spd(&sums.information).ok_or_else(|| {
-                Error::NotDetermined { what: "the common surface can slide on itself".into() }
-            })?;
-            let step = -inverse * sums.gradient;
-            let middle = self.middle(&found.target_from_source);
-            found.target_from_source = moved(&found.target_from_source, &step, &middle);
-            found.inlier_fraction = sums.inliers / sums.all;
-            found.rms_m = (sums.squares / sums.inliers).sqrt();
-            let length = step.dot(&(sums.information * step)).sqrt();
-            // matches come and go for ever: once all is near, steps that do not shrink are their noise
-            let noise = length < NEAR * self.sigma && length > 0.5 * last;
-            if length <= settled * self.sigma || noise {
-                found.stop = Stop::Converged;
-                break;
-            }
-            last = length;
-        }
-        Ok(())
-    }
-
-    fn middle(&self, at: &Isometry3<f64>) -> Vector3<f64> {
-        at.transform_point(&self.source.middle.into()).coords
-    }
-
-    /// In chunks, by all threads.
-    fn chunks<T: Send>(&self, work: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
-        let count = self.source.patches.len();
-        parallel::in_order(count.div_ceil(CHUNK), self.config.threads, |k| {
-            work(CHUNK * k..count.min(CHUNK * (k + 1)))
-        })
-    }
-
-    /// Looks for the windows that belong together, unless they are known from a place nearby.
-    fn match_all(&mut self, at: &Isometry3<f64>) {
-        let last = &self.matches;
-        let reach = MATCHED * self.target.spread;
-        let is_near = |p: &Vector3<f64>| {
-            let p = (*p).into();
-            (at.transform_point(&p) - last.at.transform_point(&p)).norm() <= reach
-        };
-        if last.stride == self.stride && self.source.corners.iter().all(is_near) {
-            return;
-        }
-        let mut gate = self.config.max_correspondence_distance_m;
-        if self.stride == 1 {
-            gate = gate.min(FINE * self.target.spread);
-        }
-        let (r, t) = (at.rotation.to_rotation_matrix().into_inner(), at.translation.vector);
-        let place = |k: usize| {
-            let own = self.source.patches[k].as_ref().filter(|_| self.source.is_in(k, self.stride));
-            own.and_then(|own| self.target.find(&(r * own.mean + t), gate))
-                .map_or(NOWHERE, |k| k as u32)
-        };
-        let places = self.chunks(|range| range.map(place).collect::<Vec<u32>>()).concat();
-        self.matches = Matches { stride: self.stride, at: *at, places };
-    }
-
-    fn sums(&self, at: &Isometry3<f64>) -> Totals {
-        let mut total = Totals::none();
-        for part in self.chunks(|range| self.part(at, range)) {
-            total.information += part.information;
-            total.gradient += part.gradient;
-            total.residuals.extend(part.residuals);
-            total.squares += part.squares;
-            total.inliers += part.inliers;
-            total.all += part.all;
-        }
-        total.information.fill_lower_triangle_with_upper_triangle();
-        total
-    }
-
-    fn part(&self, at: &Isometry3<f64>, range: std::ops::Range<usize>) -> Totals {
-        let mut total = Totals::none();
-        let middle = self.middle(at);
-        let (r, t) = (at.rotation.to_rotation_matrix().into_inner(), at.translation.vector);
-        for k in range.filter(|k| self.source.is_in(*k, self.stride)) {
-            let Some(own) = &self.source.patches[k] else { continue };
-            total.all += 1.0;
-            let place = self.matches.places[k];
-            let Some(other) = self.target.patches.get(place as usize).and_then(Option::as_ref)
-            else {
-                continue;
-            };
-            let p = r * own.mean + t;
-            if let Some(n) = self.facing(&(p - other.mean), &(r * own.normal), other) {
-                let variance = own.across / own.held + other.across / other.held + LEAST;
-                total.add(
-                    &(p - middle),
-                    &((n + other.normal) * 0.5),
-                    &(p - other.mean),
-                    variance,
-                    TUKEY * self.sigma,
-                );
-            }
-        }
-        total
-    }
-
-    /// The moved normal on the other's side, of windows that are near and lie alike.
-    #[inline(always)]
-    fn facing(
-        &self,
-        apart: &Vector3<f64>,
-        n: &Vector3<f64>,
-        other: &Patch,
-    ) -> Option<Vector3<f64>> {
-        let gate = self.config.max_correspondence_distance_m;
-        let is_near = apart.norm_squared() <= gate * gate;
-        let cosine = n.dot(&other.normal);
-        let is_facing = self.source.is_facing && self.target.is_facing;
-        let n = if cosine < 0.0 && !is_facing { -n } else { *n };
-        (is_near && n.dot(&other.normal) >= COSINE).then_some(n)
-    }
-}
-
-impl Totals {
-    fn none() -> Self {
-        Self {
-            information: Matrix6::zeros(),
-            gradient: Vector6::zeros(),
-            residuals: vec![],
-            squares: 0.0,
-            inliers: 0.0,
-            all: 0.0,
+    let mut descent = Descent::new(&source, &target, config);
+    let gate = config.max_correspondence_distance_m;
+    let mut starts = vec![*start];
+    starts.extend(rivals::around(start, &source.middle, 0.5 * gate));
+    let rivals = rivals::answers(&mut descent, &starts, gate);
+    let best = rivals.first().ok_or(Error::TooFewPoints { found: 0, needed: 20 })?;
+    if std::env::var("SHOW").is_ok() {
+        for r in &rivals {
+            println!(
+                "   {:.3} {:.0} {:?} {:.1} sd {:.2} mm",
+                r.opinions.agreeing(),
+                r.opinions.sum(),
+                r.reached.iterations,
+                best.opinions.above(&r.opinions),
+                1e3 * source.moved(&r.reached.target_from_source, &best.reached.target_from_source)
+            );
         }
     }
-
-    /// A match that is `d` apart at `arm` from the middle, `m` across the surface.
-    #[inline(always)]
-    fn add(
-        &mut self,
-        arm: &Vector3<f64>,
-        m: &Vector3<f64>,
-        d: &Vector3<f64>,
-        variance: f64,
-        limit: f64,
-    ) {
-        let residual = m.dot(d);
-        let scaled = residual.abs() / variance.sqrt();
-        self.residuals.push(scaled as f32);
-        let share = scaled / limit;
-        if share >= 1.0 {
-            return;
-        }
-        let weight = (1.0 - share * share).powi(2) / variance;
-        self.inliers += 1.0;
-        self.squares += residual * residual;
-        let turn = arm.cross(m);
-        let j = [turn.x, turn.y, turn.z, m.x, m.y, m.z];
-        for a in 0..6 {
-            let weighted = weight * j[a];
-            self.gradient[a] += weighted * residual;
-            for b in a..6 {
-                self.information[(a, b)] += weighted * j[b];
-            }
-        }
+    if rivals.len() > 1 {
+        return Err(Error::Invalid(format!("{} answers", 2)));
     }
+    let mut reached = best.reached.clone();
+    descent.coarse(&mut reached, 3.0 * source.spread, source.stride(COARSE))?;
+    descent.fine(&mut reached, gate)?;
+    let freedom = Freedom::of(&descent, &reached.target_from_source);
+    let (_, free) = freedom.directions().ok_or(Error::TooFewPoints { found: 0, needed: 20 })?;
+    let opinions = Opinions::of(&descent, &reached.target_from_source, 5000.0);
+    if std::env::var("SHOW").is_ok() {
+        println!("   agreeing {:.3}", opinions.agreeing());
+    }
+    if free > 0 {
+        return Err(Error::Invalid(format!("{free} directions free")));
+    }
+    if source.moved(start, &reached.target_from_source) > 3.0 * gate {
+        return Err(Error::Invalid("far from the start".into()));
+    }
+    Ok(Dense {
+        covariance: freedom.covariance(&reached.target_from_source),
+        target_from_source: reached.target_from_source,
+        iterations: reached.iterations,
+        stop: reached.stop,
+        inlier_fraction: reached.inliers / reached.all,
+        rms_m: reached.rms_m,
+    })
 }
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
     use crate::{
-        Intrinsics, lie,
+        Intrinsics, lie, linalg,
         simulate::{Random, Room},
     };
 

@@ -2,6 +2,8 @@
 
 mod blocks;
 pub mod dense;
+mod descent;
+mod freedom;
 mod grid_view;
 pub mod icp;
 pub mod kd_tree;
@@ -9,6 +11,7 @@ pub mod measured_fit;
 mod moments;
 mod patch;
 pub mod rigid_fit;
+mod rivals;
 pub mod robust_fit;
 mod rotation;
 pub mod similarity_fit;

@@ -43,7 +43,7 @@ pub struct Patch {
     pub normal: Vector3<f64>,
     /// Variance of its points across the plane, m².
     pub across: f64,
-    /// The smaller of the variances along the plane, m².
+    /// Harmonic mean of both variances along the plane, m².
     pub along: f64,
     /// Number of points of which it is the mean.
     pub held: f64,
@@ -99,7 +99,7 @@ impl Patch {
         let length = lengths[longest].sqrt();
         // the trace of the adjugate is the product of the other two eigenvalues, less λ each
         let (sum, product) = (trace - 3.0 * across, rows[0].x + rows[1].y + rows[2].z);
-        let along = product / sum + across;
+        let along = 2.0 * product / sum + across;
         (length > 0.0 && product > LINE * sum * sum).then(|| Self {
             mean: Vector3::new(x, y, z),
             normal: rows[longest] / length,
@@ -151,8 +151,8 @@ mod tests {
                 if values[1] > 2.0 * values[0] {
                     assert!((turned - 1.0).abs() < 1e-9, "{across} {turned}");
                     assert!((patch.across - values[0]).abs() < 1e-12, "{across}");
-                    // the larger one is left out, by which the smaller comes out a little less
-                    assert!(patch.along < 1.01 * values[1] && patch.along > 0.4 * values[1]);
+                    let inverse = 0.5 / (values[1] - values[0]) + 0.5 / (values[2] - values[0]);
+                    assert!((patch.along - values[0] - 1.0 / inverse).abs() < 1e-12, "{across}");
                 }
             }
         }

@@ -5,7 +5,7 @@
 //! a window lies beside it, by nine times as much as that of a block. Windows across an edge in depth or a
 //! crease are no planes, and are left out: their points scatter more than those of most others.
 
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 
 use super::{blocks, grid_view::GridView, kd_tree::KdTree, patch::Patch, voxels::Voxels};
 use crate::{Scan, linalg};
@@ -13,14 +13,14 @@ use crate::{Scan, linalg};
 /// Side of a block in a scan of 100 000 points, pixels. It grows with the power 0.4 of their number: finer
 /// pixels go into quieter windows more than into smaller ones.
 const SIDE: f64 = 2.2;
-/// Points in a cube of a cloud of 100 000. They grow with the power 0.6 of the cloud's number.
-const HELD: f64 = 7.3;
+/// Points in a cube of a cloud of 100 000. They grow with the power 0.75 of the cloud's number.
+const HELD: f64 = 5.0;
 /// Points in a cube of the smallest clouds.
 const FEWEST: f64 = 2.0;
 /// A window must have this share of the points of nine blocks.
 const FILLED: f64 = 0.6;
 /// Scatter across a plane above this many times the usual one is no plane's.
-const ROUGH: f64 = 3.0;
+const ROUGH: f64 = 50.0;
 /// But where the scatter across is below this share of that along it, nothing is rough.
 const FLAT: f64 = 1e-4;
 
@@ -32,6 +32,8 @@ pub struct Surface {
     pub middle: Vector3<f64>,
     /// Spread of the points of a usual window along it, m.
     pub spread: f64,
+    /// Standard deviation of the mean of a usual window across it, m.
+    pub noise: f64,
     /// Corners of a box around all of them: when the scan moves, none moves more than one of these.
     pub corners: [Vector3<f64>; 8],
     /// Whether normals point to the side from which the surface was seen.
@@ -62,15 +64,16 @@ impl Surface {
         }
         let points = scan.points().len() as f64;
         let side = ((SIDE * (points / 1e5).powf(0.4)) as usize).max(1);
-        let fewest = FILLED * (9 * side * side) as f64;
-        let (mut patches, size) = blocks::patches(scan, side, fewest, threads);
+        let reach = if side == 1 { 2 } else { 1 };
+        let fewest = FILLED * (side * (2 * reach + 1)).pow(2) as f64;
+        let (mut patches, size) = blocks::patches(scan, side, reach, fewest, threads);
         leave_out_rough(&mut patches);
         let finder = Finder::Camera(GridView::of(&patches, size)?);
         Some(Self::new(patches, finder, Some(size.0)))
     }
 
     fn of_cloud(points: &[[f32; 3]], threads: usize) -> Option<Self> {
-        let held = (HELD * (points.len() as f64 / 1e5).powf(0.6)).max(FEWEST);
+        let held = (HELD * (points.len() as f64 / 1e5).powf(0.75)).max(FEWEST);
         let voxels = Voxels::of(points, held, threads)?;
         let mut patches = voxels.patches(FILLED * 9.0 * held, threads);
         leave_out_rough(&mut patches);
@@ -85,9 +88,10 @@ impl Surface {
         let count = patches.iter().flatten().count() as f64;
         let sum: Vector3<f64> = patches.iter().flatten().map(|p| p.mean).sum();
         let spread = linalg::median(patches.iter().flatten().map(|p| p.along)).sqrt();
+        let noise = linalg::median(patches.iter().flatten().map(|p| p.across / p.held)).sqrt();
         let middle = sum / count.max(1.0);
         let corners = corners(&patches);
-        Self { patches, middle, spread, corners, is_facing: columns.is_some(), columns, finder }
+        Self { patches, middle, spread, noise, corners, is_facing: columns.is_some(), columns, finder }
     }
 
     /// A window near a place, the nearest or that in the same direction.
@@ -102,16 +106,33 @@ impl Surface {
         }
     }
 
-    /// Whether a window is one of those in every so manieth row and column.
-    #[inline(always)]
-    pub fn is_in(&self, k: usize, stride: usize) -> bool {
-        match self.columns {
-            _ if stride == 1 => true,
-            Some(columns) => {
-                (k % columns).is_multiple_of(stride) && (k / columns).is_multiple_of(stride)
-            }
-            None => k.is_multiple_of(stride * stride),
-        }
+    /// Numbers of the windows in every so manieth row and column.
+    pub fn every(&self, stride: usize) -> Vec<u32> {
+        let is_there = |k: &usize| self.patches[*k].is_some();
+        let count = self.patches.len();
+        let found: Vec<usize> = match self.columns {
+            Some(columns) => (0..count)
+                .step_by(columns * stride)
+                .flat_map(|row| (row..row + columns).step_by(stride))
+                .filter(is_there)
+                .collect(),
+            None => (0..count).step_by(stride * stride).filter(is_there).collect(),
+        };
+        found.into_iter().map(|k| k as u32).collect()
+    }
+
+    /// The stride at which there are about so many windows.
+    pub fn stride(&self, count: f64) -> usize {
+        (self.patches.len() as f64 / count).sqrt().ceil().max(1.0) as usize
+    }
+
+    /// Farthest distance between two places of a window.
+    pub fn moved(&self, a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
+        let between = |p: &Vector3<f64>| {
+            let p = (*p).into();
+            (a.transform_point(&p) - b.transform_point(&p)).norm()
+        };
+        self.corners.iter().map(between).fold(0.0, f64::max)
     }
 }
 

@@ -1,0 +1,140 @@
+//! How well an answer is determined, and in which directions it is not.
+//!
+//! The normal equations of a plane determine all six directions, or seem to: noisy normals lean to all
+//! sides, and a plane that slides on itself meets them all. What they would promise by their noise alone is
+//! known, `N = Σ w s² K (I - m mᵀ) Kᵀ` with `K = [[p]ₓ; I]` and the variance `s²` of the normal `m`; a
+//! direction in which the information `H` is not several times `N` is not determined.
+//!
+//! Residuals of neighbours are not independent: depth is wrong over some width, or the scan is bent. So
+//! the surface is cut into tiles, and what each of them pulls, `Σ w r`, is compared with what its windows
+//! would pull were they independent: the ratio of the squares scales the covariance `A⁻¹ B A⁻¹`, with
+//! `A = Σ ψ' J Jᵀ` and `B = Σ ψ² J Jᵀ` of Tukey's `ψ`.
+//!
+//! A. Gelfand et al., *Geometrically stable sampling for the ICP algorithm*, 3DIM 2003; P. Huber, *Robust
+//! statistics*, 1981.
+
+use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
+
+use super::descent::{Descent, Match};
+use crate::lie;
+
+/// Directions with less than so many times the information of noise alone are not determined.
+const DETERMINED: f64 = 1.9;
+/// Planes and creases feign so many times the information that planes alone would.
+const FEIGNED: f64 = 1.4;
+/// Tiles are so many times as wide as the spread of a window.
+const TILE: f64 = 10.0;
+/// Fewer tiles say nothing of how much neighbours depend on each other.
+const FEWEST_TILES: usize = 8;
+
+/// Of an answer, in the target frame: a turn about the middle of the source, then a shift.
+#[derive(Debug, Clone)]
+pub struct Freedom {
+    information: Matrix6<f64>,
+    /// Squares of all pulls.
+    pulls: Matrix6<f64>,
+    /// Of what would be there without any shape.
+    noise: Matrix6<f64>,
+    /// Variance over that of windows which err independently.
+    pub inflation: f64,
+    middle: Vector3<f64>,
+}
+
+/// What windows in a part of space pull.
+#[derive(Debug, Clone, Copy)]
+struct Pull {
+    tile: [i32; 3],
+    sum: f64,
+    /// Expected square of the sum.
+    expected: f64,
+}
+
+impl Freedom {
+    pub fn of(descent: &Descent, at: &Isometry3<f64>) -> Self {
+        let middle = descent.middle(at);
+        let per_m = 1.0 / (TILE * descent.target.spread);
+        let parts = descent.chunks(|range| {
+            let mut sums = [Matrix6::zeros(); 3];
+            let mut pulls = vec![];
+            descent.each_match(at, range, |found| {
+                let residual = found.residual();
+                let share = residual.abs() / descent.limit(found.variance.sqrt());
+                if share >= 1.0 {
+                    return;
+                }
+                // psi and its slope, of Tukey's estimator
+                let left = 1.0 - share * share;
+                let slope = left * (left - 4.0 * share * share);
+                let j = Vector6::from(found.jacobian());
+                let pull = residual * left * left / found.variance;
+                sums[0] += j * j.transpose() * (slope / found.variance);
+                sums[1] += j * j.transpose() * (pull * pull);
+                sums[2] += of_normals(&found) * (FEIGNED * slope / found.variance);
+                let tile = found.arm.map(|x| (x * per_m).floor() as i32).into();
+                pulls.push(Pull { tile, sum: pull, expected: pull * pull });
+            });
+            (sums, pulls)
+        });
+        let (mut sums, mut pulls) = ([Matrix6::zeros(); 3], vec![]);
+        for part in parts {
+            (0..3).for_each(|k| sums[k] += part.0[k]);
+            pulls.extend(part.1);
+        }
+        let inflation = inflation(pulls);
+        Self { information: sums[0], pulls: sums[1], noise: sums[2], inflation, middle }
+    }
+
+    /// Directions, of which the first ones are not determined; and how many those are. `None` where nothing
+    /// is.
+    pub fn directions(&self) -> Option<(Matrix6<f64>, usize)> {
+        let inverse = self.noise.cholesky()?.l().try_inverse()?;
+        let ratio = inverse * self.information * inverse.transpose();
+        let eigen = SymmetricEigen::new((ratio + ratio.transpose()) * 0.5);
+        let mut order: Vec<usize> = (0..6).collect();
+        order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+        let columns = inverse.transpose() * eigen.eigenvectors;
+        let sorted = Matrix6::from_fn(|row, k| columns[(row, order[k])]);
+        let free = eigen.eigenvalues.iter().filter(|ratio| **ratio < DETERMINED).count();
+        if std::env::var("SHOW").is_ok() {
+            println!("   ratios {:.1?} inflation {:.2}", order.iter().map(|k| eigen.eigenvalues[*k]).collect::<Vec<_>>(), self.inflation);
+        }
+        Some((sorted, free))
+    }
+
+    /// 6 x 6, rotation first, perturbed on the right (in the source frame).
+    pub fn covariance(&self, at: &Isometry3<f64>) -> Option<Matrix6<f64>> {
+        // what the noise of normals feigns is no information
+        let inverse = (self.information - self.noise).cholesky()?.inverse();
+        let covariance = inverse * self.pulls * inverse * self.inflation;
+        let back = at.rotation.to_rotation_matrix().into_inner().transpose();
+        let mut a = Matrix6::zeros();
+        a.fixed_view_mut::<3, 3>(0, 0).copy_from(&back);
+        // v = Rᵀ (s - ω x (middle - t))
+        let arm = lie::hat(&(self.middle - at.translation.vector));
+        a.fixed_view_mut::<3, 3>(3, 0).copy_from(&(back * arm));
+        a.fixed_view_mut::<3, 3>(3, 3).copy_from(&back);
+        Some(a * covariance * a.transpose())
+    }
+}
+
+/// Information that the noise of a match's normals feigns, per weight.
+fn of_normals(found: &Match) -> Matrix6<f64> {
+    let variance = |p: &super::patch::Patch| p.across / (p.count * p.along);
+    let s = 0.25 * (variance(found.own) + variance(found.other));
+    let mut k = SMatrix::<f64, 6, 3>::zeros();
+    k.fixed_view_mut::<3, 3>(0, 0).copy_from(&lie::hat(&found.arm));
+    k.fixed_view_mut::<3, 3>(3, 0).copy_from(&Matrix3::identity());
+    k * (Matrix3::identity() - found.m * found.m.transpose()) * k.transpose() * s
+}
+
+fn inflation(mut pulls: Vec<Pull>) -> f64 {
+    pulls.sort_by(|a, b| a.tile.cmp(&b.tile));
+    let (mut squares, mut expected, mut tiles) = (0.0, 0.0, 0);
+    for tile in pulls.chunk_by(|a, b| a.tile == b.tile) {
+        let sum: f64 = tile.iter().map(|p| p.sum).sum();
+        squares += sum * sum;
+        expected += tile.iter().map(|p| p.expected).sum::<f64>();
+        tiles += 1;
+    }
+    if tiles < FEWEST_TILES { 1.0 } else { squares / expected }
+}

@@ -1,0 +1,156 @@
+//! Answers that other starts lead to, and which of them the scans speak for.
+//!
+//! A round of matching leads down from its start to the nearest answer, right or wrong, and its residuals
+//! do not tell which: a block that came to lie beside its like is left out as if it were something else.
+//! So starts around the given one are tried over few windows, and each answer is judged by all that the
+//! scans say: a window that lies on the other surface speaks for it, one that would have hidden what the
+//! other camera saw, or lies close beside a surface but not on it, against.
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use super::{
+    descent::{Descent, Reached},
+    surface::Surface,
+};
+
+/// Windows that are looked at first, from every start.
+const TRIED: f64 = 500.0;
+/// Times as many are judged.
+const JUDGED: f64 = 3.0;
+/// An answer is clearly better than another by so many standard deviations.
+const CLEARLY: f64 = 6.0;
+/// An answer that moves a window by more than so many times the gate is another start's.
+const FARTHEST: f64 = 3.0;
+/// Answers are improved by matches within so many times the spread of a window.
+const NEARBY: f64 = 3.0;
+/// Windows lie on a surface within so many standard deviations.
+const ON: f64 = 3.0;
+/// Beside a cloud's surface is within so many times the spread of a window.
+const BESIDE: f64 = 1.0;
+/// Normals on a surface agree within 30 degrees.
+const COSINE: f64 = 0.866;
+/// What each window says of an answer: up to 1 for it, -1 against, 0 nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Opinions(Vec<f64>);
+
+impl Opinions {
+    /// Of about so many windows of each scan.
+    pub fn of(descent: &Descent, at: &Isometry3<f64>, count: f64) -> Self {
+        let (source, target) = (descent.source, descent.target);
+        let mut all = one_way(source, target, at, count);
+        all.extend(one_way(target, source, &at.inverse(), count));
+        Self(all)
+    }
+
+    pub fn sum(&self) -> f64 {
+        self.0.iter().sum()
+    }
+
+    /// Share of those that say something that speak for it.
+    pub fn agreeing(&self) -> f64 {
+        let said = self.0.iter().filter(|c| **c != 0.0).count();
+        let agreed = self.0.iter().filter(|c| **c > 0.0).count();
+        agreed as f64 / said.max(1) as f64
+    }
+
+    /// By how many standard deviations more windows speak for this than for another.
+    pub fn above(&self, other: &Self) -> f64 {
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for (a, b) in self.0.iter().zip(&other.0) {
+            sum += a - b;
+            squares += (a - b) * (a - b);
+        }
+        if squares > 0.0 { sum / squares.sqrt() } else { 0.0 }
+    }
+}
+
+fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64) -> Vec<f64> {
+    let (r, t) = (at.rotation.to_rotation_matrix().into_inner(), at.translation.vector);
+    let opinion = |k: u32| {
+        let own = from.patches[k as usize].as_ref()?;
+        let (p, n) = (r * own.mean + t, r * own.normal);
+        let Some(other) = to.find(&p, BESIDE * to.spread).and_then(|k| to.patches[k].as_ref())
+        else {
+            return Some(0.0);
+        };
+        let (off, cosine) = (other.normal.dot(&(p - other.mean)), n.dot(&other.normal));
+        let alike = if from.is_facing && to.is_facing { cosine } else { cosine.abs() };
+        let variance = own.across / own.held + other.across / other.held;
+        let opinion = 1.0 - (off * off / (ON * ON * variance)).min(2.0);
+        // a camera sees nothing through what is in front
+        let hidden = to.is_facing && off < 0.0;
+        let says_something = if opinion > 0.0 { alike >= COSINE } else { !hidden };
+        Some(if says_something { opinion } else { 0.0 })
+    };
+    from.every(from.stride(count)).into_iter().filter_map(opinion).collect()
+}
+
+/// Around a start: turned and shifted in twelve directions, about the middle of the source.
+pub fn around(start: &Isometry3<f64>, middle: &Vector3<f64>, reach_m: f64) -> Vec<Isometry3<f64>> {
+    let golden = f64::midpoint(1.0, 5f64.sqrt());
+    let corner = |k: usize| {
+        let (a, b) = ([1.0, -1.0][k & 1], [golden, -golden][k >> 1 & 1]);
+        let v = Vector3::new(0.0, a, b).normalize();
+        Vector3::from_fn(|axis, _| v[(axis + k / 4) % 3])
+    };
+    let to = Translation3::from(*middle);
+    (0..12)
+        .map(|k| {
+            let turn = UnitQuaternion::from_scaled_axis(corner(k) * TURN);
+            let shift = Translation3::from(corner((5 * k + 3) % 12) * reach_m);
+            start * to * shift * turn * to.inverse()
+        })
+        .collect()
+}
+
+/// Starts are turned by so much, rad.
+const TURN: f64 = 0.14;
+
+/// An answer, and what is said of it.
+pub struct Rival {
+    pub reached: Reached,
+    pub opinions: Opinions,
+}
+
+/// Answers from these starts, the best first: it, and those of which it is not clear that they are worse.
+/// With ever more windows, until it is clear or there are no more.
+pub fn answers(descent: &mut Descent, starts: &[Isometry3<f64>], gate: f64) -> Vec<Rival> {
+    let source = descent.source;
+    let mut count = TRIED;
+    let mut all = tried(descent, starts, gate, count);
+    all.retain(|r| source.moved(&starts[0], &r.reached.target_from_source) <= FARTHEST * gate);
+    leave_out_worse(&mut all);
+    while all.len() > 1 && source.stride(count) > 1 {
+        count *= 4.0;
+        let starts: Vec<_> = all.iter().map(|r| r.reached.target_from_source).collect();
+        all = tried(descent, &starts, NEARBY * source.spread, count);
+        leave_out_worse(&mut all);
+    }
+    all
+}
+
+fn tried(descent: &mut Descent, starts: &[Isometry3<f64>], gate: f64, count: f64) -> Vec<Rival> {
+    let source = descent.source;
+    let mut all: Vec<Rival> = vec![];
+    for start in starts {
+        let mut reached = Reached::start(start);
+        if descent.coarse(&mut reached, gate, source.stride(count)).is_err() {
+            continue;
+        }
+        let at = reached.target_from_source;
+        let same = |r: &Rival| source.moved(&r.reached.target_from_source, &at) < source.spread;
+        if !all.iter().any(same) {
+            let opinions = Opinions::of(descent, &at, JUDGED * count);
+            all.push(Rival { reached, opinions });
+        }
+    }
+    all
+}
+
+/// The best first, and none that is clearly worse.
+fn leave_out_worse(all: &mut Vec<Rival>) {
+    all.sort_by(|a, b| b.opinions.sum().total_cmp(&a.opinions.sum()));
+    let is_worse = |r: &Rival| all[0].opinions.above(&r.opinions) > CLEARLY;
+    let unclear = all.iter().position(is_worse).unwrap_or(all.len());
+    all.truncate(unclear);
+}
