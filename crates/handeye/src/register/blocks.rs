@@ -77,7 +77,8 @@ impl<'a> Band<'a> {
             self.below += 1;
         }
         for k in 0..blocks.len() {
-            let window = &blocks[k.saturating_sub(self.reach)..blocks.len().min(k + self.reach + 1)];
+            let window =
+                &blocks[k.saturating_sub(self.reach)..blocks.len().min(k + self.reach + 1)];
             along[k] = Sums::default();
             window.iter().for_each(|block| along[k] += block);
         }
@@ -92,9 +93,8 @@ impl<'a> Band<'a> {
             return None;
         }
         let patch = Patch::of(&window)?;
-        let mean = Vector3::from(block.first) / block.count;
-        let held = block.count;
-        let normal = if patch.normal.dot(&mean) > 0.0 { -patch.normal } else { patch.normal };
-        Some(Patch { mean, normal, held, ..patch })
+        let towards = if patch.normal.dot(&patch.mean) > 0.0 { -1.0 } else { 1.0 };
+        let facing = Patch { normal: patch.normal * towards, ..patch };
+        Some(facing.about(&(Vector3::from(block.first) / block.count), block.count))
     }
 }

@@ -5,7 +5,7 @@
 //! normals,
 //!
 //! ```text
-//! r = ½ (R n_p + n_q) · (R p + t - q)        J = [(R p + t) × m, m]  with m = ½ (R n_p + n_q)
+//! r = m · (R p + t - q)    J = [½ (R p + t + q) × m, m]    with m = ½ (R n_p + n_q)
 //! ```
 //!
 //! With both normals, a match that is off along the surface does no harm to second order. Each is weighed
@@ -17,9 +17,15 @@
 
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix3, Matrix6, Translation3, UnitQuaternion, Vector3, Vector6};
 
-use super::{dense::DenseConfig, icp::Stop, patch::Patch, surface::Surface};
+use super::{
+    dense::{DenseConfig, DenseMethod},
+    icp::Stop,
+    pair::{LEAST, Match, jacobian},
+    patch::Patch,
+    surface::Surface,
+};
 use crate::{Error, linalg, parallel};
 
 /// Normals of a match are within 30 degrees.
@@ -37,17 +43,19 @@ const SETTLED_SOME: f64 = 0.5;
 /// Steps shorter than this many standard deviations may be noise.
 const NEAR: f64 = 1.0;
 /// Fewer matches are none.
-const FEWEST: f64 = 20.0;
+pub const FEWEST: f64 = 20.0;
 /// Windows that a thread works on at once.
 const CHUNK: usize = 4096;
 /// Windows stay matched while none moves by more than this share of the spread of one.
 const MATCHED: f64 = 0.15;
+/// Windows that are looked at before all are.
+const COARSE: f64 = 1500.0;
+/// From nearby, windows are matched within so many times the spread of one.
+const NEARBY: f64 = 3.0;
 /// Among all windows none is matched farther away than this many times the spread of one.
 const FINE: f64 = 1.5;
 /// No window.
 const NOWHERE: u32 = u32::MAX;
-/// No variance is less, m²: rounding of single precision.
-const LEAST: f64 = 1e-12;
 
 /// Where a descent is.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,34 +89,6 @@ pub fn moved(at: &Isometry3<f64>, step: &Vector6<f64>, middle: &Vector3<f64>) ->
     let shift = Vector3::new(step[3], step[4], step[5]);
     let t = turn * (at.translation.vector - middle) + middle + shift;
     Isometry3::from_parts(Translation3::from(t), turn * at.rotation)
-}
-
-/// Two windows that belong together.
-pub struct Match<'a> {
-    pub own: &'a Patch,
-    pub other: &'a Patch,
-    /// The moved mean, from the middle of the source.
-    pub arm: Vector3<f64>,
-    /// From the other's mean to the moved one.
-    pub apart: Vector3<f64>,
-    /// Mean of both normals.
-    pub m: Vector3<f64>,
-    /// Of their distance along it, m².
-    pub variance: f64,
-}
-
-impl Match<'_> {
-    #[inline(always)]
-    pub fn residual(&self) -> f64 {
-        self.m.dot(&self.apart)
-    }
-
-    /// By turn and shift.
-    #[inline(always)]
-    pub fn jacobian(&self) -> [f64; 6] {
-        let turn = self.arm.cross(&self.m);
-        [turn.x, turn.y, turn.z, self.m.x, self.m.y, self.m.z]
-    }
 }
 
 /// Two surfaces, and the state of the rounds between them.
@@ -166,10 +146,23 @@ impl<'a> Descent<'a> {
     }
 
     /// Over some windows, residuals limited by the gate at first.
+    ///
+    /// # Errors
+    /// [`Error::TooFewPoints`], [`Error::NotDetermined`].
     pub fn coarse(&mut self, reached: &mut Reached, gate: f64, stride: usize) -> Result<(), Error> {
         (self.gate, self.width) = (gate, gate);
         self.look_at(stride);
         self.descend(reached, SETTLED_SOME)
+    }
+
+    /// Over some windows.
+    pub fn afar(&mut self, reached: &mut Reached, gate: f64) -> Result<(), Error> {
+        self.coarse(reached, gate, self.source.stride(COARSE))
+    }
+
+    /// Over some windows, from nearby.
+    pub fn nearby(&mut self, reached: &mut Reached) -> Result<(), Error> {
+        self.afar(reached, NEARBY * self.source.spread)
     }
 
     /// Over all windows, from nearby.
@@ -201,7 +194,8 @@ impl<'a> Descent<'a> {
             }
             self.sigma = MAD * linalg::median(sums.residuals.iter().map(|r| f64::from(*r)));
             let step = self.step(&sums)?;
-            let middle = self.middle(&reached.target_from_source);
+            let (before, rms) = (reached.target_from_source, reached.rms_m);
+            let middle = self.middle(&before);
             reached.target_from_source = moved(&reached.target_from_source, &step, &middle);
             (reached.inliers, reached.all) = (sums.inliers, sums.all);
             reached.rms_m = (sums.squares / sums.inliers).sqrt();
@@ -217,8 +211,14 @@ impl<'a> Descent<'a> {
             let length = step.dot(&(sums.information * step)).sqrt();
             // matches come and go for ever: once all is near, steps that do not shrink are their noise
             let noise = length < NEAR * self.sigma && length > 0.5 * last;
-            if length <= settled * self.sigma || noise {
+            let small = self.source.moved(&before, &reached.target_from_source)
+                <= self.config.transformation_epsilon_m;
+            if length <= settled * self.sigma || noise || small {
                 reached.stop = Stop::Converged;
+                break;
+            }
+            if (reached.rms_m - rms).abs() <= self.config.fitness_epsilon * rms {
+                reached.stop = Stop::Fitness;
                 break;
             }
             last = length;
@@ -227,7 +227,8 @@ impl<'a> Descent<'a> {
     }
 
     fn step(&self, sums: &Totals) -> Result<Vector6<f64>, Error> {
-        let free = || Error::NotDetermined { what: "the common surface can slide on itself".into() };
+        let free =
+            || Error::NotDetermined { what: "the common surface can slide on itself".into() };
         match &self.along {
             None => {
                 let inverse = linalg::invert_spd(&sums.information).ok_or_else(free)?;
@@ -295,16 +296,47 @@ impl<'a> Descent<'a> {
 
     fn part(&self, at: &Isometry3<f64>, range: Range<usize>) -> Totals {
         let mut total = Totals::none();
+        let is_along = matches!(self.config.method, DenseMethod::Auto | DenseMethod::PointToPlane);
         total.all = self.each_match(at, range, |found| {
             let residual = found.residual();
+            if !is_along {
+                return self.add_whole(&found, residual, &mut total);
+            }
             let deviation = found.variance.sqrt();
             total.residuals.push((residual.abs() / deviation) as f32);
             let share = residual.abs() / self.limit(deviation);
             if share < 1.0 {
-                total.add(&found, residual, (1.0 - share * share).powi(2) / found.variance);
+                let weight = (1.0 - share * share).powi(2) / found.variance;
+                total.count(residual);
+                total.add(&found.jacobian(), residual, weight);
             }
         });
         total
+    }
+
+    /// Of a match of which differences along the surface count as well.
+    fn add_whole(&self, found: &Match, residual: f64, total: &mut Totals) {
+        let covariance = match self.config.method {
+            DenseMethod::PointToPoint => {
+                Matrix3::identity() * (found.own.along + found.other.along)
+            }
+            _ => found.covariance(&(found.m * 2.0 - found.other.normal)),
+        };
+        let Some(rows) = found.whitened(&covariance) else { return };
+        let lengths = rows.map(|row| row.dot(&found.apart));
+        let length = Vector3::from(lengths).norm();
+        total.residuals.push(length as f32);
+        let mut share = length / (TUKEY * self.sigma);
+        if self.width > 0.0 {
+            share = share.min(residual.abs() / self.width);
+        }
+        if share < 1.0 {
+            let weight = (1.0 - share * share).powi(2);
+            total.count(residual);
+            for (row, length) in rows.iter().zip(lengths) {
+                total.add(&jacobian(&found.arm, row), length, weight);
+            }
+        }
     }
 
     /// Residuals beyond do not count.
@@ -332,9 +364,13 @@ impl<'a> Descent<'a> {
             let p = r * own.mean + t;
             let apart = p - other.mean;
             if let Some(n) = self.facing(&apart, &(r * own.normal), other) {
-                let m = (n + other.normal) * 0.5;
-                let variance = own.across / own.held + other.across / other.held + LEAST;
-                with(Match { own, other, arm: p - middle, apart, m, variance });
+                let m = match self.config.method {
+                    DenseMethod::PointToPlane => other.normal,
+                    _ => (n + other.normal) * 0.5,
+                };
+                let variance = own.variance + other.variance + LEAST;
+                let arm = p - apart * 0.5 - middle;
+                with(Match { own, other, arm, apart, m, variance });
             }
         }
         range.len() as f64
@@ -368,11 +404,13 @@ impl Totals {
         }
     }
 
-    #[inline(always)]
-    fn add(&mut self, found: &Match, residual: f64, weight: f64) {
+    fn count(&mut self, residual: f64) {
         self.inliers += 1.0;
         self.squares += residual * residual;
-        let j = found.jacobian();
+    }
+
+    #[inline(always)]
+    fn add(&mut self, j: &[f64; 6], residual: f64, weight: f64) {
         for a in 0..6 {
             let weighted = weight * j[a];
             self.gradient[a] += weighted * residual;

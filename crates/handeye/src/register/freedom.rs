@@ -15,13 +15,15 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
 
-use super::descent::{Descent, Match};
+use super::{descent::Descent, pair::Match};
 use crate::lie;
 
 /// Directions with less than so many times the information of noise alone are not determined.
 const DETERMINED: f64 = 1.9;
 /// Planes and creases feign so many times the information that planes alone would.
 const FEIGNED: f64 = 1.4;
+/// Of a motion that is a shift, the turn moves the rim by less than this share, squared.
+const TURNS: f64 = 0.05;
 /// Tiles are so many times as wide as the spread of a window.
 const TILE: f64 = 10.0;
 /// Fewer tiles say nothing of how much neighbours depend on each other.
@@ -84,21 +86,54 @@ impl Freedom {
         Self { information: sums[0], pulls: sums[1], noise: sums[2], inflation, middle }
     }
 
-    /// Directions, of which the first ones are not determined; and how many those are. `None` where nothing
-    /// is.
-    pub fn directions(&self) -> Option<(Matrix6<f64>, usize)> {
-        let inverse = self.noise.cholesky()?.l().try_inverse()?;
+    /// Directions, of which the first ones are not determined; and how many those are.
+    pub fn directions(&self) -> (Matrix6<f64>, usize) {
+        // without any noise, that of rounding
+        let least = Matrix6::from_diagonal(&self.information.diagonal().map(|x| 1e-12 * x + 1e-30));
+        let root = (self.noise + least).cholesky().and_then(|c| c.l().try_inverse());
+        let Some(inverse) = root else { return (Matrix6::identity(), 6) };
         let ratio = inverse * self.information * inverse.transpose();
         let eigen = SymmetricEigen::new((ratio + ratio.transpose()) * 0.5);
-        let mut order: Vec<usize> = (0..6).collect();
-        order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
         let columns = inverse.transpose() * eigen.eigenvectors;
-        let sorted = Matrix6::from_fn(|row, k| columns[(row, order[k])]);
-        let free = eigen.eigenvalues.iter().filter(|ratio| **ratio < DETERMINED).count();
-        if std::env::var("SHOW").is_ok() {
-            println!("   ratios {:.1?} inflation {:.2}", order.iter().map(|k| eigen.eigenvalues[*k]).collect::<Vec<_>>(), self.inflation);
+        let is_free = |k: usize| eigen.eigenvalues[k] < DETERMINED;
+        let mut order: Vec<(bool, usize)> = (0..6).map(|k| (!is_free(k), k)).collect();
+        order.sort_unstable();
+        let free = order.iter().filter(|(is_fixed, _)| !is_fixed).count();
+        (Matrix6::from_fn(|row, k| columns[(row, order[k].1)]), free)
+    }
+
+    /// In words, each of these columns (or of others that span the same), in the target frame.
+    pub fn named(&self, columns: &[Vector6<f64>], radius_m: f64) -> Vec<String> {
+        let scale = |v: &Vector6<f64>| {
+            Vector6::new(v[0] * radius_m, v[1] * radius_m, v[2] * radius_m, v[3], v[4], v[5])
+        };
+        let mut space: Vec<Vector6<f64>> = columns.iter().map(scale).collect();
+        orthonormalise(&mut space);
+        let mut turning = Matrix6::zeros();
+        for (a, v) in space.iter().enumerate() {
+            for (b, w) in space.iter().enumerate() {
+                turning[(a, b)] = lie::omega(v).dot(&lie::omega(w));
+            }
         }
-        Some((sorted, free))
+        let eigen = SymmetricEigen::new(turning);
+        let mut order: Vec<usize> =
+            (0..6).filter(|k| is_of(&eigen.eigenvectors, *k, space.len())).collect();
+        order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+        let motion = |k: &usize| -> Vector6<f64> {
+            space.iter().enumerate().map(|(a, v)| v * eigen.eigenvectors[(a, *k)]).sum()
+        };
+        order.iter().map(|k| self.name(&motion(k), eigen.eigenvalues[*k], radius_m)).collect()
+    }
+
+    /// Of a motion whose turn is scaled by the radius, and makes up this share of it.
+    fn name(&self, motion: &Vector6<f64>, turning: f64, radius_m: f64) -> String {
+        let (turn, shift) = (lie::omega(motion) / radius_m, lie::nu(motion));
+        if turning < TURNS {
+            return format!("a shift along {}", direction(&shift));
+        }
+        let axis = self.middle + turn.cross(&shift) / turn.norm_squared();
+        let [x, y, z] = (axis * 1e3).into();
+        format!("a turn about {} through ({x:.0}, {y:.0}, {z:.0}) mm", direction(&turn))
     }
 
     /// 6 x 6, rotation first, perturbed on the right (in the source frame).
@@ -117,6 +152,30 @@ impl Freedom {
     }
 }
 
+/// Whether an eigenvector is one of the first dimensions, and not of those that are not used.
+fn is_of(eigenvectors: &Matrix6<f64>, k: usize, dimensions: usize) -> bool {
+    (0..dimensions).map(|a| eigenvectors[(a, k)].powi(2)).sum::<f64>() > 0.5
+}
+
+fn orthonormalise(space: &mut [Vector6<f64>]) {
+    for k in 0..space.len() {
+        for other in 0..k {
+            let before = space[other];
+            let along = before.dot(&space[k]);
+            space[k] -= before * along;
+        }
+        space[k].normalize_mut();
+    }
+}
+
+/// Of a vector, of which the largest coordinate is positive.
+fn direction(v: &Vector3<f64>) -> String {
+    let sign = v[v.iamax()].signum();
+    // no minus before what is rounded to zero
+    let [x, y, z] = (v.normalize() * sign).map(|x| if x.abs() < 5e-3 { 0.0 } else { x }).into();
+    format!("({x:.2}, {y:.2}, {z:.2})")
+}
+
 /// Information that the noise of a match's normals feigns, per weight.
 fn of_normals(found: &Match) -> Matrix6<f64> {
     let variance = |p: &super::patch::Patch| p.across / (p.count * p.along);
@@ -128,7 +187,7 @@ fn of_normals(found: &Match) -> Matrix6<f64> {
 }
 
 fn inflation(mut pulls: Vec<Pull>) -> f64 {
-    pulls.sort_by(|a, b| a.tile.cmp(&b.tile));
+    pulls.sort_by_key(|pull| pull.tile);
     let (mut squares, mut expected, mut tiles) = (0.0, 0.0, 0);
     for tile in pulls.chunk_by(|a, b| a.tile == b.tile) {
         let sum: f64 = tile.iter().map(|p| p.sum).sum();

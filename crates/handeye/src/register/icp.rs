@@ -41,6 +41,8 @@ impl Default for IcpConfig {
 pub enum Stop {
     /// The transform no longer changes.
     Converged,
+    /// The residuals no longer change.
+    Fitness,
     /// The rounds were used up.
     MaxIterations,
 }

@@ -43,6 +43,8 @@ pub struct Patch {
     pub normal: Vector3<f64>,
     /// Variance of its points across the plane, m².
     pub across: f64,
+    /// Of its height, m²: the mean of its points' errors, and what is not plane about it.
+    pub variance: f64,
     /// Harmonic mean of both variances along the plane, m².
     pub along: f64,
     /// Number of points of which it is the mean.
@@ -57,6 +59,11 @@ const MOST_STEPS: usize = 20;
 const SETTLED: f64 = 1e-5;
 
 impl Patch {
+    /// With the place of its middle, which is the mean of so many points.
+    pub fn about(self, middle: &Vector3<f64>, held: f64) -> Self {
+        Self { mean: *middle, held, ..self }
+    }
+
     /// `None` of fewer than three points, and of points on a line.
     pub fn of(sums: &Sums) -> Option<Self> {
         let n = sums.count;
@@ -104,6 +111,7 @@ impl Patch {
             mean: Vector3::new(x, y, z),
             normal: rows[longest] / length,
             across,
+            variance: across / n,
             along,
             held: n,
             count: n,

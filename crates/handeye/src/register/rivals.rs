@@ -9,9 +9,10 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
-    descent::{Descent, Reached},
+    descent::{Descent, FEWEST, Reached},
     surface::Surface,
 };
+use crate::Error;
 
 /// Windows that are looked at first, from every start.
 const TRIED: f64 = 500.0;
@@ -55,13 +56,15 @@ impl Opinions {
 
     /// By how many standard deviations more windows speak for this than for another.
     pub fn above(&self, other: &Self) -> f64 {
-        let (mut sum, mut squares) = (0.0, 0.0);
-        for (a, b) in self.0.iter().zip(&other.0) {
-            sum += a - b;
-            squares += (a - b) * (a - b);
-        }
-        if squares > 0.0 { sum / squares.sqrt() } else { 0.0 }
+        deviations(self.0.iter().zip(&other.0).map(|(a, b)| a - b))
     }
+}
+
+/// A sum, by how far from zero chance would bring it.
+fn deviations(differences: impl Iterator<Item = f64>) -> f64 {
+    let (sum, squares) =
+        differences.fold((0.0, 0.0), |(sum, squares), by| (sum + by, squares + by * by));
+    if squares > 0.0 { sum / squares.sqrt() } else { 0.0 }
 }
 
 fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64) -> Vec<f64> {
@@ -75,7 +78,7 @@ fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64) -> Vec
         };
         let (off, cosine) = (other.normal.dot(&(p - other.mean)), n.dot(&other.normal));
         let alike = if from.is_facing && to.is_facing { cosine } else { cosine.abs() };
-        let variance = own.across / own.held + other.across / other.held;
+        let variance = own.variance + other.variance;
         let opinion = 1.0 - (off * off / (ON * ON * variance)).min(2.0);
         // a camera sees nothing through what is in front
         let hidden = to.is_facing && off < 0.0;
@@ -114,7 +117,11 @@ pub struct Rival {
 
 /// Answers from these starts, the best first: it, and those of which it is not clear that they are worse.
 /// With ever more windows, until it is clear or there are no more.
-pub fn answers(descent: &mut Descent, starts: &[Isometry3<f64>], gate: f64) -> Vec<Rival> {
+pub fn answers(
+    descent: &mut Descent,
+    starts: &[Isometry3<f64>],
+    gate: f64,
+) -> Result<Vec<Rival>, Error> {
     let source = descent.source;
     let mut count = TRIED;
     let mut all = tried(descent, starts, gate, count);
@@ -126,7 +133,10 @@ pub fn answers(descent: &mut Descent, starts: &[Isometry3<f64>], gate: f64) -> V
         all = tried(descent, &starts, NEARBY * source.spread, count);
         leave_out_worse(&mut all);
     }
-    all
+    if all.is_empty() {
+        return Err(Error::TooFewPoints { found: 0, needed: FEWEST as usize });
+    }
+    Ok(all)
 }
 
 fn tried(descent: &mut Descent, starts: &[Isometry3<f64>], gate: f64, count: f64) -> Vec<Rival> {

@@ -21,23 +21,23 @@ const FEWEST: f64 = 2.0;
 const FILLED: f64 = 0.6;
 /// Scatter across a plane above this many times the usual one is no plane's.
 const ROUGH: f64 = 50.0;
+/// Above this many times the usual one it is due to the shape, and no mean makes it less.
+const SHAPED: f64 = 2.0;
 /// But where the scatter across is below this share of that along it, nothing is rough.
 const FLAT: f64 = 1e-4;
 
 /// A scan's windows that are planes.
 pub struct Surface {
     /// Of an organised scan row by row, of a cloud one after the other.
-    pub patches: Vec<Option<Patch>>,
+    pub(super) patches: Vec<Option<Patch>>,
     /// Of the mean of all of them, m.
-    pub middle: Vector3<f64>,
+    pub(super) middle: Vector3<f64>,
     /// Spread of the points of a usual window along it, m.
-    pub spread: f64,
-    /// Standard deviation of the mean of a usual window across it, m.
-    pub noise: f64,
+    pub(super) spread: f64,
     /// Corners of a box around all of them: when the scan moves, none moves more than one of these.
-    pub corners: [Vector3<f64>; 8],
+    pub(super) corners: [Vector3<f64>; 8],
     /// Whether normals point to the side from which the surface was seen.
-    pub is_facing: bool,
+    pub(super) is_facing: bool,
     /// Windows along a row, of an organised scan.
     columns: Option<usize>,
     finder: Finder,
@@ -88,15 +88,14 @@ impl Surface {
         let count = patches.iter().flatten().count() as f64;
         let sum: Vector3<f64> = patches.iter().flatten().map(|p| p.mean).sum();
         let spread = linalg::median(patches.iter().flatten().map(|p| p.along)).sqrt();
-        let noise = linalg::median(patches.iter().flatten().map(|p| p.across / p.held)).sqrt();
         let middle = sum / count.max(1.0);
         let corners = corners(&patches);
-        Self { patches, middle, spread, noise, corners, is_facing: columns.is_some(), columns, finder }
+        Self { patches, middle, spread, corners, is_facing: columns.is_some(), columns, finder }
     }
 
     /// A window near a place, the nearest or that in the same direction.
     #[inline(always)]
-    pub fn find(&self, p: &Vector3<f64>, within: f64) -> Option<usize> {
+    pub(super) fn find(&self, p: &Vector3<f64>, within: f64) -> Option<usize> {
         match &self.finder {
             Finder::Camera(view) => view.find(&self.patches, p),
             Finder::Nearest(tree) => {
@@ -107,7 +106,7 @@ impl Surface {
     }
 
     /// Numbers of the windows in every so manieth row and column.
-    pub fn every(&self, stride: usize) -> Vec<u32> {
+    pub(super) fn every(&self, stride: usize) -> Vec<u32> {
         let is_there = |k: &usize| self.patches[*k].is_some();
         let count = self.patches.len();
         let found: Vec<usize> = match self.columns {
@@ -122,12 +121,17 @@ impl Surface {
     }
 
     /// The stride at which there are about so many windows.
-    pub fn stride(&self, count: f64) -> usize {
+    pub(super) fn stride(&self, count: f64) -> usize {
         (self.patches.len() as f64 / count).sqrt().ceil().max(1.0) as usize
     }
 
+    /// Of the farthest window from the middle, m.
+    pub(super) fn radius(&self) -> f64 {
+        self.corners.iter().map(|p| (p - self.middle).norm()).fold(0.0, f64::max)
+    }
+
     /// Farthest distance between two places of a window.
-    pub fn moved(&self, a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
+    pub(super) fn moved(&self, a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
         let between = |p: &Vector3<f64>| {
             let p = (*p).into();
             (a.transform_point(&p) - b.transform_point(&p)).norm()
@@ -139,7 +143,10 @@ impl Surface {
 fn leave_out_rough(patches: &mut [Option<Patch>]) {
     let usual = linalg::median(patches.iter().flatten().map(|p| p.across));
     for patch in patches {
-        *patch = patch.filter(|p| p.across <= (ROUGH * usual).max(FLAT * p.along));
+        *patch = patch.filter(|p| p.across <= (ROUGH * usual).max(FLAT * p.along)).map(|p| {
+            let shape = (p.across - SHAPED * usual).max(0.0);
+            Patch { variance: p.across / p.held + shape, ..p }
+        });
     }
 }
 

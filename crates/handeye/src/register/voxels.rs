@@ -79,7 +79,7 @@ impl Lattice {
         let (mut key, mut steps, mut inside) = (0, [0; 3], true);
         for k in (0..3).rev() {
             let along = (f64::from(point[k]) - self.origin[k]) * self.per_m + 0.5 * ALL;
-            inside &= along >= 0.0 && along < ALL - 1.0;
+            inside &= (0.0..ALL - 1.0).contains(&along);
             let whole = (along + WHOLE).to_bits() & ((1 << (STEP_BITS + CUBE_BITS)) - 1);
             key = key << CUBE_BITS | whole >> STEP_BITS;
             steps[k] = (whole & (STEPS as u64 - 1)) as i32 - STEPS as i32 / 2;
@@ -151,15 +151,14 @@ impl Voxels {
             first: window.first.map(|s| s as f64),
             second: window.second.map(|s| s as f64),
         };
-        let patch = Patch::of(&sums)?;
         let held = own.count as f64;
-        let mean = Vector3::from(own.first.map(|s| s as f64)) / held;
+        let middle = Vector3::from(own.first.map(|s| s as f64)) / held;
+        let patch = Patch::of(&sums)?.about(&middle, held);
         let squared = self.lattice.per_m * self.lattice.per_m;
         Some(Patch {
-            mean: self.lattice.metres(own.key, &mean),
+            mean: self.lattice.metres(own.key, &patch.mean),
             across: patch.across / squared,
             along: patch.along / squared,
-            held,
             ..patch
         })
     }
@@ -301,7 +300,8 @@ fn merged(one: Vec<Cube>, other: Vec<Cube>) -> Vec<Cube> {
                 let mut sum = *a;
                 sum.add_all(b, [0; 3]);
                 all.push(sum);
-                (one.next(), other.next());
+                one.next();
+                other.next();
             }
         }
     }
