@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
+use handeye_io::units::LengthUnit;
 
 /// Hand-eye calibration: where the camera sits on the robot, and how sure that is.
 ///
@@ -53,6 +54,8 @@ pub enum Command {
     Tcp(TcpArgs),
     /// Test a calibration on touched points: does the robot find what the camera measures?
     Verify(VerifyArgs),
+    /// Register one scan to another: ICP with a covariance and a verdict.
+    Register(RegisterArgs),
     /// Find the target's corners in pictures.
     Detect(DetectArgs),
     /// Write a simulated dataset whose truth is known.
@@ -278,6 +281,66 @@ pub struct DetectArgs {
     /// Which camera, in a file of several.
     #[arg(long, requires = "camera")]
     pub camera_name: Option<String>,
+}
+
+/// Arguments of `register`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n\n\
+target_from_source takes points of SOURCE into TARGET; so does --initial, and the answer contains it.\n\
+guess.json: {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}, or a matrix of 4 rows.\n\n\
+Exit code 0: accepted; 3: rejected, or not determined by what both scans show."
+)]
+pub struct RegisterArgs {
+    /// The scan to be moved: PLY, PCD, NPY, NPZ, or depth in PNG or TIFF.
+    pub source: PathBuf,
+    /// The scan that stays.
+    pub target: PathBuf,
+    /// auto (symmetric), point-to-point, point-to-plane or gicp.
+    #[arg(long, default_value = "auto")]
+    pub method: String,
+    /// JSON file with the start [default: both scans lie as they are].
+    #[arg(long)]
+    pub initial: Option<PathBuf>,
+    /// Surfaces farther apart are not compared; about how far the start may be off [default: 50].
+    #[arg(long)]
+    pub max_distance_mm: Option<f64>,
+    /// Most rounds over all points, and over some from each start.
+    #[arg(long, default_value_t = 60)]
+    pub max_iterations: usize,
+    /// Unit of the points [default: mm for scans wider than 20 units, else m].
+    #[arg(long)]
+    pub length_unit: Option<Length>,
+    /// Metres per unit of a depth image, such as 0.001.
+    #[arg(long)]
+    pub depth_scale: Option<f64>,
+    /// Intrinsics of the depth images, in any file that a manifest may name.
+    #[arg(long)]
+    pub camera: Option<PathBuf>,
+}
+
+/// A unit of length.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub enum Length {
+    /// Metres.
+    M,
+    /// Millimetres.
+    Mm,
+    /// Centimetres.
+    Cm,
+    /// Inches.
+    Inch,
+}
+
+impl From<Length> for LengthUnit {
+    fn from(length: Length) -> Self {
+        match length {
+            Length::M => Self::Metre,
+            Length::Mm => Self::Millimetre,
+            Length::Cm => Self::Centimetre,
+            Length::Inch => Self::Inch,
+        }
+    }
 }
 
 /// Arguments of `tcp`.

@@ -10,6 +10,7 @@ mod failure;
 mod init;
 mod output;
 mod progress;
+mod register;
 mod repeat;
 mod report;
 mod simulate;
@@ -63,6 +64,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Tcp(args) => tcp::run(args, &program.manners),
         Command::Verify(args) => verify::run(args, &program.manners),
         Command::Check(args) => check::run(args, &program.manners),
+        Command::Register(args) => register::run(args, &program.manners),
         Command::Detect(args) => detect::run(args, &program.manners),
         Command::Simulate(args) => simulate::run(args, &program.manners),
         Command::Demo(args) => demo::run(args, &program.manners),

@@ -99,7 +99,7 @@ const OVERLAPPING: f64 = 0.05;
 /// Registers two scans, from a start that is right to some centimetres and degrees.
 ///
 /// # Errors
-/// [`Error::Invalid`] where a scan shows no surface, [`Error::TooFewPoints`] where nothing can be compared.
+/// [`Error::Invalid`] where a scan shows no surface.
 pub fn register(
     source: &Scan,
     target: &Scan,
@@ -111,14 +111,36 @@ pub fn register(
             .ok_or_else(|| Error::Invalid(format!("the {name} scan shows no surface")))
     };
     let (source, target) = (surface(source, "source")?, surface(target, "target")?);
-    register_surfaces(&source, &target, start, config)
+    Ok(register_surfaces(&source, &target, start, config))
 }
 
-/// Registers the surfaces of two scans.
-///
-/// # Errors
-/// [`Error::TooFewPoints`] where nothing can be compared.
+/// Registers the surfaces of two scans; where nothing can be compared, the start is rejected.
 pub fn register_surfaces(
+    source: &Surface,
+    target: &Surface,
+    start: &Isometry3<f64>,
+    config: &DenseConfig,
+) -> Dense {
+    registered(source, target, start, config).unwrap_or_else(|_| Dense {
+        verdict: Verdict::Rejected,
+        reasons: vec![format!(
+            "hardly anything of the source lies within {:.0} mm of the target: give a better start, or a \
+             larger distance",
+            1e3 * config.max_correspondence_distance_m
+        )],
+        undetermined: vec![],
+        target_from_source: *start,
+        covariance: None,
+        iterations: 0,
+        stop: Stop::NoMatches,
+        inlier_fraction: 0.0,
+        agreement: 0.0,
+        rms_m: f64::NAN,
+        sigma: f64::NAN,
+    })
+}
+
+fn registered(
     source: &Surface,
     target: &Surface,
     start: &Isometry3<f64>,
@@ -336,8 +358,9 @@ mod tests {
     fn scans_of_different_things_are_refused() {
         let (source, target, truth) = scans(4, |k| k);
         let away = Isometry3::translation(0.0, 0.0, 1.0) * truth;
-        let error = register(&source, &target, &away, &DenseConfig::default()).unwrap_err();
-        assert!(matches!(error, Error::TooFewPoints { .. }), "{error}");
+        let found = register(&source, &target, &away, &DenseConfig::default()).unwrap();
+        assert_eq!((found.verdict, found.stop), (Verdict::Rejected, Stop::NoMatches));
+        assert_eq!(found.target_from_source, away);
         let nothing = Scan::new(4, 1, vec![[f32::NAN; 3]; 4]).unwrap();
         let error = register(&nothing, &target, &truth, &DenseConfig::default()).unwrap_err();
         assert!(error.to_string().contains("source scan"), "{error}");

@@ -43,6 +43,8 @@ pub enum Stop {
     Converged,
     /// The residuals no longer change.
     Fitness,
+    /// Nothing was near enough.
+    NoMatches,
     /// The rounds were used up.
     MaxIterations,
 }

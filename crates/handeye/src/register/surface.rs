@@ -15,6 +15,8 @@ use crate::{Scan, linalg};
 const SIDE: f64 = 2.2;
 /// Points in a cube of a cloud of 100 000. They grow with the power 0.75 of the cloud's number.
 const HELD: f64 = 5.0;
+/// A surface of fewer pieces is none.
+const FEWEST_PIECES: usize = 20;
 /// Points in a cube of the smallest clouds.
 const FEWEST: f64 = 2.0;
 /// A window must have this share of the points of nine blocks.
@@ -54,7 +56,9 @@ enum Finder {
 impl Surface {
     /// `None` where nothing in the scan is a surface.
     pub fn of(scan: &Scan, threads: usize) -> Option<Self> {
-        Self::of_grid(scan, threads).or_else(|| Self::of_cloud(scan.points(), threads))
+        Self::of_grid(scan, threads)
+            .or_else(|| Self::of_cloud(scan.points(), threads))
+            .filter(|surface| surface.patches.iter().flatten().count() >= FEWEST_PIECES)
     }
 
     /// `None` where rows and columns are not those of a camera.

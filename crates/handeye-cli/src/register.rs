@@ -1,0 +1,288 @@
+//! `handeye register`: where one scan lies in another.
+
+use std::{fs, path::Path, thread, time::Instant};
+
+use handeye::{
+    Intrinsics, Scan, Verdict, Warning,
+    calibration::{Rows, rows},
+    register::{Dense, DenseConfig, DenseMethod, Stop, Surface, register_surfaces},
+};
+use handeye_io::{ScanOptions, read_intrinsics, read_scan, units::LengthUnit};
+use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    args::{Manners, RegisterArgs},
+    failure::Failure,
+    output,
+};
+
+/// A scan that is wider than this, in its own unit, is taken to be in millimetres.
+const WIDEST_M: f64 = 20.0;
+/// Rotations may be off by so much from one of length one.
+const ROUNDED: f64 = 1e-3;
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Transform {
+    translation_m: [f64; 3],
+    rotation_xyzw: [f64; 4],
+}
+
+/// What `--initial` may hold.
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "neither a transform {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}, alone or \
+                 as \"target_from_source\", nor a matrix of 4 rows"
+)]
+enum Initial {
+    Named { target_from_source: Transform },
+    Plain(Transform),
+    Matrix([[f64; 4]; 4]),
+}
+
+#[derive(Serialize)]
+struct Seconds {
+    read: f64,
+    prepare: f64,
+    iterate: f64,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    verdict: Verdict,
+    reasons: Vec<String>,
+    target_from_source: Transform,
+    covariance: Option<Rows>,
+    sigma_mm: Option<[f64; 3]>,
+    sigma_deg: Option<[f64; 3]>,
+    undetermined: Vec<String>,
+    method: &'static str,
+    iterations: usize,
+    stop: &'static str,
+    inlier_fraction: f64,
+    agreement: f64,
+    rms_mm: Option<f64>,
+    residual_sigma: Option<f64>,
+    points: [usize; 2],
+    seconds: Seconds,
+    warnings: Vec<Warning>,
+}
+
+pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
+    let gate = args.max_distance_mm.unwrap_or(50.0);
+    if !(gate > 0.0 && gate.is_finite()) {
+        return Err(Failure::Usage("--max-distance-mm must be positive".into()));
+    }
+    let (method, name) = method(&args.method)?;
+    let start = args.initial.as_deref().map_or(Ok(Isometry3::identity()), initial)?;
+    let mut warnings = vec![];
+    let began = Instant::now();
+    let intrinsics = match &args.camera {
+        Some(path) => Some(read_intrinsics(path, None, None)?),
+        None => None,
+    };
+    let source = read(&args.source, args, intrinsics, &mut warnings)?;
+    let target = read(&args.target, args, intrinsics, &mut warnings)?;
+    let read = began.elapsed();
+    let config = DenseConfig {
+        method,
+        max_correspondence_distance_m: gate * 1e-3,
+        max_iterations: args.max_iterations,
+        threads: thread::available_parallelism().map_or(1, usize::from),
+        ..DenseConfig::default()
+    };
+    let surface = |scan: &Scan, path: &Path| {
+        Surface::of(scan, config.threads).ok_or_else(|| {
+            Failure::input(path, "shows no surface: its points are too few, or lie on a line")
+        })
+    };
+    let surfaces = (surface(&source, &args.source)?, surface(&target, &args.target)?);
+    let prepared = began.elapsed();
+    let found = register_surfaces(&surfaces.0, &surfaces.1, &start, &config);
+    let seconds = Seconds {
+        read: read.as_secs_f64(),
+        prepare: (prepared - read).as_secs_f64(),
+        iterate: (began.elapsed() - prepared).as_secs_f64(),
+    };
+    let points = [&source, &target].map(|scan| seen(scan).count());
+    let answer = answer(&found, name, points, seconds, warnings);
+    if manners.json {
+        output::json(&answer);
+    } else {
+        output::warn(&answer.warnings, manners);
+        output::print(&text(&answer));
+    }
+    Ok(if answer.verdict == Verdict::Accepted { 0 } else { 3 })
+}
+
+fn method(name: &str) -> Result<(DenseMethod, &'static str), Failure> {
+    let known = [
+        ("auto", DenseMethod::Auto),
+        ("point-to-point", DenseMethod::PointToPoint),
+        ("point-to-plane", DenseMethod::PointToPlane),
+        ("gicp", DenseMethod::PlaneToPlane),
+    ];
+    known.into_iter().find(|k| k.0 == name).map(|k| (k.1, k.0)).ok_or_else(|| {
+        let names = known.map(|k| k.0).join(", ");
+        Failure::Usage(format!("no method {name:?}; there are {names}"))
+    })
+}
+
+fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
+    let text = fs::read_to_string(path).map_err(|error| Failure::unreadable(path, &error))?;
+    let read: Initial =
+        serde_json::from_str(&text).map_err(|error| Failure::in_json(path, &error, ""))?;
+    let wrong = |what: &str| Failure::input(path, what.to_owned());
+    let (t, rotation) = match read {
+        Initial::Named { target_from_source: pose } | Initial::Plain(pose) => {
+            let [x, y, z, w] = pose.rotation_xyzw;
+            let q = Quaternion::new(w, x, y, z);
+            if !((q.norm() - 1.0).abs() < ROUNDED) {
+                return Err(wrong("the rotation is no quaternion of length one (x, y, z, w)"));
+            }
+            (pose.translation_m, UnitQuaternion::from_quaternion(q))
+        }
+        Initial::Matrix(m) => {
+            let r = Matrix3::from_fn(|i, j| m[i][j]);
+            let straight = (r * r.transpose() - Matrix3::identity()).amax() < ROUNDED;
+            if !straight || r.determinant() < 0.0 || m[3] != [0.0, 0.0, 0.0, 1.0] {
+                return Err(wrong(
+                    "the matrix is no rigid transform: three rows of rotation and translation (m), then \
+                     0 0 0 1",
+                ));
+            }
+            let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix(&r));
+            ([m[0][3], m[1][3], m[2][3]], rotation)
+        }
+    };
+    if !t.iter().all(|x| x.abs() < 1e6) {
+        return Err(wrong("the translation is not in metres, or not finite"));
+    }
+    Ok(Isometry3::from_parts(Translation3::from(nalgebra::Vector3::from(t)), rotation))
+}
+
+fn read(
+    path: &Path,
+    args: &RegisterArgs,
+    intrinsics: Option<Intrinsics>,
+    warnings: &mut Vec<Warning>,
+) -> Result<Scan, Failure> {
+    let unit = args.length_unit.map(LengthUnit::from);
+    let options = ScanOptions {
+        length_unit: unit.or(Some(LengthUnit::Metre)),
+        depth_scale: args.depth_scale,
+        organised: None,
+        intrinsics,
+    };
+    let scan = read_scan(path, &options)?;
+    let is_depth = options.intrinsics.is_some() && args.depth_scale.is_some();
+    if unit.is_some() || is_depth || width(&scan) <= WIDEST_M {
+        return Ok(scan);
+    }
+    warnings.push(Warning::new(
+        "unit-assumed",
+        format!(
+            "{}: the points are {:.0} units apart, which is taken for millimetres: say --length-unit m \
+             if they are metres",
+            path.display(),
+            width(&scan)
+        ),
+    ));
+    let points = scan.points().iter().map(|p| p.map(|x| x * 1e-3)).collect();
+    Scan::new(scan.width(), scan.height(), points)
+        .ok_or_else(|| Failure::input(path, "has no points"))
+}
+
+fn seen(scan: &Scan) -> impl Iterator<Item = &[f32; 3]> {
+    scan.points().iter().filter(|p| p[0].is_finite())
+}
+
+/// The longest side of a box around most points.
+fn width(scan: &Scan) -> f64 {
+    let count = seen(scan).count();
+    (0..3).fold(0.0, |widest, axis| {
+        let mut values: Vec<f32> = seen(scan).map(|p| p[axis]).collect();
+        let high = values.len() - 1 - count / 100;
+        let high = *values.select_nth_unstable_by(high, f32::total_cmp).1;
+        let low = *values.select_nth_unstable_by(count / 100, f32::total_cmp).1;
+        f64::max(widest, f64::from(high) - f64::from(low))
+    })
+}
+
+fn answer(
+    found: &Dense,
+    method: &'static str,
+    points: [usize; 2],
+    seconds: Seconds,
+    warnings: Vec<Warning>,
+) -> Answer {
+    let pose = &found.target_from_source;
+    let sigma = |first: usize, scale: f64| {
+        found.covariance.map(|c| std::array::from_fn(|k| c[(first + k, first + k)].sqrt() * scale))
+    };
+    Answer {
+        verdict: found.verdict,
+        reasons: found.reasons.clone(),
+        target_from_source: Transform {
+            translation_m: pose.translation.vector.into(),
+            rotation_xyzw: pose.rotation.coords.into(),
+        },
+        covariance: found.covariance.as_ref().map(rows),
+        sigma_mm: sigma(3, 1e3),
+        sigma_deg: sigma(0, 1f64.to_degrees()),
+        undetermined: found.undetermined.clone(),
+        method,
+        iterations: found.iterations,
+        stop: match found.stop {
+            Stop::Converged => "converged",
+            Stop::Fitness => "fitness",
+            Stop::NoMatches => "no-matches",
+            Stop::MaxIterations => "max-iterations",
+        },
+        inlier_fraction: found.inlier_fraction,
+        agreement: found.agreement,
+        rms_mm: Some(found.rms_m * 1e3).filter(|x| x.is_finite()),
+        residual_sigma: Some(found.sigma).filter(|x| x.is_finite()),
+        points,
+        seconds,
+        warnings,
+    }
+}
+
+fn text(a: &Answer) -> String {
+    let three = |v: &[f64; 3]| v.map(|x| format!("{x:12.3}")).join("");
+    let mut text = format!("\n{}\n", output::verdict(a.verdict));
+    text += &a.reasons.iter().map(|reason| output::wrapped("  ", reason)).collect::<String>();
+    let pose = &a.target_from_source;
+    let q = pose.rotation_xyzw.map(|x| format!("{x:12.6}")).join("");
+    text += &format!(
+        "\ntarget from source\n  translation  {}   mm\n  quaternion   {q}   x y z w\n",
+        three(&pose.translation_m.map(|x| 1e3 * x))
+    );
+    if let (Some(mm), Some(deg)) = (&a.sigma_mm, &a.sigma_deg) {
+        text += &format!(
+            "  one sigma    {}   mm\n               {}   deg, in the source's axes\n",
+            three(mm),
+            three(deg)
+        );
+    }
+    let Some(rms) = a.rms_mm else { return text };
+    text += "\n";
+    text + &output::wrapped(
+        "",
+        &format!(
+            "{:.0} % of the source lies on the target, {:.3} mm apart (RMS); where both show something, \
+             {:.1} % agree. {} rounds ({}). Read in {:.2} s, prepared in {:.2} s, registered in {:.2} s.",
+            100.0 * a.inlier_fraction,
+            rms,
+            100.0 * a.agreement,
+            a.iterations,
+            a.stop,
+            a.seconds.read,
+            a.seconds.prepare,
+            a.seconds.iterate,
+        ),
+    )
+}
