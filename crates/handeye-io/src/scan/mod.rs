@@ -31,9 +31,9 @@ pub struct ScanOptions {
 /// Most points a scan may have.
 const MOST_POINTS: usize = 100_000_000;
 
-/// Points as a file has them, before units.
+/// What a file holds, in metres.
 struct Points {
-    xyz: Vec<[f64; 3]>,
+    xyz: Vec<[f32; 3]>,
     grid: Option<(usize, usize)>,
 }
 
@@ -43,8 +43,8 @@ struct Points {
 /// What is no scan, is cut short or empty, or needs a unit, scale or intrinsics that are not given.
 pub fn read_scan(path: &Path, options: &ScanOptions) -> Result<Scan, Error> {
     match files::extension(path).as_str() {
-        "ply" => of_points(ply::read(path)?, options, path),
-        "pcd" => of_points(pcd::read(path)?, options, path),
+        "ply" => of_points(ply::read(path, unit(options, path)?)?, options, path),
+        "pcd" => of_points(pcd::read(path, unit(options, path)?)?, options, path),
         "npy" | "npz" => numpy::read(path, options),
         "png" | "tif" | "tiff" => depth::read(path, options),
         other => Err(malformed(
@@ -59,18 +59,23 @@ fn undeclared(path: &Path, key: &str, question: &str) -> Error {
     Error::Undeclared { place: Place::file(path), key: key.into(), question: question.into() }
 }
 
-fn of_points(points: Points, options: &ScanOptions, path: &Path) -> Result<Scan, Error> {
-    let unit = options.length_unit.ok_or_else(|| {
+fn unit(options: &ScanOptions, path: &Path) -> Result<LengthUnit, Error> {
+    options.length_unit.ok_or_else(|| {
         undeclared(path, "length_unit", "are the coordinates of the points in \"m\" or in \"mm\"?")
-    })?;
+    })
+}
+
+/// In metres; a point at the origin is missing.
+#[inline(always)]
+fn in_metres(point: [f64; 3], unit: LengthUnit) -> [f32; 3] {
+    let seen = point.iter().all(|x| x.is_finite()) && point != [0.0; 3];
+    if seen { point.map(|x| unit.to_metres(x) as f32) } else { [f32::NAN; 3] }
+}
+
+fn of_points(points: Points, options: &ScanOptions, path: &Path) -> Result<Scan, Error> {
     let count = points.xyz.len();
     let (width, height) = options.organised.or(points.grid).unwrap_or((count, 1));
-    let in_metres = |p: &[f64; 3]| {
-        let seen = p.iter().all(|x| x.is_finite()) && *p != [0.0; 3];
-        if seen { p.map(|x| unit.to_metres(x) as f32) } else { [f32::NAN; 3] }
-    };
-    let scan = Scan::new(width, height, points.xyz.iter().map(in_metres).collect());
-    let scan = scan.ok_or_else(|| {
+    let scan = Scan::new(width, height, points.xyz).ok_or_else(|| {
         malformed(
             Place::file(path),
             format!("holds {count} points, not {width} x {height}"),
@@ -164,4 +169,66 @@ impl Number {
             Number::F64 => f64::from_le_bytes(raw),
         })
     }
+}
+
+/// Where a coordinate stands in a record.
+#[derive(Clone, Copy)]
+struct Column {
+    offset: usize,
+    number: Number,
+}
+
+/// Points of binary records of equal size; `None` where bytes are missing.
+fn of_records(
+    body: &[u8],
+    size: usize,
+    count: usize,
+    columns: [Column; 3],
+    big_endian: bool,
+    unit: LengthUnit,
+) -> Option<Vec<[f32; 3]>> {
+    let is_inside = |c: &Column| c.offset + c.number.size() <= size;
+    let records = body.get(..count.checked_mul(size)?)?;
+    if size == 0 || !columns.iter().all(is_inside) {
+        return None;
+    }
+    let records = records.chunks_exact(size);
+    if !big_endian && columns.iter().all(|c| c.number == Number::F32) {
+        let at = columns.map(|c| c.offset);
+        let single = |record: &[u8], k: usize| {
+            let bytes = [record[at[k]], record[at[k] + 1], record[at[k] + 2], record[at[k] + 3]];
+            f64::from(f32::from_le_bytes(bytes))
+        };
+        return Some(records.map(|r| in_metres([0, 1, 2].map(|k| single(r, k)), unit)).collect());
+    }
+    let point = |record: &[u8]| {
+        let at = |c: Column| c.number.read(&record[c.offset..], big_endian);
+        let [x, y, z] = columns.map(at);
+        Some(in_metres([x?, y?, z?], unit))
+    };
+    records.map(point).collect()
+}
+
+/// Points of lines of words, of which three are coordinates; `None` where they are missing.
+fn of_lines<'a>(
+    lines: impl Iterator<Item = &'a str>,
+    count: usize,
+    words: [usize; 3],
+    unit: LengthUnit,
+) -> Option<Vec<[f32; 3]>> {
+    let last = words.into_iter().max()?;
+    let mut points = Vec::new();
+    for line in lines.filter(|line| !line.trim_ascii().is_empty()).take(count) {
+        let mut point = [None; 3];
+        for (k, word) in line.split_ascii_whitespace().enumerate().take(last + 1) {
+            for axis in 0..3 {
+                if words[axis] == k {
+                    point[axis] = word.parse().ok();
+                }
+            }
+        }
+        let [x, y, z] = point;
+        points.push(in_metres([x?, y?, z?], unit));
+    }
+    (points.len() == count).then_some(points)
 }

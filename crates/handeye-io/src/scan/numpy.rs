@@ -4,7 +4,7 @@ use std::path::Path;
 
 use handeye::Scan;
 
-use super::{Points, ScanOptions, depth, of_points};
+use super::{Points, ScanOptions, depth, in_metres, of_points, unit};
 use crate::{
     error::{Error, Place, malformed},
     files,
@@ -43,8 +43,9 @@ fn points(
     options: &ScanOptions,
     path: &Path,
 ) -> Result<Scan, Error> {
+    let unit = unit(options, path)?;
     let values = array.values();
-    let xyz = values.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
+    let xyz = values.chunks_exact(3).map(|p| in_metres([p[0], p[1], p[2]], unit)).collect();
     of_points(Points { xyz, grid }, options, path)
 }
 

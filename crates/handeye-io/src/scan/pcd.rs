@@ -3,10 +3,11 @@
 
 use std::path::Path;
 
-use super::{Number, Points, check_count, cut_short};
+use super::{Column, Number, Points, check_count, cut_short, in_metres, of_lines, of_records};
 use crate::{
     error::{Error, Place, malformed},
     files,
+    units::LengthUnit,
 };
 
 #[derive(Default)]
@@ -24,12 +25,11 @@ struct Header {
 
 /// Where a field lies in a record, in bytes and in words.
 struct Field {
-    offset: usize,
+    column: Column,
     word: usize,
-    number: Number,
 }
 
-pub(super) fn read(path: &Path) -> Result<Points, Error> {
+pub(super) fn read(path: &Path, unit: LengthUnit) -> Result<Points, Error> {
     let bytes = files::bytes(path)?;
     let wrong = |what: &str| malformed(Place::file(path), what, "export it as PCD 0.7 again");
     let header = header(&bytes).ok_or_else(|| wrong("is not a PCD file with a complete header"))?;
@@ -41,9 +41,14 @@ pub(super) fn read(path: &Path) -> Result<Points, Error> {
     let fewest = if header.data == "binary" { record_size(&header) } else { 0 };
     check_count(header.points, fewest, body.len(), path)?;
     let xyz = match header.data.as_str() {
-        "ascii" => ascii(body, &header, [x, y, z]),
-        "binary" => binary(body, &header, [x, y, z]),
-        "binary_compressed" => packed(body, &header, [x, y, z]),
+        "ascii" => std::str::from_utf8(body).ok().and_then(|text| {
+            of_lines(text.lines(), header.points, [x, y, z].map(|f| f.word), unit)
+        }),
+        "binary" => {
+            let columns = [x, y, z].map(|f| f.column);
+            of_records(body, record_size(&header), header.points, columns, false, unit)
+        }
+        "binary_compressed" => packed(body, &header, [x, y, z].map(|f| f.column), unit),
         other => return Err(wrong(&format!("its DATA is \"{other}\""))),
     };
     let xyz = xyz.ok_or_else(|| cut_short(header.points, path))?;
@@ -98,33 +103,20 @@ fn field(header: &Header, name: &str) -> Option<Field> {
         _ => return None,
     };
     let word = header.counts[..at].iter().sum();
-    Some(Field { offset: before.map(|(s, c)| s * c).sum(), word, number })
-}
-
-fn ascii(body: &[u8], header: &Header, fields: [Field; 3]) -> Option<Vec<[f64; 3]>> {
-    let text = std::str::from_utf8(body).ok()?;
-    let point = |line: &str| {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let word = |f: &Field| words.get(f.word)?.parse().ok();
-        Some([word(&fields[0])?, word(&fields[1])?, word(&fields[2])?])
-    };
-    let lines = text.lines().filter(|l| !l.trim().is_empty()).take(header.points);
-    let points: Vec<[f64; 3]> = lines.map(point).collect::<Option<_>>()?;
-    (points.len() == header.points).then_some(points)
-}
-
-fn binary(body: &[u8], header: &Header, fields: [Field; 3]) -> Option<Vec<[f64; 3]>> {
-    let size = record_size(header);
-    let at = |i: usize, f: &Field| f.number.read(body.get(i * size + f.offset..)?, false);
-    let point = |i| Some([at(i, &fields[0])?, at(i, &fields[1])?, at(i, &fields[2])?]);
-    (0..header.points).map(point).collect()
+    let offset = before.map(|(s, c)| s * c).sum();
+    Some(Field { column: Column { offset, number }, word })
 }
 
 /// One byte of LZF makes at most this many.
 const MOST_EXPANSION: usize = 264;
 
 /// All x, then all y, and so on, packed together.
-fn packed(body: &[u8], header: &Header, fields: [Field; 3]) -> Option<Vec<[f64; 3]>> {
+fn packed(
+    body: &[u8],
+    header: &Header,
+    columns: [Column; 3],
+    unit: LengthUnit,
+) -> Option<Vec<[f32; 3]>> {
     let size =
         |at: usize| Some(u32::from_le_bytes(body.get(at..at + 4)?.try_into().ok()?) as usize);
     let (packed, unpacked) = (size(0)?, size(4)?);
@@ -134,10 +126,13 @@ fn packed(body: &[u8], header: &Header, fields: [Field; 3]) -> Option<Vec<[f64; 
         return None;
     }
     let bytes = unpack_lzf(packed, unpacked)?;
-    let at = |i: usize, f: &Field| {
-        f.number.read(bytes.get(f.offset * header.points + i * f.number.size()..)?, false)
+    let at = |i: usize, c: Column| {
+        c.number.read(bytes.get(c.offset * header.points + i * c.number.size()..)?, false)
     };
-    let point = |i| Some([at(i, &fields[0])?, at(i, &fields[1])?, at(i, &fields[2])?]);
+    let point = |i| {
+        let [x, y, z] = columns.map(|c| at(i, c));
+        Some(in_metres([x?, y?, z?], unit))
+    };
     (0..header.points).map(point).collect()
 }
 

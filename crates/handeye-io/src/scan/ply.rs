@@ -3,10 +3,11 @@
 
 use std::path::Path;
 
-use super::{Number, Points, check_count, cut_short};
+use super::{Column, Number, Points, check_count, cut_short, in_metres, of_lines, of_records};
 use crate::{
     error::{Error, Place, malformed},
     files,
+    units::LengthUnit,
 };
 
 #[derive(Clone, Copy, PartialEq)]
@@ -34,7 +35,7 @@ struct Header {
     end: usize,
 }
 
-pub(super) fn read(path: &Path) -> Result<Points, Error> {
+pub(super) fn read(path: &Path, unit: LengthUnit) -> Result<Points, Error> {
     let bytes = files::bytes(path)?;
     let wrong = |what: &str| malformed(Place::file(path), what, "export it as PLY again");
     let header = header(&bytes).ok_or_else(|| wrong("is not a PLY file with a complete header"))?;
@@ -45,9 +46,9 @@ pub(super) fn read(path: &Path) -> Result<Points, Error> {
     let columns = coordinates(vertex).ok_or_else(|| wrong("its vertices have no x, y and z"))?;
     check_count(vertex.count, fewest_bytes(vertex, header.encoding), body.len(), path)?;
     let xyz = if header.encoding == Encoding::Ascii {
-        ascii(body, &header.elements, at, columns)
+        ascii(body, &header.elements, at, columns, unit)
     } else {
-        binary(body, &header, at, columns)
+        binary(body, &header, at, columns, unit)
     };
     let xyz = xyz.ok_or_else(|| cut_short(vertex.count, path))?;
     let grid = header.grid.filter(|(w, h)| w.checked_mul(*h) == Some(xyz.len()));
@@ -135,20 +136,21 @@ fn ascii(
     elements: &[Element],
     at: usize,
     columns: [usize; 3],
-) -> Option<Vec<[f64; 3]>> {
+    unit: LengthUnit,
+) -> Option<Vec<[f32; 3]>> {
     let before = elements[..at].iter().try_fold(0usize, |n, e| n.checked_add(e.count))?;
     let text = std::str::from_utf8(body).ok()?;
-    let lines = text.lines().filter(|l| !l.trim().is_empty()).skip(before);
-    let point = |line: &str| {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let word = |i: usize| words.get(columns[i])?.parse().ok();
-        Some([word(0)?, word(1)?, word(2)?])
-    };
-    let points: Vec<[f64; 3]> = lines.take(elements[at].count).map(point).collect::<Option<_>>()?;
-    (points.len() == elements[at].count).then_some(points)
+    let lines = text.lines().filter(|l| !l.trim_ascii().is_empty()).skip(before);
+    of_lines(lines, elements[at].count, columns, unit)
 }
 
-fn binary(body: &[u8], header: &Header, at: usize, columns: [usize; 3]) -> Option<Vec<[f64; 3]>> {
+fn binary(
+    body: &[u8],
+    header: &Header,
+    at: usize,
+    columns: [usize; 3],
+    unit: LengthUnit,
+) -> Option<Vec<[f32; 3]>> {
     let big = header.encoding == Encoding::Big;
     let mut offset = 0;
     for element in &header.elements[..at] {
@@ -157,13 +159,28 @@ fn binary(body: &[u8], header: &Header, at: usize, columns: [usize; 3]) -> Optio
             offset = (next > offset).then_some(next)?;
         }
     }
-    let mut points = Vec::with_capacity(header.elements[at].count);
-    for _ in 0..header.elements[at].count {
-        let (row, next) = values(body, offset, &header.elements[at], big)?;
-        points.push(columns.map(|c| row[c]));
+    let vertex = &header.elements[at];
+    if let Some((size, columns)) = fixed(vertex, columns) {
+        return of_records(body.get(offset..)?, size, vertex.count, columns, big, unit);
+    }
+    let mut points = Vec::with_capacity(vertex.count);
+    for _ in 0..vertex.count {
+        let (row, next) = values(body, offset, vertex, big)?;
+        points.push(in_metres(columns.map(|c| row[c]), unit));
         offset = next;
     }
     Some(points)
+}
+
+/// Size of an element, and where its coordinates are, unless it has lists.
+fn fixed(element: &Element, columns: [usize; 3]) -> Option<(usize, [Column; 3])> {
+    let (mut size, mut places) = (0, vec![]);
+    for property in &element.properties {
+        let Property::One(_, number) = property else { return None };
+        places.push(Column { offset: size, number: *number });
+        size += number.size();
+    }
+    Some((size, columns.map(|c| places[c])))
 }
 
 /// Most properties of a vertex that are kept.

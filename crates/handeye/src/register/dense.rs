@@ -181,7 +181,7 @@ fn registered(
         iterations: reached.iterations,
         stop: reached.stop,
         inlier_fraction: reached.inliers / reached.all,
-        agreement: Opinions::of(&descent, &at, ASKED).agreeing(),
+        agreement: Opinions::of(&descent, &at, ASKED, sigma).agreeing(),
         rms_m: reached.rms_m,
         sigma,
     };

@@ -35,11 +35,12 @@ const COSINE: f64 = 0.866;
 pub struct Opinions(Vec<f64>);
 
 impl Opinions {
-    /// Of about so many windows of each scan.
-    pub fn of(descent: &Descent, at: &Isometry3<f64>, count: f64) -> Self {
+    /// Of about so many windows of each scan, which scatter `sigma` times as much as their points promise.
+    pub fn of(descent: &Descent, at: &Isometry3<f64>, count: f64, sigma: f64) -> Self {
         let (source, target) = (descent.source, descent.target);
-        let mut all = one_way(source, target, at, count);
-        all.extend(one_way(target, source, &at.inverse(), count));
+        let scale = sigma.max(1.0).powi(2);
+        let mut all = one_way(source, target, at, count, scale);
+        all.extend(one_way(target, source, &at.inverse(), count, scale));
         Self(all)
     }
 
@@ -67,7 +68,7 @@ fn deviations(differences: impl Iterator<Item = f64>) -> f64 {
     if squares > 0.0 { sum / squares.sqrt() } else { 0.0 }
 }
 
-fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64) -> Vec<f64> {
+fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64, scale: f64) -> Vec<f64> {
     let (r, t) = (at.rotation.to_rotation_matrix().into_inner(), at.translation.vector);
     let opinion = |k: u32| {
         let own = from.patches[k as usize].as_ref()?;
@@ -78,7 +79,7 @@ fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64) -> Vec
         };
         let (off, cosine) = (other.normal.dot(&(p - other.mean)), n.dot(&other.normal));
         let alike = if from.is_facing && to.is_facing { cosine } else { cosine.abs() };
-        let variance = own.variance + other.variance;
+        let variance = scale * (own.variance + other.variance);
         let opinion = 1.0 - (off * off / (ON * ON * variance)).min(2.0);
         // a camera sees nothing through what is in front
         let hidden = to.is_facing && off < 0.0;
@@ -141,20 +142,24 @@ pub fn answers(
 
 fn tried(descent: &mut Descent, starts: &[Isometry3<f64>], gate: f64, count: f64) -> Vec<Rival> {
     let source = descent.source;
-    let mut all: Vec<Rival> = vec![];
+    let mut all: Vec<Reached> = vec![];
+    let mut sigma = f64::INFINITY;
     for start in starts {
         let mut reached = Reached::start(start);
         if descent.coarse(&mut reached, gate, source.stride(count)).is_err() {
             continue;
         }
+        sigma = sigma.min(descent.sigma);
         let at = reached.target_from_source;
-        let same = |r: &Rival| source.moved(&r.reached.target_from_source, &at) < source.spread;
-        if !all.iter().any(same) {
-            let opinions = Opinions::of(descent, &at, JUDGED * count);
-            all.push(Rival { reached, opinions });
+        if all.iter().all(|r| source.moved(&r.target_from_source, &at) >= source.spread) {
+            all.push(reached);
         }
     }
-    all
+    let rival = |reached: Reached| {
+        let at = &reached.target_from_source;
+        Rival { opinions: Opinions::of(descent, at, JUDGED * count, sigma), reached }
+    };
+    all.into_iter().map(rival).collect()
 }
 
 /// The best first, and none that is clearly worse.
