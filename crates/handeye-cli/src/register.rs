@@ -3,11 +3,11 @@
 use std::{fs, path::Path, thread, time::Instant};
 
 use handeye::{
-    Intrinsics, Scan, Verdict, Warning,
+    Scan, Verdict, Warning,
     calibration::{Rows, rows},
     register::{Dense, DenseConfig, DenseMethod, Stop, Surface, register_surfaces},
 };
-use handeye_io::{ScanOptions, read_intrinsics, read_scan, units::LengthUnit};
+use handeye_io::{Error, ScanOptions, read_intrinsics, read_scan, scan_size, units::LengthUnit};
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
@@ -75,16 +75,15 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     if !(gate > 0.0 && gate.is_finite()) {
         return Err(Failure::Usage("--max-distance-mm must be positive".into()));
     }
+    if args.max_iterations == 0 {
+        return Err(Failure::Usage("--max-iterations must be positive".into()));
+    }
     let (method, name) = method(&args.method)?;
     let start = args.initial.as_deref().map_or(Ok(Isometry3::identity()), initial)?;
     let mut warnings = vec![];
     let began = Instant::now();
-    let intrinsics = match &args.camera {
-        Some(path) => Some(read_intrinsics(path, None, None)?),
-        None => None,
-    };
-    let source = read(&args.source, args, intrinsics, &mut warnings)?;
-    let target = read(&args.target, args, intrinsics, &mut warnings)?;
+    let source = read(&args.source, args, &mut warnings)?;
+    let target = read(&args.target, args, &mut warnings)?;
     let read = began.elapsed();
     let config = DenseConfig {
         method,
@@ -163,22 +162,21 @@ fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
     Ok(Isometry3::from_parts(Translation3::from(nalgebra::Vector3::from(t)), rotation))
 }
 
-fn read(
-    path: &Path,
-    args: &RegisterArgs,
-    intrinsics: Option<Intrinsics>,
-    warnings: &mut Vec<Warning>,
-) -> Result<Scan, Failure> {
+fn read(path: &Path, args: &RegisterArgs, warnings: &mut Vec<Warning>) -> Result<Scan, Failure> {
+    let intrinsics = match &args.camera {
+        Some(camera) => Some(read_intrinsics(camera, None, scan_size(path)?)?),
+        None => None,
+    };
     let unit = args.length_unit.map(LengthUnit::from);
     let options = ScanOptions {
-        length_unit: unit.or(Some(LengthUnit::Metre)),
+        length_unit: unit.or(intrinsics.is_none().then_some(LengthUnit::Metre)),
         depth_scale: args.depth_scale,
         organised: None,
         intrinsics,
     };
-    let scan = read_scan(path, &options)?;
-    let is_depth = options.intrinsics.is_some() && args.depth_scale.is_some();
-    if unit.is_some() || is_depth || width(&scan) <= WIDEST_M {
+    let scan = read_scan(path, &options).map_err(undeclared)?;
+    // what a depth image says of its unit, its scale says
+    if unit.is_some() || intrinsics.is_some() || width(&scan) <= WIDEST_M {
         return Ok(scan);
     }
     warnings.push(Warning::new(
@@ -193,6 +191,20 @@ fn read(
     let points = scan.points().iter().map(|p| p.map(|x| x * 1e-3)).collect();
     Scan::new(scan.width(), scan.height(), points)
         .ok_or_else(|| Failure::input(path, "has no points"))
+}
+
+/// Names the option where a manifest would have a key.
+fn undeclared(error: Error) -> Failure {
+    let Error::Undeclared { place, key, question } = &error else { return error.into() };
+    let option = match key.as_str() {
+        "depth_scale" => "--depth-scale",
+        "length_unit" => "--length-unit",
+        _ => "--camera",
+    };
+    Failure::input(
+        &place.file,
+        format!("{option} is missing: {}", question.replace(" (or [camera])", "")),
+    )
 }
 
 fn seen(scan: &Scan) -> impl Iterator<Item = &[f32; 3]> {

@@ -101,6 +101,37 @@ fn scans_are_registered_whatever_their_kind_and_unit() {
     assert!(run.stdout.lines().all(|line| line.chars().count() <= 80), "{}", run.stdout);
 }
 
+/// A camera matrix alone does not say of which size its pictures are: the depth image does.
+#[test]
+fn depth_images_are_registered_with_their_intrinsics() {
+    let (source, target, truth) = scans(&cell());
+    let folder = Folder::new();
+    for (name, scan) in [("source.png", source), ("target.png", target)] {
+        let depth = |p: &[f32; 3]| if p[2] > 0.0 { (p[2] * 1e4).round() as u16 } else { 0 };
+        let values = scan.points().iter().map(depth).collect();
+        image::ImageBuffer::<image::Luma<u16>, Vec<u16>>::from_raw(240, 180, values)
+            .unwrap()
+            .save(folder.0.join(name))
+            .unwrap();
+    }
+    folder.put(
+        "camera.json",
+        "{\"camera_matrix\": [[240, 0, 119.5], [0, 240, 89.5], [0, 0, 1]], \
+         \"dist_coeffs\": [0, 0, 0, 0, 0]}",
+    );
+    let missing = handeye(&folder, &["register", "source.png", "target.png"]);
+    assert_eq!(missing.code, 1);
+    assert!(missing.stderr.contains("--camera is missing"), "{}", missing.stderr);
+    let mut arguments = vec!["register", "source.png", "target.png", "--camera", "camera.json"];
+    let missing = handeye(&folder, &arguments);
+    assert!(missing.stderr.contains("--depth-scale is missing"), "{}", missing.stderr);
+    arguments.extend(["--depth-scale", "0.0001", "--json"]);
+    let run = handeye(&folder, &arguments);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    let (degrees, mm) = errors(&truth, &found(&run.json()));
+    assert!(degrees < 0.1 && mm < 0.4, "{degrees} deg, {mm} mm");
+}
+
 #[test]
 fn an_answer_serves_as_the_start_of_another() {
     let (source, target, truth) = scans(&cell());
@@ -179,7 +210,7 @@ fn what_cannot_be_used_is_named() {
     folder.put("turned.json", "{\"translation_m\": [0, 0, 0], \"rotation_xyzw\": [1, 1, 0, 0]}");
     folder.put("mirror.json", "[[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]");
     folder.put("word.json", "{\"pose\": 3}");
-    let cases: [(&[&str], i32, &str); 8] = [
+    let cases: [(&[&str], i32, &str); 9] = [
         (&["source.pcd", "nowhere.pcd"], 1, "nowhere.pcd"),
         (&["source.pcd", "three.pcd"], 1, "shows no surface"),
         (&["source.pcd", "source.pcd", "--initial", "turned.json"], 1, "quaternion"),
@@ -188,6 +219,7 @@ fn what_cannot_be_used_is_named() {
         (&["source.pcd", "source.pcd", "--initial", "none.json"], 1, "none.json"),
         (&["source.pcd", "source.pcd", "--method", "magic"], 2, "magic"),
         (&["source.pcd", "source.pcd", "--max-distance-mm", "0"], 2, "positive"),
+        (&["source.pcd", "source.pcd", "--max-iterations", "0"], 2, "positive"),
     ];
     for (arguments, code, named) in cases {
         let mut all = vec!["register"];

@@ -38,6 +38,6 @@ pub use error::{Error, Place};
 pub use files::write_atomically;
 pub use image::{image_size, read_image};
 pub use init::{FirstManifest, Question, first_manifest};
-pub use scan::{ScanOptions, read_scan};
+pub use scan::{ScanOptions, read_scan, scan_size};
 pub use target_file::{NamedTarget, Targets, read_target, read_targets, target_toml};
 pub use touch_file::{TouchedPoint, read_touched_points};

@@ -12,6 +12,7 @@ use handeye::{Intrinsics, Scan};
 use crate::{
     error::{Error, Place, malformed},
     files,
+    image::image_size,
     units::LengthUnit,
 };
 
@@ -52,6 +53,18 @@ pub fn read_scan(path: &Path, options: &ScanOptions) -> Result<Scan, Error> {
             format!("scans of kind \".{other}\" cannot be read"),
             "PLY, PCD, NPY, NPZ, and depth in PNG and TIFF can; export one of them",
         )),
+    }
+}
+
+/// Width and height of a depth image, or of a grid of points in a NumPy file; `None` of other files.
+///
+/// # Errors
+/// What cannot be read.
+pub fn scan_size(path: &Path) -> Result<Option<(u32, u32)>, Error> {
+    match files::extension(path).as_str() {
+        "npy" | "npz" => numpy::size(path),
+        "png" | "tif" | "tiff" => image_size(path).map(Some),
+        _ => Ok(None),
     }
 }
 

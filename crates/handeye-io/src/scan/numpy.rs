@@ -16,7 +16,7 @@ use crate::{
 const NAMES: [&str; 7] = ["points", "xyz", "point_cloud", "pointcloud", "cloud", "depth", "arr_0"];
 
 pub(super) fn read(path: &Path, options: &ScanOptions) -> Result<Scan, Error> {
-    let array = if files::extension(path) == "npy" { Array::read(path)? } else { named(path)? };
+    let array = array(path)?;
     match array.shape[..] {
         [height, width, 3] => points(&array, Some((width, height)), options, path),
         [_, 3] => points(&array, None, options, path),
@@ -35,6 +35,21 @@ pub(super) fn read(path: &Path, options: &ScanOptions) -> Result<Scan, Error> {
             "points are height x width x 3, depth is height x width",
         )),
     }
+}
+
+fn array(path: &Path) -> Result<Array, Error> {
+    if files::extension(path) == "npy" { Array::read(path) } else { named(path) }
+}
+
+/// Width and height, of an array with rows and columns.
+pub(super) fn size(path: &Path) -> Result<Option<(u32, u32)>, Error> {
+    Ok(match array(path)?.shape[..] {
+        [_, 3] => None,
+        [height, width] | [height, width, 3] => {
+            u32::try_from(width).ok().zip(u32::try_from(height).ok())
+        }
+        _ => None,
+    })
 }
 
 fn points(
