@@ -6,7 +6,7 @@
 //! direction in which the information `H` is not several times `N` is not determined.
 //!
 //! Residuals of neighbours are not independent: depth is wrong over some width, or the scan is bent. So
-//! the surface is cut into tiles, and what each of them pulls, `Σ w r`, is compared with what its windows
+//! the surface is cut into tiles, and what each of them pulls, `Σ ψ J`, is compared with what its windows
 //! would pull were they independent: the ratio of the squares scales the covariance `A⁻¹ B A⁻¹`, with
 //! `A = Σ ψ' J Jᵀ` and `B = Σ ψ² J Jᵀ` of Tukey's `ψ`.
 //!
@@ -42,13 +42,14 @@ pub struct Freedom {
     middle: Vector3<f64>,
 }
 
-/// What windows in a part of space pull.
+/// What a window in some tile pulls.
 #[derive(Debug, Clone, Copy)]
 struct Pull {
     tile: [i32; 3],
-    sum: f64,
-    /// Expected square of the sum.
-    expected: f64,
+    j: Vector6<f64>,
+    pull: f64,
+    /// By how much less, where it has followed.
+    slope: f64,
 }
 
 impl Freedom {
@@ -73,7 +74,7 @@ impl Freedom {
                 sums[1] += j * j.transpose() * (pull * pull);
                 sums[2] += of_normals(&found) * (FEIGNED * slope / found.variance);
                 let tile = found.arm.map(|x| (x * per_m).floor() as i32).into();
-                pulls.push(Pull { tile, sum: pull, expected: pull * pull });
+                pulls.push(Pull { tile, j, pull, slope: slope / found.variance });
             });
             (sums, pulls)
         });
@@ -82,7 +83,7 @@ impl Freedom {
             (0..3).for_each(|k| sums[k] += part.0[k]);
             pulls.extend(part.1);
         }
-        let inflation = inflation(pulls);
+        let inflation = inflation(pulls, &sums[0], &sums[1]).unwrap_or(1.0).max(1.0);
         Self { information: sums[0], pulls: sums[1], noise: sums[2], inflation, middle }
     }
 
@@ -186,14 +187,26 @@ fn of_normals(found: &Match) -> Matrix6<f64> {
     k * (Matrix3::identity() - found.m * found.m.transpose()) * k.transpose() * s
 }
 
-fn inflation(mut pulls: Vec<Pull>) -> f64 {
+/// Squares of what tiles pull, over those expected of windows that err independently; both in all directions
+/// alike. The answer follows each tile, and so leaves it less: `E = B_t - L B_t - B_t Lᵀ + L B Lᵀ`, `L = A_t A⁻¹`.
+fn inflation(mut pulls: Vec<Pull>, a: &Matrix6<f64>, b: &Matrix6<f64>) -> Option<f64> {
+    let inverse = a.cholesky()?.inverse();
     pulls.sort_by_key(|pull| pull.tile);
     let (mut squares, mut expected, mut tiles) = (0.0, 0.0, 0);
     for tile in pulls.chunk_by(|a, b| a.tile == b.tile) {
-        let sum: f64 = tile.iter().map(|p| p.sum).sum();
-        squares += sum * sum;
-        expected += tile.iter().map(|p| p.expected).sum::<f64>();
+        let (mut sum, mut own) = (Vector6::zeros(), [Matrix6::zeros(); 2]);
+        for p in tile {
+            sum += p.j * p.pull;
+            let square = p.j * p.j.transpose();
+            own[0] += square * p.slope;
+            own[1] += square * (p.pull * p.pull);
+        }
+        let followed = own[0] * inverse;
+        let less = followed * own[1];
+        let left = own[1] - less - less.transpose() + followed * b * followed.transpose();
+        squares += sum.dot(&(inverse * sum));
+        expected += (inverse * left).trace();
         tiles += 1;
     }
-    if tiles < FEWEST_TILES { 1.0 } else { squares / expected }
+    (tiles >= FEWEST_TILES && expected > 0.0).then_some(squares / expected)
 }

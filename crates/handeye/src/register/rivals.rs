@@ -24,8 +24,9 @@ const CLEARLY: f64 = 6.0;
 const FARTHEST: f64 = 3.0;
 /// Answers are improved by matches within so many times the spread of a window.
 const NEARBY: f64 = 3.0;
-/// Windows lie on a surface within so many standard deviations.
-const ON: f64 = 3.0;
+/// From so many standard deviations on, it is doubted that a window lies on a surface; one more is neither for nor
+/// against.
+const DOUBTED: f64 = 2.0;
 /// Beside a cloud's surface is within so many times the spread of a window.
 const BESIDE: f64 = 1.0;
 /// Normals on a surface agree within 30 degrees.
@@ -80,7 +81,7 @@ fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64, scale:
         let (off, cosine) = (other.normal.dot(&(p - other.mean)), n.dot(&other.normal));
         let alike = if from.is_facing && to.is_facing { cosine } else { cosine.abs() };
         let variance = scale * (own.variance + other.variance);
-        let opinion = 1.0 - (off * off / (ON * ON * variance)).min(2.0);
+        let opinion = 1.0 - ((off * off / variance).sqrt() - DOUBTED).clamp(0.0, 2.0);
         // a camera sees nothing through what is in front
         let hidden = to.is_facing && off < 0.0;
         let says_something = if opinion > 0.0 { alike >= COSINE } else { !hidden };
