@@ -8,6 +8,7 @@ use nalgebra::{Isometry3, Matrix6};
 use super::{
     descent::Descent,
     freedom::Freedom,
+    global,
     icp::Stop,
     rivals::{self, Opinions, Rival},
     surface::Surface,
@@ -43,6 +44,8 @@ pub struct DenseConfig {
     pub fitness_epsilon: f64,
     /// Whether starts around the given one are tried as well.
     pub restarts: bool,
+    /// Whether to look for starts everywhere, and not near the given one.
+    pub global: bool,
     /// Threads; the answer is the same with any number.
     pub threads: usize,
 }
@@ -56,6 +59,7 @@ impl Default for DenseConfig {
             transformation_epsilon_m: 0.0,
             fitness_epsilon: 0.0,
             restarts: true,
+            global: false,
             threads: 1,
         }
     }
@@ -149,11 +153,15 @@ fn registered(
     let mut descent = Descent::new(source, target, config);
     let gate = config.max_correspondence_distance_m;
     let mut starts = vec![*start];
-    if config.restarts {
+    if config.global {
+        starts = global::starts(source, target, config.threads);
+    } else if config.restarts {
         starts.extend(rivals::around(start, &source.middle, 0.5 * gate));
     }
-    let rivals = rivals::answers(&mut descent, &starts, gate)?;
+    let from = (!config.global).then_some(start);
+    let rivals = rivals::answers(&mut descent, &starts, from, gate)?;
     let mut reached = rivals[0].reached.clone();
+    let at_best = reached.target_from_source;
     descent.nearby(&mut reached)?;
     descent.fine(&mut reached, gate)?;
     let sigma = descent.sigma;
@@ -167,7 +175,7 @@ fn registered(
         let mut rest = directions;
         rest.columns_mut(0, free).fill(0.0);
         descent.along = Some(rest);
-        reached.target_from_source = *start;
+        reached.target_from_source = if config.global { at_best } else { *start };
         descent.afar(&mut reached, gate)?;
         descent.fine(&mut reached, gate)?;
     }
@@ -235,259 +243,4 @@ fn judge(found: &mut Dense, source: &Surface, rivals: &[Rival]) {
 }
 
 #[cfg(test)]
-mod tests {
-    use nalgebra::Vector3;
-
-    use super::*;
-    use crate::{
-        Intrinsics, lie, linalg,
-        simulate::{Random, Room, Solid, Thing},
-    };
-
-    const PI: f64 = std::f64::consts::PI;
-
-    fn above(x: f64, y: f64, turn: [f64; 3]) -> Isometry3<f64> {
-        let down = Isometry3::new([x, y, 0.8].into(), [PI, 0.0, 0.0].into());
-        down * Isometry3::new(Vector3::zeros(), turn.into())
-    }
-
-    /// Two scans of a cell from different sides, with 0.5 mm of noise, and the truth.
-    fn scans_of(
-        width: u32,
-        seed: u64,
-        lens: impl Fn(Intrinsics) -> Intrinsics,
-    ) -> (Scan, Scan, Isometry3<f64>) {
-        let mut random = Random::new(seed);
-        let room = Room::of_a_cell(&mut random);
-        let (one, other) =
-            (above(0.05, -0.1, [0.12, 0.05, 0.1]), above(-0.1, 0.15, [-0.15, -0.1, -0.1]));
-        let lens = lens(camera(width));
-        let source = room.scan(&one, &lens, 5e-4, &mut random);
-        let target = room.scan(&other, &lens, 5e-4, &mut random);
-        (source, target, other.inv_mul(&one))
-    }
-
-    fn camera(width: u32) -> Intrinsics {
-        let (height, f) = (width * 3 / 4, f64::from(width));
-        Intrinsics::pinhole(width, height, f, f, 0.5 * f - 0.5, 0.375 * f - 0.5)
-    }
-
-    fn scans(seed: u64, lens: impl Fn(Intrinsics) -> Intrinsics) -> (Scan, Scan, Isometry3<f64>) {
-        scans_of(240, seed, lens)
-    }
-
-    fn off(truth: &Isometry3<f64>, random: &mut Random) -> Isometry3<f64> {
-        let turn = random.normal3().normalize() * 1f64.to_radians();
-        truth * Isometry3::new(random.normal3().normalize() * 5e-3, turn)
-    }
-
-    /// Degrees, and mm at the middle of the table.
-    fn errors(truth: &Isometry3<f64>, found: &Isometry3<f64>) -> (f64, f64) {
-        let middle = Vector3::new(0.0, 0.0, 0.8).into();
-        let apart = (truth.transform_point(&middle) - found.transform_point(&middle)).norm();
-        (lie::angle(&truth.rotation, &found.rotation).to_degrees(), 1e3 * apart)
-    }
-
-    #[test]
-    fn two_scans_of_a_cell_are_brought_together() {
-        let (mut turned, mut shifted) = (vec![], vec![]);
-        for seed in 0..6 {
-            let (source, target, truth) = scans(seed, |k| k);
-            let start = off(&truth, &mut Random::new(100 + seed));
-            let found = register(&source, &target, &start, &DenseConfig::default()).unwrap();
-            assert_eq!((found.stop, found.verdict), (Stop::Converged, Verdict::Accepted));
-            assert!(found.inlier_fraction > 0.4, "{}", found.inlier_fraction);
-            let (turn, shift) = errors(&truth, &found.target_from_source);
-            assert!(turn < 0.1 && shift < 0.4, "{seed}: {turn} deg, {shift} mm");
-            turned.push(turn);
-            shifted.push(shift);
-        }
-        let (turn, shift) = (linalg::median(turned), linalg::median(shifted));
-        println!("{turn:.4} deg, {shift:.3} mm");
-        assert!(turn < 0.04 && shift < 0.15, "{turn} deg, {shift} mm");
-    }
-
-    #[test]
-    fn a_lens_that_distorts_does_not_matter() {
-        let barrel = |k: Intrinsics| Intrinsics {
-            distortion: crate::Distortion::BrownConrady([
-                -0.2, 0.05, 1e-3, -1e-3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
-            ]),
-            ..k
-        };
-        let (source, target, truth) = scans(1, barrel);
-        let start = off(&truth, &mut Random::new(5));
-        let found = register(&source, &target, &start, &DenseConfig::default()).unwrap();
-        let (turn, shift) = errors(&truth, &found.target_from_source);
-        assert!(turn < 0.05 && shift < 0.2, "{turn} deg, {shift} mm");
-    }
-
-    #[test]
-    fn the_answer_does_not_depend_on_the_number_of_threads() {
-        let (source, target, truth) = scans(2, |k| k);
-        let start = off(&truth, &mut Random::new(6));
-        let with = |threads| {
-            register(&source, &target, &start, &DenseConfig { threads, ..DenseConfig::default() })
-                .unwrap()
-        };
-        assert_eq!(with(1), with(2));
-        assert_eq!(with(1), with(7));
-    }
-
-    #[test]
-    fn moving_the_target_moves_only_the_answer() {
-        let (source, target, truth) = scans(3, |k| k);
-        let start = off(&truth, &mut Random::new(7));
-        let plain = register(&source, &target, &start, &DenseConfig::default()).unwrap();
-        let turn = Isometry3::new(Vector3::zeros(), [0.0, 0.0, PI / 2.0].into());
-        // a quarter turn of the picture: rows become columns
-        let (width, height) = (target.width(), target.height());
-        let point = |k: usize| {
-            let (x, y) = (k % height, k / height);
-            let [px, py, pz] = target.points()[(height - 1 - x) * width + y];
-            [-py, px, pz]
-        };
-        let turned = Scan::new(height, width, (0..width * height).map(point).collect()).unwrap();
-        let found = register(&source, &turned, &(turn * start), &DenseConfig::default()).unwrap();
-        let (degrees, mm) = errors(&(turn * plain.target_from_source), &found.target_from_source);
-        // the blocks are others
-        assert!(degrees < 0.02 && mm < 0.1, "{degrees} deg, {mm} mm");
-    }
-
-    #[test]
-    fn scans_of_different_things_are_refused() {
-        let (source, target, truth) = scans(4, |k| k);
-        let away = Isometry3::translation(0.0, 0.0, 1.0) * truth;
-        let found = register(&source, &target, &away, &DenseConfig::default()).unwrap();
-        assert_eq!((found.verdict, found.stop), (Verdict::Rejected, Stop::NoMatches));
-        assert_eq!(found.target_from_source, away);
-        let nothing = Scan::new(4, 1, vec![[f32::NAN; 3]; 4]).unwrap();
-        let error = register(&nothing, &target, &truth, &DenseConfig::default()).unwrap_err();
-        assert!(error.to_string().contains("source scan"), "{error}");
-    }
-
-    /// The points that were seen, in any order.
-    fn shuffled(scan: &Scan, seed: u64) -> Scan {
-        let mut random = Random::new(seed);
-        let mut points: Vec<[f32; 3]> =
-            scan.points().iter().filter(|p| p[0].is_finite()).copied().collect();
-        for k in (1..points.len()).rev() {
-            points.swap(k, (random.unit() * (k + 1) as f64) as usize);
-        }
-        Scan::new(points.len(), 1, points).unwrap()
-    }
-
-    #[test]
-    fn clouds_are_brought_together_whatever_the_order_of_their_points() {
-        let (mut turned, mut shifted) = (vec![], vec![]);
-        for seed in 0..6 {
-            let (source, target, truth) = scans_of(366, seed, |k| k);
-            let start = off(&truth, &mut Random::new(100 + seed));
-            let with = |order: u64, threads| {
-                let (source, target) = (shuffled(&source, order), shuffled(&target, order + 1));
-                let config = DenseConfig { threads, ..DenseConfig::default() };
-                register(&source, &target, &start, &config).unwrap()
-            };
-            let found = with(1, 1);
-            assert_eq!(found, with(3, 2));
-            assert_eq!((found.stop, found.verdict), (Stop::Converged, Verdict::Accepted));
-            let (turn, shift) = errors(&truth, &found.target_from_source);
-            assert!(turn < 0.1 && shift < 0.4, "{seed}: {turn} deg, {shift} mm");
-            turned.push(turn);
-            shifted.push(shift);
-        }
-        let (turn, shift) = (linalg::median(turned), linalg::median(shifted));
-        println!("{turn:.4} deg, {shift:.3} mm");
-        assert!(turn < 0.04 && shift < 0.15, "{turn} deg, {shift} mm");
-    }
-
-    #[test]
-    fn every_method_comes_to_the_same_place() {
-        let (source, target, truth) = scans(1, |k| k);
-        let start = off(&truth, &mut Random::new(8));
-        let methods = [
-            (DenseMethod::Auto, 0.3),
-            (DenseMethod::PointToPlane, 0.4),
-            (DenseMethod::PlaneToPlane, 1.5),
-            (DenseMethod::PointToPoint, 20.0),
-        ];
-        for (method, mm) in methods {
-            let config = DenseConfig { method, restarts: false, ..DenseConfig::default() };
-            let found = register(&source, &target, &start, &config).unwrap();
-            let (turn, shift) = errors(&truth, &found.target_from_source);
-            assert!(turn < 0.5 * mm && shift < mm, "{method:?}: {turn} deg, {shift} mm");
-        }
-    }
-
-    /// Starts up to 30 mm and 10 degrees off, from random sides: right or refused.
-    #[test]
-    fn no_answer_is_silently_wrong() {
-        let (mut right, mut error, mut runs) = (0, 0.0, 0);
-        for seed in 0..24 {
-            let mut random = Random::new(1000 + seed);
-            let room = Room::of_a_cell(&mut random);
-            let mut some = |s: f64| random.between(-s, s);
-            let mut view = || above(some(0.15), some(0.15), [some(0.2), some(0.2), some(0.3)]);
-            let (one, other) = (view(), view());
-            let source = room.scan(&one, &camera(240), 5e-4, &mut random);
-            let target = room.scan(&other, &camera(240), 5e-4, &mut random);
-            let truth = other.inv_mul(&one);
-            let turn = random.normal3().normalize() * 10f64.to_radians();
-            let to = Isometry3::translation(0.0, 0.0, 0.8);
-            let away = Isometry3::new(random.normal3().normalize() * 0.03, turn);
-            let start = truth * to * away * to.inverse();
-            let found = register(&source, &target, &start, &DenseConfig::default()).unwrap();
-            runs += 1;
-            if found.verdict != Verdict::Accepted {
-                assert!(!found.reasons.is_empty());
-                continue;
-            }
-            let (turn, shift) = errors(&truth, &found.target_from_source);
-            assert!(turn < 0.3 && shift < 1.5, "{seed}: {turn} deg, {shift} mm");
-            right += 1;
-            let off = lie::log(&truth.inv_mul(&found.target_from_source));
-            error += off.dot(&(found.covariance.unwrap().try_inverse().unwrap() * off)) / 6.0;
-        }
-        println!("{right} of {runs}, normalised error {}", error / f64::from(right));
-        assert!(right >= 18, "{right}");
-        assert!((0.6..1.8).contains(&(error / f64::from(right))), "{}", error / f64::from(right));
-    }
-
-    /// A camera turned a little about what it looks at, which is alone in the room.
-    fn undetermined(solid: Solid, turn: [f64; 3]) -> Vec<String> {
-        let room_from_thing = Isometry3::new(Vector3::zeros(), turn.into());
-        let thing = Thing { solid, room_from_thing };
-        let room = Room { things: vec![thing] };
-        let mut random = Random::new(9);
-        let one = Isometry3::new([0.0, 0.0, 0.8].into(), [PI, 0.0, 0.0].into());
-        let source = room.scan(&one, &camera(240), 3e-4, &mut random);
-        let target = room.scan(&one, &camera(240), 3e-4, &mut random);
-        let start = Isometry3::new([1e-3, -2e-3, 1e-3].into(), [2e-3, 1e-3, -3e-3].into());
-        let found = register(&source, &target, &start, &DenseConfig::default()).unwrap();
-        if found.undetermined.is_empty() {
-            assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
-        } else {
-            assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
-            assert_eq!(found.covariance, None);
-        }
-        found.undetermined
-    }
-
-    fn shifts_and_turns(named: &[String]) -> (usize, usize) {
-        let shifts = named.iter().filter(|n| n.starts_with("a shift")).count();
-        (shifts, named.len() - shifts)
-    }
-
-    #[test]
-    fn what_slides_on_itself_is_named() {
-        let plane = undetermined(Solid::Block { half: [2.0, 2.0, 0.01] }, [0.0; 3]);
-        assert_eq!(shifts_and_turns(&plane), (2, 1), "{plane:?}");
-        assert!(plane[2].starts_with("a turn about (0.00, 0.00, 1.00)"), "{plane:?}");
-        let ball = undetermined(Solid::Ball { radius: 0.2 }, [0.0; 3]);
-        assert_eq!(shifts_and_turns(&ball), (0, 3), "{ball:?}");
-        let bar = undetermined(Solid::Bar { radius: 0.1, half: 1.0 }, [0.0, PI / 2.0, 0.0]);
-        assert!(bar[0].starts_with("a shift along (1.00, 0.00"), "{bar:?}");
-        let block = undetermined(Solid::Block { half: [0.15, 0.15, 0.15] }, [0.7, 0.6, 0.0]);
-        assert!(block.is_empty(), "{block:?}");
-    }
-}
+mod tests;

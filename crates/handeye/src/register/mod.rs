@@ -4,6 +4,7 @@ mod blocks;
 pub mod dense;
 mod descent;
 mod freedom;
+mod global;
 mod grid_view;
 pub mod icp;
 pub mod kd_tree;

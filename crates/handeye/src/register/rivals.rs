@@ -117,17 +117,20 @@ pub struct Rival {
     pub opinions: Opinions,
 }
 
-/// Answers from these starts, the best first: it, and those of which it is not clear that they are worse.
+/// Answers from these starts that lie near a place, the best first: it, and those of which it is not clear that they are worse.
 /// With ever more windows, until it is clear or there are no more.
 pub fn answers(
     descent: &mut Descent,
     starts: &[Isometry3<f64>],
+    near: Option<&Isometry3<f64>>,
     gate: f64,
 ) -> Result<Vec<Rival>, Error> {
     let source = descent.source;
     let mut count = TRIED;
     let mut all = tried(descent, starts, gate, count);
-    all.retain(|r| source.moved(&starts[0], &r.reached.target_from_source) <= FARTHEST * gate);
+    let is_far =
+        |r: &Rival, near| source.moved(near, &r.reached.target_from_source) > FARTHEST * gate;
+    all.retain(|r| near.is_none_or(|near| !is_far(r, near)));
     leave_out_worse(&mut all);
     while all.len() > 1 && source.stride(count) > 1 {
         count *= 4.0;
