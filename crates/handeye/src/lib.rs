@@ -27,6 +27,7 @@ pub mod refine;
 pub mod register;
 pub mod repeat;
 pub mod scan;
+pub mod scene;
 pub mod sequence;
 pub mod simulate;
 pub mod solve;

@@ -109,6 +109,26 @@ impl Surface {
         }
     }
 
+    /// Share of its windows, moved by `other_from_self`, that have one of the other's within a distance (m); of
+    /// about so many windows that are asked.
+    pub fn share_near(
+        &self,
+        other: &Self,
+        other_from_self: &Isometry3<f64>,
+        within: f64,
+        count: f64,
+    ) -> f64 {
+        let asked = self.every(self.stride(count));
+        let is_near = |k: &&u32| {
+            self.patches[**k as usize].as_ref().is_some_and(|own| {
+                let p = other_from_self.transform_point(&own.mean.into()).coords;
+                let found = other.find(&p, within).and_then(|k| other.patches[k].as_ref());
+                found.is_some_and(|patch| (patch.mean - p).norm() <= within)
+            })
+        };
+        asked.iter().filter(is_near).count() as f64 / asked.len().max(1) as f64
+    }
+
     /// Numbers of the windows in every so manieth row and column.
     pub(super) fn every(&self, stride: usize) -> Vec<u32> {
         let is_there = |k: &usize| self.patches[*k].is_some();

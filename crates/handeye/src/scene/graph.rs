@@ -1,0 +1,170 @@
+//! One adjustment over all pairs of scans.
+//!
+//! ```text
+//! e_ij = log(B_ij⁻¹ T_j⁻¹ T_i)    de = Ad(T_i⁻¹) (ε_i - ε_j)    for T ← exp(ε) T, T = scene_from_camera
+//! ```
+//!
+//! Each pair counts by its own covariance, less where it contradicts the others (Cauchy). Where the scene lies
+//! is free: the covariance is that of the scans among each other (pseudo-inverse).
+
+use nalgebra::{DMatrix, DVector, Isometry3, Matrix6, Vector6};
+
+use super::Link;
+use crate::{lie, linalg};
+
+/// Most steps.
+const MOST_STEPS: usize = 30;
+/// The last step is shorter, rad and m.
+const SETTLED: f64 = 1e-10;
+/// Pairs whose squared error is as many times the usual one count half.
+const HALF: f64 = 6.0;
+/// A pair is out beyond so many times the usual error.
+const OUT: f64 = 40.0;
+/// Median of squares of six standard normal deviates.
+const MEDIAN: f64 = 5.348;
+/// A registration is no surer than this, rad and m: what its covariance does not know of.
+const LEAST: f64 = 1e-6;
+
+/// Where each scan lies: `camera_from_scene`, and its covariance (perturbed on the right), of those that hang
+/// together; links that contradict the others are left out.
+pub fn adjust(count: usize, links: &mut [Link]) -> Vec<Option<(Isometry3<f64>, Matrix6<f64>)>> {
+    let none = vec![None; count];
+    let Some(mut placed) = spread(count, links) else { return none };
+    let numbers: Vec<usize> = (0..count).filter(|k| placed[*k].is_some()).collect();
+    for link in links.iter_mut() {
+        if link.left_out.is_none() && placed[link.source].is_none() {
+            link.left_out = Some("hangs together with none of the others".into());
+        }
+    }
+    let mut covariance = None;
+    for _ in 0..MOST_STEPS {
+        let Some((step, inverse)) = step(&numbers, &placed, links) else { return none };
+        for (k, number) in numbers.iter().enumerate() {
+            let own: Vector6<f64> = step.fixed_rows::<6>(6 * k).into_owned();
+            placed[*number] = placed[*number].map(|t| lie::exp(&own) * t);
+        }
+        covariance = Some(inverse);
+        if step.amax() < SETTLED {
+            break;
+        }
+    }
+    let usual = usual(&placed, links);
+    for link in links.iter_mut().filter(|link| link.left_out.is_none()) {
+        let Some(error) = squared(&placed, link) else { continue };
+        if error > OUT * usual {
+            link.left_out = Some("contradicts the other pairs".into());
+        }
+    }
+    let Some(covariance) = covariance else { return none };
+    let mut poses = none;
+    for (k, number) in numbers.iter().enumerate() {
+        let own = covariance.fixed_view::<6, 6>(6 * k, 6 * k) * (usual / MEDIAN).max(1.0);
+        poses[*number] = placed[*number].map(|t| (t.inverse(), (own + own.transpose()) * 0.5));
+    }
+    poses
+}
+
+/// The largest set of scans that hang together, laid out along the links; that of the first is the scene's frame.
+fn spread(count: usize, links: &[Link]) -> Option<Vec<Option<Isometry3<f64>>>> {
+    let mut largest: Option<Vec<Option<Isometry3<f64>>>> = None;
+    let size = |placed: &Vec<Option<Isometry3<f64>>>| placed.iter().flatten().count();
+    let mut seen = vec![false; count];
+    for first in 0..count {
+        if seen[first] {
+            continue;
+        }
+        let mut placed = vec![None; count];
+        placed[first] = Some(Isometry3::identity());
+        let mut queue = std::collections::VecDeque::from([first]);
+        while let Some(at) = queue.pop_front() {
+            seen[at] = true;
+            let Some(here) = placed[at] else { continue };
+            for link in links.iter().filter(|link| link.left_out.is_none()) {
+                let (next, there) = match (link.source == at, link.target == at) {
+                    (true, _) => (link.target, here * link.at().inverse()),
+                    (_, true) => (link.source, here * link.at()),
+                    _ => continue,
+                };
+                if placed[next].is_none() {
+                    placed[next] = Some(there);
+                    queue.push_back(next);
+                }
+            }
+        }
+        if size(&placed) > largest.as_ref().map_or(1, size) {
+            largest = Some(placed);
+        }
+    }
+    largest
+}
+
+fn error(placed: &[Option<Isometry3<f64>>], link: &Link) -> Option<(Vector6<f64>, Isometry3<f64>)> {
+    let (i, j) = (placed[link.source]?, placed[link.target]?);
+    Some((lie::log(&(link.at().inverse() * j.inv_mul(&i))), i))
+}
+
+fn information(link: &Link) -> Option<Matrix6<f64>> {
+    let covariance = link.found.covariance?;
+    linalg::invert_spd(&(covariance + Matrix6::identity() * (LEAST * LEAST)))
+}
+
+fn squared(placed: &[Option<Isometry3<f64>>], link: &Link) -> Option<f64> {
+    let (error, _) = error(placed, link)?;
+    Some(error.dot(&(information(link)? * error)))
+}
+
+/// Median of the squared errors of the links that count, as if there were as many more as there are unknowns.
+fn usual(placed: &[Option<Isometry3<f64>>], links: &[Link]) -> f64 {
+    let counted: Vec<f64> = links
+        .iter()
+        .filter(|link| link.left_out.is_none())
+        .filter_map(|link| squared(placed, link))
+        .collect();
+    let unknown = placed.iter().flatten().count().saturating_sub(1) as f64;
+    let left = (counted.len() as f64 - unknown).max(1.0) / counted.len().max(1) as f64;
+    linalg::median(counted) / left
+}
+
+/// The step of all poses, and the pseudo-inverse of the normal equations.
+fn step(
+    numbers: &[usize],
+    placed: &[Option<Isometry3<f64>>],
+    links: &[Link],
+) -> Option<(DVector<f64>, DMatrix<f64>)> {
+    let size = 6 * numbers.len();
+    let row = |number: usize| numbers.binary_search(&number).ok().map(|k| 6 * k);
+    let (mut normal, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
+    let half = HALF * usual(placed, links).max(MEDIAN);
+    for link in links.iter().filter(|link| link.left_out.is_none()) {
+        let (error, at) = error(placed, link)?;
+        let information = information(link)?;
+        let weight = 1.0 / (1.0 + error.dot(&(information * error)) / half);
+        let j = lie::adjoint(&at.inverse());
+        let own = j.transpose() * information * j * weight;
+        let pull = j.transpose() * information * error * weight;
+        let (a, b) = (row(link.source)?, row(link.target)?);
+        for (from, sign) in [(a, 1.0), (b, -1.0)] {
+            let mut rows = right.fixed_rows_mut::<6>(from);
+            rows -= pull * sign;
+            for (to, other) in [(a, 1.0), (b, -1.0)] {
+                let mut block = normal.fixed_view_mut::<6, 6>(from, to);
+                block += own * (sign * other);
+            }
+        }
+    }
+    // the scene as a whole is free: hold it, and take what that feigns off again
+    let hold = normal.trace() / size as f64;
+    for a in 0..size {
+        for b in (a % 6..size).step_by(6) {
+            normal[(a, b)] += hold;
+        }
+    }
+    let mut inverse = normal.cholesky()?.inverse();
+    let feigned = 1.0 / (hold * (numbers.len() as f64).powi(2));
+    for a in 0..size {
+        for b in (a % 6..size).step_by(6) {
+            inverse[(a, b)] -= feigned;
+        }
+    }
+    Some((&inverse * right, inverse))
+}

@@ -1,0 +1,157 @@
+//! A still scene as the target: scans of it from several places, brought together.
+//!
+//! ```text
+//! camera_j_from_camera_i = X⁻¹ A_ij X    with A_ij the mount's motion, X = mount_from_camera
+//! ```
+//!
+//! Scans that follow one another are registered without any start. Of their motions, those that turn by
+//! other angles than the robot did are wrong; the others tell about where the camera sits ([`motions`]), and
+//! that predicts where every scan lies in every other. All pairs that overlap are registered from there, and
+//! one adjustment over all of them places every scan in the scene ([`graph`]). The scene's frame is that of
+//! the first scan that is placed. What comes out are poses of a target, with their covariances.
+
+mod graph;
+mod motions;
+
+use nalgebra::{Isometry3, Matrix6};
+
+use crate::{
+    Camera, Pose, Target, TargetPose, Verdict,
+    register::{Dense, DenseConfig, Surface, register_surfaces},
+};
+use motions::Motion;
+
+/// Scans are registered with so many that follow them, without a start.
+const FOLLOWING: usize = 2;
+/// Pairs of which less is predicted to overlap are not tried.
+const OVERLAP: f64 = 0.15;
+/// Each scan is registered with so many others at most.
+const PARTNERS: usize = 8;
+/// Windows that predict the overlap.
+const ASKED: f64 = 300.0;
+
+/// Two scans of the scene, and how the first lies in the second.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Which scan was moved.
+    pub source: usize,
+    /// Onto which.
+    pub target: usize,
+    /// Their registration.
+    pub found: Dense,
+    /// Why it does not count; `None` where it does.
+    pub left_out: Option<String>,
+}
+
+/// Where scans lie in their scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placed {
+    /// For each scan; `None` where it could not be connected with the others.
+    pub poses: Vec<Option<TargetPose>>,
+    /// All pairs that were registered.
+    pub links: Vec<Link>,
+}
+
+/// Places scans in the still scene that they show.
+///
+/// `anchor_from_mount` is where the camera's mount was at each scan; `guess`, if there is one, about where the
+/// camera sits on it. `progress` is told how many pairs of how many are done.
+pub fn place(
+    surfaces: &[Surface],
+    anchor_from_mount: &[Isometry3<f64>],
+    guess: Option<&Isometry3<f64>>,
+    config: &DenseConfig,
+    progress: &dyn Fn(usize, usize),
+) -> Placed {
+    let motion = |i: usize, j: usize| anchor_from_mount[j].inv_mul(&anchor_from_mount[i]);
+    let mut links = vec![];
+    let mut mount_from_camera = guess.copied();
+    if guess.is_none() {
+        links = without_start(surfaces, config, progress);
+        let all: Vec<Motion> = links
+            .iter_mut()
+            .filter_map(|link| {
+                let a = motion(link.source, link.target);
+                link.left_out =
+                    why_not(&link.found).or_else(|| motions::contradiction(&a, link.at()));
+                link.left_out.is_none().then(|| Motion { a, b: *link.at() })
+            })
+            .collect();
+        mount_from_camera = motions::camera(&all);
+    }
+    if let Some(x) = mount_from_camera {
+        let predicted = |i: usize, j: usize| x.inverse() * motion(i, j) * x;
+        links = from_predictions(surfaces, &predicted, config, progress);
+        for link in &mut links {
+            let a = motion(link.source, link.target);
+            link.left_out = why_not(&link.found).or_else(|| motions::contradiction(&a, link.at()));
+        }
+    }
+    let poses = graph::adjust(surfaces.len(), &mut links);
+    let pose = |placed: (Isometry3<f64>, Matrix6<f64>)| TargetPose {
+        camera_from_target: Pose::<Camera, Target>::claim(placed.0),
+        covariance: Some(placed.1),
+    };
+    Placed { poses: poses.into_iter().map(|placed| placed.map(pose)).collect(), links }
+}
+
+impl Link {
+    fn at(&self) -> &Isometry3<f64> {
+        &self.found.target_from_source
+    }
+}
+
+fn why_not(found: &Dense) -> Option<String> {
+    (found.verdict != Verdict::Accepted).then(|| found.reasons.join("; "))
+}
+
+fn without_start(
+    surfaces: &[Surface],
+    config: &DenseConfig,
+    progress: &dyn Fn(usize, usize),
+) -> Vec<Link> {
+    let config = DenseConfig { global: true, ..*config };
+    let following = |j: usize| (j.saturating_sub(FOLLOWING)..j).map(move |i| (i, j));
+    let pairs: Vec<_> = (0..surfaces.len()).flat_map(following).collect();
+    registered(surfaces, &pairs, &|_, _| Isometry3::identity(), &config, progress)
+}
+
+fn from_predictions(
+    surfaces: &[Surface],
+    predicted: &dyn Fn(usize, usize) -> Isometry3<f64>,
+    config: &DenseConfig,
+    progress: &dyn Fn(usize, usize),
+) -> Vec<Link> {
+    let gate = config.max_correspondence_distance_m;
+    let mut pairs = vec![];
+    for j in 0..surfaces.len() {
+        let overlap =
+            |i: usize| surfaces[i].share_near(&surfaces[j], &predicted(i, j), gate, ASKED);
+        let mut others: Vec<(f64, usize)> = (0..j).map(|i| (overlap(i), i)).collect();
+        others.retain(|(share, _)| *share >= OVERLAP);
+        others.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        others.truncate(PARTNERS);
+        pairs.extend(others.into_iter().map(|(_, i)| (i, j)));
+    }
+    pairs.sort_unstable();
+    registered(surfaces, &pairs, predicted, config, progress)
+}
+
+fn registered(
+    surfaces: &[Surface],
+    pairs: &[(usize, usize)],
+    start: &dyn Fn(usize, usize) -> Isometry3<f64>,
+    config: &DenseConfig,
+    progress: &dyn Fn(usize, usize),
+) -> Vec<Link> {
+    let link = |(k, &(source, target)): (usize, &(usize, usize))| {
+        let start = start(source, target);
+        let found = register_surfaces(&surfaces[source], &surfaces[target], &start, config);
+        progress(k + 1, pairs.len());
+        Link { source, target, found, left_out: None }
+    };
+    pairs.iter().enumerate().map(link).collect()
+}
+
+#[cfg(test)]
+mod tests;

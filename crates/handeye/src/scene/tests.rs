@@ -1,0 +1,126 @@
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use super::*;
+use crate::{
+    Base, Config, Flange, Intrinsics, Observation, Session, Setup, calibrate, lie,
+    simulate::{Random, Room},
+};
+
+const PI: f64 = std::f64::consts::PI;
+
+struct Cell {
+    surfaces: Vec<Surface>,
+    base_from_flange: Vec<Isometry3<f64>>,
+    flange_from_camera: Isometry3<f64>,
+}
+
+/// Scans of a cell by a camera on a robot whose poses err by so many metres and radians.
+fn cell(count: usize, seed: u64, robot: (f64, f64)) -> Cell {
+    let mut random = Random::new(seed);
+    let room = Room::of_a_cell(&mut random);
+    let flange_from_camera = Isometry3::new([0.05, -0.03, 0.08].into(), [0.02, -0.03, 1.5].into());
+    let camera = Intrinsics::pinhole(240, 180, 240.0, 240.0, 119.5, 89.5);
+    let (mut surfaces, mut base_from_flange) = (vec![], vec![]);
+    for _ in 0..count {
+        let mut some = |s: f64| random.between(-s, s);
+        let down = Isometry3::new(
+            [some(0.12), some(0.12), 0.75 + some(0.1)].into(),
+            [PI, 0.0, 0.0].into(),
+        );
+        let turn = Isometry3::new(Vector3::zeros(), [some(0.3), some(0.3), some(0.6)].into());
+        let base_from_camera = down * turn;
+        let scan = room.scan(&base_from_camera, &camera, 5e-4, &mut random);
+        surfaces.push(Surface::of(&scan, 1).unwrap());
+        let (w, v) = (random.normal3() * robot.1, random.normal3() * robot.0);
+        let error = lie::exp(&Vector6::new(w.x, w.y, w.z, v.x, v.y, v.z));
+        base_from_flange.push(base_from_camera * flange_from_camera.inverse() * error);
+    }
+    Cell { surfaces, base_from_flange, flange_from_camera }
+}
+
+fn placed(cell: &Cell, guess: Option<&Isometry3<f64>>) -> Placed {
+    place(&cell.surfaces, &cell.base_from_flange, guess, &DenseConfig::default(), &|_, _| ())
+}
+
+#[test]
+fn scans_are_placed_as_surely_as_they_say() {
+    let mut squares = vec![];
+    for seed in 0..3 {
+        let cell = cell(8, 50 + seed, (0.0, 0.0));
+        let placed = placed(&cell, None);
+        let camera = |k: usize| cell.base_from_flange[k] * cell.flange_from_camera;
+        let all: Vec<_> =
+            placed.poses.iter().enumerate().filter_map(|(k, p)| Some((k, (*p)?))).collect();
+        assert!(all.len() >= 7, "{} of 8", all.len());
+        // about the scene as a whole nothing is said: errors among each other
+        let scene = |(k, p): &(usize, TargetPose)| camera(*k) * p.camera_from_target.iso();
+        let first = scene(&all[0]);
+        let errors: Vec<Vector6<f64>> =
+            all.iter().map(|one| lie::log(&(first.inverse() * scene(one)))).collect();
+        let mean: Vector6<f64> = errors.iter().sum::<Vector6<f64>>() / errors.len() as f64;
+        for (error, (_, pose)) in errors.iter().zip(&all) {
+            let off = error - mean;
+            let covariance: Matrix6<f64> = pose.covariance.unwrap();
+            squares.push(off.dot(&(covariance.try_inverse().unwrap() * off)) / 6.0);
+            assert!(lie::omega(&off).norm() < 2e-3 && lie::nu(&off).norm() < 2e-3, "{off}");
+        }
+    }
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    println!("normalised error squared {mean:.2}");
+    assert!((0.5..2.5).contains(&mean), "{mean}");
+}
+
+#[test]
+fn a_camera_is_calibrated_without_a_target() {
+    let cell = cell(14, 61, (1e-4, 1e-4));
+    let placed = placed(&cell, None);
+    let observe = |(k, pose): (usize, &Option<TargetPose>)| Observation {
+        capture: format!("{k}"),
+        base_from_flange: Pose::<Base, Flange>::claim(cell.base_from_flange[k]),
+        joints: vec![],
+        corners: vec![],
+        surface: vec![],
+        candidates: pose.iter().copied().collect(),
+    };
+    let observations = placed.poses.iter().enumerate().map(observe).collect();
+    let session = Session::of_captures(Setup::EyeInHand, observations);
+    let found = calibrate(&session, &Config::default()).unwrap();
+    assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
+    let x = found.hand_eye.mount_from_camera.unwrap();
+    let off = lie::log(&cell.flange_from_camera.inv_mul(x.iso()));
+    let (deg, mm) = (lie::omega(&off).norm().to_degrees(), 1e3 * lie::nu(&off).norm());
+    println!("{deg:.3} deg, {mm:.2} mm");
+    assert!(deg < 0.05 && mm < 0.6, "{deg} deg, {mm} mm");
+}
+
+#[test]
+fn a_guess_saves_the_search() {
+    let cell = cell(6, 52, (1e-4, 1e-4));
+    let off = lie::exp(&Vector6::new(0.01, -0.02, 0.01, 0.004, 0.005, -0.003));
+    let found = placed(&cell, Some(&(cell.flange_from_camera * off)));
+    assert!(found.poses.iter().flatten().count() >= 5);
+}
+
+#[test]
+fn nothing_is_placed_in_a_scene_that_slides() {
+    let mut cell = cell(4, 53, (0.0, 0.0));
+    let mut random = Random::new(1);
+    let camera = Intrinsics::pinhole(160, 120, 160.0, 160.0, 79.5, 59.5);
+    let solid = crate::simulate::Solid::Block { half: [2.0, 2.0, 0.01] };
+    let room = Room {
+        things: vec![crate::simulate::Thing { solid, room_from_thing: Isometry3::identity() }],
+    };
+    for (surface, base_from_flange) in cell.surfaces.iter_mut().zip(&cell.base_from_flange) {
+        let scan =
+            room.scan(&(base_from_flange * cell.flange_from_camera), &camera, 5e-4, &mut random);
+        *surface = Surface::of(&scan, 1).unwrap();
+    }
+    let found = placed(&cell, Some(&cell.flange_from_camera));
+    assert!(found.poses.iter().all(Option::is_none));
+    let why = |link: &Link| link.left_out.clone().unwrap();
+    assert!(
+        found.links.iter().all(|link| why(link).contains("leaves free")),
+        "{:?}",
+        found.links[0]
+    );
+}
