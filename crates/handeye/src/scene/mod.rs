@@ -95,6 +95,69 @@ pub fn place(
     Placed { poses: poses.into_iter().map(|placed| placed.map(pose)).collect(), links }
 }
 
+/// Places a rigid object of known shape in scans of it; links have the scan's number as their target.
+///
+/// It is looked for everywhere first. Where it was found in enough scans to tell about where the camera sits, it
+/// is looked for once more in the others, from where it must be.
+pub fn place_object(
+    object: &Surface,
+    surfaces: &[Surface],
+    anchor_from_mount: &[Isometry3<f64>],
+    config: &DenseConfig,
+    progress: &dyn Fn(usize, usize),
+) -> Placed {
+    let everywhere = DenseConfig { global: true, ..*config };
+    let found = |scan: usize, start: &Isometry3<f64>, config: &DenseConfig| {
+        let found = register_surfaces(object, &surfaces[scan], start, config);
+        let left_out = why_not(&found);
+        Link { source: scan, target: scan, found, left_out }
+    };
+    let first = |scan: usize| {
+        let link = found(scan, &Isometry3::identity(), &everywhere);
+        progress(scan + 1, surfaces.len());
+        link
+    };
+    let mut links: Vec<Link> = (0..surfaces.len()).map(first).collect();
+    if let Some((x, y)) = camera_and_object(&links, anchor_from_mount) {
+        for link in &mut links {
+            let predicted = x.inverse() * anchor_from_mount[link.source].inverse() * y;
+            let off = link.at().inv_mul(&predicted);
+            if link.left_out.is_some() || !motions::agrees(&off) {
+                *link = found(link.source, &predicted, config);
+            }
+        }
+    }
+    let pose = |link: &Link| {
+        let covariance = link.found.covariance.filter(|_| link.left_out.is_none())?;
+        let camera_from_target = Pose::<Camera, Target>::claim(*link.at());
+        Some(TargetPose { camera_from_target, covariance: Some(covariance) })
+    };
+    Placed { poses: links.iter().map(pose).collect(), links }
+}
+
+/// About where the camera sits on the mount, and the object on the anchor.
+fn camera_and_object(
+    links: &[Link],
+    anchor_from_mount: &[Isometry3<f64>],
+) -> Option<(Isometry3<f64>, Isometry3<f64>)> {
+    let counted: Vec<&Link> = links.iter().filter(|link| link.left_out.is_none()).collect();
+    let mut all = vec![];
+    for (k, i) in counted.iter().enumerate() {
+        for j in &counted[..k] {
+            let a = anchor_from_mount[j.source].inv_mul(&anchor_from_mount[i.source]);
+            all.push(Motion { a, b: j.at() * i.at().inverse() });
+        }
+    }
+    let x = motions::camera(&all)?;
+    let places: Vec<Isometry3<f64>> =
+        counted.iter().map(|link| anchor_from_mount[link.source] * x * link.at()).collect();
+    let agreeing = |y: &&Isometry3<f64>| {
+        places.iter().filter(|place| motions::agrees(&y.inv_mul(place))).count()
+    };
+    let y = places.iter().max_by_key(agreeing)?;
+    Some((x, *y))
+}
+
 impl Link {
     fn at(&self) -> &Isometry3<f64> {
         &self.found.target_from_source

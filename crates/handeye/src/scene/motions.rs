@@ -82,11 +82,12 @@ pub fn camera(all: &[Motion]) -> Option<Isometry3<f64>> {
 }
 
 fn agreeing(all: &[Motion], x: &Isometry3<f64>) -> Vec<Motion> {
-    let agrees = |m: &&Motion| {
-        let off = (m.a * x).inv_mul(&(x * m.b));
-        off.rotation.angle() < AGREES_RAD && off.translation.vector.norm() < AGREES_M
-    };
-    all.iter().filter(agrees).copied().collect()
+    all.iter().filter(|m| agrees(&(m.a * x).inv_mul(&(x * m.b)))).copied().collect()
+}
+
+/// Whether two poses that differ by this are one, as far as robots and first guesses are right.
+pub fn agrees(off: &Isometry3<f64>) -> bool {
+    off.rotation.angle() < AGREES_RAD && off.translation.vector.norm() < AGREES_M
 }
 
 /// Least squares; `None` of motions about one axis.

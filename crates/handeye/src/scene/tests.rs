@@ -124,3 +124,63 @@ fn nothing_is_placed_in_a_scene_that_slides() {
         found.links[0]
     );
 }
+
+#[test]
+fn an_object_of_known_shape_is_a_target() {
+    let mut random = Random::new(71);
+    let camera = Intrinsics::pinhole(240, 180, 300.0, 300.0, 119.5, 89.5);
+    // a part: two blocks and a ball, on a table
+    let thing = |solid, at: [f64; 3], turn: [f64; 3]| crate::simulate::Thing {
+        solid,
+        room_from_thing: Isometry3::new(at.into(), turn.into()),
+    };
+    let block = |half| crate::simulate::Solid::Block { half };
+    let part = vec![
+        thing(block([0.08, 0.05, 0.02]), [0.0, 0.0, 0.02], [0.0; 3]),
+        thing(block([0.02, 0.03, 0.03]), [0.04, 0.01, 0.07], [0.0, 0.0, 0.4]),
+        thing(crate::simulate::Solid::Ball { radius: 0.025 }, [-0.04, -0.01, 0.05], [0.0; 3]),
+    ];
+    let table = thing(block([0.5, 0.4, 0.01]), [0.0, 0.0, -0.01], [0.0; 3]);
+    let room = Room { things: [part.clone(), vec![table]].concat() };
+    let alone = Room { things: part };
+    let down = Isometry3::new([0.0, 0.0, 0.5].into(), [PI, 0.0, 0.0].into());
+    let model = |turn: f64, random: &mut Random| {
+        let at = Isometry3::rotation([turn, 0.0, 0.0].into()) * down;
+        let scan = alone.scan(&at, &camera, 2e-5, random);
+        let points = scan.points().iter().filter(|p| p[2].is_finite());
+        points.map(|p| at.transform_point(&p.map(f64::from).into()).coords).collect::<Vec<_>>()
+    };
+    let points: Vec<[f32; 3]> =
+        [model(0.0, &mut random), model(0.7, &mut random), model(-0.7, &mut random)]
+            .concat()
+            .into_iter()
+            .map(|p| p.map(|x| x as f32).into())
+            .collect();
+    let object = Surface::of(&crate::Scan::new(points.len(), 1, points).unwrap(), 1).unwrap();
+    let (mut surfaces, mut mounts, mut truths) = (vec![], vec![], vec![]);
+    let flange_from_camera = Isometry3::new([0.05, -0.03, 0.08].into(), [0.02, -0.03, 1.5].into());
+    for _ in 0..6 {
+        let mut some = |s: f64| random.between(-s, s);
+        let turn = Isometry3::new(Vector3::zeros(), [some(0.3), some(0.3), some(1.5)].into());
+        let room_from_camera =
+            Isometry3::translation(some(0.05), some(0.05), 0.05 + some(0.05)) * down * turn;
+        surfaces.push(
+            Surface::of(&room.scan(&room_from_camera, &camera, 3e-4, &mut random), 1).unwrap(),
+        );
+        mounts.push(room_from_camera * flange_from_camera.inverse());
+        truths.push(room_from_camera.inverse());
+    }
+    let found = place_object(&object, &surfaces, &mounts, &DenseConfig::default(), &|_, _| ());
+    let mut right = 0;
+    for (pose, truth) in found.poses.iter().zip(&truths) {
+        let Some(pose) = pose else { continue };
+        let off = lie::log(&truth.inv_mul(pose.camera_from_target.iso()));
+        let (deg, mm) = (lie::omega(&off).norm().to_degrees(), 1e3 * lie::nu(&off).norm());
+        let inverse = pose.covariance.unwrap().try_inverse().unwrap();
+        println!("{deg:.2} deg, {mm:.2} mm, {:.2}", off.dot(&(inverse * off)) / 6.0);
+        assert!(deg < 1.5 && mm < 2.0, "{deg} deg, {mm} mm");
+        right += 1;
+    }
+    let why: Vec<_> = found.links.iter().map(|link| &link.left_out).collect();
+    assert!(right >= 4, "{right}: {why:?}");
+}
