@@ -1,13 +1,13 @@
 //! PLY: a header that names elements and their properties, then the elements, in text or binary.
 //! Greg Turk, "The PLY Polygon File Format", 1994.
 
-use std::path::Path;
+use std::{fs::File, io::Read, path::Path};
 
-use super::{Column, Number, Points, check_count, cut_short, in_metres, of_lines, of_records};
 use crate::{
     error::{Error, Place, malformed},
     files,
-    units::LengthUnit,
+    mesh::Fans,
+    records::{Column, Number, check_count, cut_short, of_lines, of_records},
 };
 
 #[derive(Clone, Copy, PartialEq)]
@@ -19,7 +19,8 @@ enum Encoding {
 
 enum Property {
     One(String, Number),
-    List(Number, Number),
+    /// A count of the first type, then as many items of the second.
+    List(String, Number, Number),
 }
 
 struct Element {
@@ -35,24 +36,195 @@ struct Header {
     end: usize,
 }
 
-pub(super) fn read(path: &Path, unit: LengthUnit) -> Result<Points, Error> {
-    let bytes = files::bytes(path)?;
-    let wrong = |what: &str| malformed(Place::file(path), what, "export it as PLY again");
-    let header = header(&bytes).ok_or_else(|| wrong("is not a PLY file with a complete header"))?;
-    let body = &bytes[header.end..];
-    let at = header.elements.iter().position(|e| e.name == "vertex");
-    let at = at.ok_or_else(|| wrong("the PLY file has no element vertex"))?;
-    let vertex = &header.elements[at];
-    let columns = coordinates(vertex).ok_or_else(|| wrong("its vertices have no x, y and z"))?;
-    check_count(vertex.count, fewest_bytes(vertex, header.encoding), body.len(), path)?;
-    let xyz = if header.encoding == Encoding::Ascii {
-        ascii(body, &header.elements, at, columns, unit)
-    } else {
-        binary(body, &header, at, columns, unit)
-    };
-    let xyz = xyz.ok_or_else(|| cut_short(vertex.count, path))?;
-    let grid = header.grid.filter(|(w, h)| w.checked_mul(*h) == Some(xyz.len()));
-    Ok(Points { xyz, grid })
+/// A file, its header understood and its elements not yet read.
+pub(crate) struct Ply {
+    bytes: Vec<u8>,
+    header: Header,
+}
+
+/// Longest header of a file that is asked whether it has faces, bytes.
+const LONGEST_HEADER: u64 = 1 << 16;
+/// Usual names of a face's list of vertices.
+const LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// Whether the header promises faces.
+pub(crate) fn has_faces(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = File::open(path).and_then(|f| f.take(LONGEST_HEADER).read_to_end(&mut start));
+    let header = read.ok().and_then(|_| header(&start));
+    header.is_some_and(|h| h.elements.iter().any(|e| e.name == "face" && e.count > 0))
+}
+
+impl Ply {
+    /// Reads a file's bytes and its header.
+    pub(crate) fn read(path: &Path) -> Result<Ply, Error> {
+        let bytes = files::bytes(path)?;
+        let header = header(&bytes)
+            .ok_or_else(|| wrong("is not a PLY file with a complete header", path))?;
+        Ok(Ply { bytes, header })
+    }
+
+    /// Width and height of a camera's grid of so many points, where the header says them.
+    pub(crate) fn grid(&self, count: usize) -> Option<(usize, usize)> {
+        self.header.grid.filter(|(w, h)| w.checked_mul(*h) == Some(count))
+    }
+
+    /// All vertices, each as `point` makes it of the three coordinates.
+    pub(crate) fn vertices(
+        &self,
+        point: impl Fn([f64; 3]) -> [f32; 3],
+        path: &Path,
+    ) -> Result<Vec<[f32; 3]>, Error> {
+        let (at, vertex) = self.element("vertex", path)?;
+        let columns =
+            coordinates(vertex).ok_or_else(|| wrong("its vertices have no x, y and z", path))?;
+        let fewest = fewest_bytes(vertex, self.header.encoding);
+        check_count(vertex.count, "points", fewest, self.body().len(), path)?;
+        let found = match self.header.encoding {
+            Encoding::Ascii => {
+                self.lines(at).and_then(|lines| of_lines(lines, vertex.count, columns, point))
+            }
+            _ => self.binary_vertices(at, columns, point),
+        };
+        found.ok_or_else(|| cut_short(vertex.count, "points", path))
+    }
+
+    /// All faces, those of more than three corners cut into triangles that share the first corner.
+    pub(crate) fn triangles(&self, path: &Path) -> Result<Vec<[u32; 3]>, Error> {
+        let (at, face) = self.element("face", path)?;
+        let is_list = |p: &Property| matches!(p, Property::List(n, ..) if LISTS.contains(&&**n));
+        let list = face.properties.iter().position(is_list);
+        let list = list.ok_or_else(|| wrong("its faces have no list vertex_indices", path))?;
+        let fewest = fewest_bytes(face, self.header.encoding);
+        check_count(face.count, "faces", fewest, self.body().len(), path)?;
+        let mut fans = Fans::default();
+        let read = match self.header.encoding {
+            Encoding::Ascii => self.ascii_faces(at, list, &mut fans),
+            _ => self.binary_faces(at, list, &mut fans),
+        };
+        check_count(fans.triangles.len(), "triangles", 0, 0, path)?;
+        read.ok_or_else(|| cut_short(face.count, "faces", path))?;
+        Ok(fans.triangles)
+    }
+
+    fn body(&self) -> &[u8] {
+        &self.bytes[self.header.end..]
+    }
+
+    fn element(&self, name: &str, path: &Path) -> Result<(usize, &Element), Error> {
+        let at = self.header.elements.iter().position(|e| e.name == name);
+        let at = at.ok_or_else(|| wrong(&format!("the PLY file has no element {name}"), path))?;
+        Ok((at, &self.header.elements[at]))
+    }
+
+    /// The lines of text from an element's first on: each element stands on a line of its own.
+    fn lines(&self, at: usize) -> Option<impl Iterator<Item = &str>> {
+        let mut before = self.header.elements[..at].iter();
+        let before = before.try_fold(0usize, |n, e| n.checked_add(e.count))?;
+        let text = std::str::from_utf8(self.body()).ok()?;
+        Some(text.lines().filter(|l| !l.trim_ascii().is_empty()).skip(before))
+    }
+
+    /// Where an element begins in the binary body.
+    fn start(&self, at: usize) -> Option<usize> {
+        let big = self.header.encoding == Encoding::Big;
+        let mut offset = 0usize;
+        for element in &self.header.elements[..at] {
+            if let Some((size, _)) = fixed(element) {
+                offset = offset.checked_add(size.checked_mul(element.count)?)?;
+                continue;
+            }
+            for _ in 0..element.count {
+                let (_, next) = values(self.body(), offset, element, big)?;
+                offset = (next > offset).then_some(next)?;
+            }
+        }
+        (offset <= self.body().len()).then_some(offset)
+    }
+
+    fn binary_vertices(
+        &self,
+        at: usize,
+        columns: [usize; 3],
+        point: impl Fn([f64; 3]) -> [f32; 3],
+    ) -> Option<Vec<[f32; 3]>> {
+        let big = self.header.encoding == Encoding::Big;
+        let (body, vertex) = (self.body(), &self.header.elements[at]);
+        let mut offset = self.start(at)?;
+        if let Some((size, places)) = fixed(vertex) {
+            let columns = columns.map(|c| places[c]);
+            return of_records(body.get(offset..)?, size, vertex.count, columns, big, point);
+        }
+        let mut points = Vec::with_capacity(vertex.count);
+        for _ in 0..vertex.count {
+            let (row, next) = values(body, offset, vertex, big)?;
+            points.push(point(columns.map(|c| row[c])));
+            offset = next;
+        }
+        Some(points)
+    }
+
+    fn binary_faces(&self, at: usize, list: usize, fans: &mut Fans) -> Option<()> {
+        let big = self.header.encoding == Encoding::Big;
+        let (mut rest, face) = (self.body().get(self.start(at)?..)?, &self.header.elements[at]);
+        for _ in 0..face.count {
+            fans.begin();
+            for (k, property) in face.properties.iter().enumerate() {
+                match property {
+                    Property::One(_, number) => rest = rest.get(number.size()..)?,
+                    Property::List(_, count, item) => {
+                        let items = length(count.read(rest, big)?)?;
+                        rest = rest.get(count.size()..)?;
+                        let (these, after) =
+                            rest.split_at_checked(items.checked_mul(item.size())?)?;
+                        if k == list {
+                            for raw in these.chunks_exact(item.size()) {
+                                fans.corner(vertex(item.read(raw, big)?))?;
+                            }
+                        }
+                        rest = after;
+                    }
+                }
+            }
+        }
+        Some(())
+    }
+
+    fn ascii_faces(&self, at: usize, list: usize, fans: &mut Fans) -> Option<()> {
+        let face = &self.header.elements[at];
+        let mut lines = self.lines(at)?;
+        for _ in 0..face.count {
+            let mut words = lines.next()?.split_ascii_whitespace();
+            fans.begin();
+            for (k, property) in face.properties.iter().enumerate() {
+                let first = words.next()?;
+                if let Property::List(..) = property {
+                    for _ in 0..length(first.parse().ok()?)? {
+                        let word = words.next()?;
+                        if k == list {
+                            fans.corner(vertex(word.parse().ok()?))?;
+                        }
+                    }
+                }
+            }
+        }
+        Some(())
+    }
+}
+
+/// The number of a vertex. What is none becomes the largest one, which no vertex has.
+fn vertex(number: f64) -> u32 {
+    let is_number = number >= 0.0 && number < f64::from(u32::MAX) && number.fract() == 0.0;
+    if is_number { number as u32 } else { u32::MAX }
+}
+
+/// A list's length, which some files write as a floating-point number.
+fn length(number: f64) -> Option<usize> {
+    (number >= 0.0 && number.fract() == 0.0).then_some(number as usize)
+}
+
+fn wrong(what: &str, path: &Path) -> Error {
+    malformed(Place::file(path), what, "export it as PLY again")
 }
 
 fn header(bytes: &[u8]) -> Option<Header> {
@@ -74,11 +246,10 @@ fn header(bytes: &[u8]) -> Option<Header> {
                 count: count.parse().ok()?,
                 properties: vec![],
             }),
-            ["property", "list", count, item, _] => header
-                .elements
-                .last_mut()?
-                .properties
-                .push(Property::List(number(count)?, number(item)?)),
+            ["property", "list", count, item, name] => {
+                let property = Property::List(name.into(), number(count)?, number(item)?);
+                header.elements.last_mut()?.properties.push(property);
+            }
             ["property", kind, name] => {
                 let property = Property::One(name.into(), number(kind)?);
                 header.elements.last_mut()?.properties.push(property);
@@ -125,62 +296,20 @@ fn coordinates(vertex: &Element) -> Option<[usize; 3]> {
 fn fewest_bytes(element: &Element, encoding: Encoding) -> usize {
     let size = |p: &Property| match p {
         _ if encoding == Encoding::Ascii => 2,
-        Property::One(_, n) | Property::List(n, _) => n.size(),
+        Property::One(_, n) | Property::List(_, n, _) => n.size(),
     };
     element.properties.iter().map(size).sum::<usize>().saturating_sub(1)
 }
 
-/// Each element stands on a line of its own.
-fn ascii(
-    body: &[u8],
-    elements: &[Element],
-    at: usize,
-    columns: [usize; 3],
-    unit: LengthUnit,
-) -> Option<Vec<[f32; 3]>> {
-    let before = elements[..at].iter().try_fold(0usize, |n, e| n.checked_add(e.count))?;
-    let text = std::str::from_utf8(body).ok()?;
-    let lines = text.lines().filter(|l| !l.trim_ascii().is_empty()).skip(before);
-    of_lines(lines, elements[at].count, columns, unit)
-}
-
-fn binary(
-    body: &[u8],
-    header: &Header,
-    at: usize,
-    columns: [usize; 3],
-    unit: LengthUnit,
-) -> Option<Vec<[f32; 3]>> {
-    let big = header.encoding == Encoding::Big;
-    let mut offset = 0;
-    for element in &header.elements[..at] {
-        for _ in 0..element.count {
-            let (_, next) = values(body, offset, element, big)?;
-            offset = (next > offset).then_some(next)?;
-        }
-    }
-    let vertex = &header.elements[at];
-    if let Some((size, columns)) = fixed(vertex, columns) {
-        return of_records(body.get(offset..)?, size, vertex.count, columns, big, unit);
-    }
-    let mut points = Vec::with_capacity(vertex.count);
-    for _ in 0..vertex.count {
-        let (row, next) = values(body, offset, vertex, big)?;
-        points.push(in_metres(columns.map(|c| row[c]), unit));
-        offset = next;
-    }
-    Some(points)
-}
-
-/// Size of an element, and where its coordinates are, unless it has lists.
-fn fixed(element: &Element, columns: [usize; 3]) -> Option<(usize, [Column; 3])> {
+/// Size of an element, and where its numbers are, unless it has lists.
+fn fixed(element: &Element) -> Option<(usize, Vec<Column>)> {
     let (mut size, mut places) = (0, vec![]);
     for property in &element.properties {
         let Property::One(_, number) = property else { return None };
         places.push(Column { offset: size, number: *number });
         size += number.size();
     }
-    Some((size, columns.map(|c| places[c])))
+    Some((size, places))
 }
 
 /// Most properties of a vertex that are kept.
@@ -195,10 +324,10 @@ fn values(
 ) -> Option<([f64; MOST_PROPERTIES], usize)> {
     let mut row = [0.0; MOST_PROPERTIES];
     for (i, property) in element.properties.iter().enumerate() {
-        let (Property::One(_, kind) | Property::List(kind, _)) = property;
+        let (Property::One(_, kind) | Property::List(_, kind, _)) = property;
         *row.get_mut(i)? = kind.read(body.get(offset..)?, big)?;
         offset += kind.size();
-        if let Property::List(_, item) = property {
+        if let Property::List(_, _, item) = property {
             offset = offset.checked_add((row[i].max(0.0) as usize).checked_mul(item.size())?)?;
         }
     }
