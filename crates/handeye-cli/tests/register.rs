@@ -277,7 +277,8 @@ fn a_scan_is_registered_to_a_mesh_of_what_it_shows() {
     let room = blocks();
     let place = Isometry3::new([0.02, -0.03, 0.8].into(), [PI, 0.0, 0.0].into())
         * Isometry3::new(Vector3::zeros(), [0.1, 0.2, 0.05].into());
-    let scan = room.scan(&place, &camera(), 2e-4, &mut Random::new(5));
+    let camera = Intrinsics::pinhole(480, 360, 480.0, 480.0, 239.5, 179.5);
+    let scan = room.scan(&place, &camera, 2e-4, &mut Random::new(5));
     let folder = Folder::new();
     folder.put("part.stl", &stl(&room));
     folder.put("scan.pcd", &pcd(&scan, 1.0, true));

@@ -9,7 +9,7 @@ use std::{
 
 use e57::{E57Writer, Record, RecordDataType, RecordName, RecordValue, Transform, Translation};
 use handeye::Intrinsics;
-use handeye_io::{ScanOptions, read_scan, scan_unit, units::LengthUnit};
+use handeye_io::{ScanOptions, first_manifest, read_scan, scan_unit, units::LengthUnit};
 
 /// Two rows of three points, mm; one missing.
 const POINTS: [[f32; 3]; 6] = [
@@ -454,4 +454,27 @@ fn broken_e57_is_refused() {
     let absurd = changed(&many, "absurd.e57", "recordCount=\"5000\"", "recordCount=\"9999\"");
     let message = read_scan(&absurd, &ScanOptions::default()).unwrap_err().to_string();
     assert!(message.contains("the header promises 9999 points"), "{message}");
+}
+
+#[test]
+fn a_first_manifest_names_scans_of_every_kind_and_asks_for_a_unit_only_where_none_is_known() {
+    let root = file("x", []).parent().unwrap().join("first");
+    let lines: String = (0..1000).map(|k| format!("{k} 1.5 600.25\n")).collect();
+    for (kind, content, is_asked) in [
+        ("e57", "", false),
+        ("zdf", "", false),
+        ("xyz", "1 2 3\n", true),
+        ("asc", "//x_mm y_mm z_mm\n1 2 3\n", false),
+        ("pts", "1\n1 2 3 4\n", true),
+        ("txt", &lines, true),
+    ] {
+        let folder = root.join(kind);
+        fs::create_dir_all(&folder).unwrap();
+        for k in 1..4 {
+            fs::write(folder.join(format!("scan_{k}.{kind}")), content).unwrap();
+        }
+        let manifest = first_manifest(&folder).unwrap().text;
+        assert!(manifest.contains(&format!("[scans]\nfiles = \"scan_*.{kind}\"")), "{manifest}");
+        assert_eq!(manifest.contains("are the points in"), is_asked, "{manifest}");
+    }
 }

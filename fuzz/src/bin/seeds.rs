@@ -77,6 +77,8 @@ fn scans(target: &TargetModel) {
     lists();
     meshes();
     put("scan", "e57", &[&[11][..], &e57()].concat());
+    // from 128 on with checksums made right
+    put("scan", "e57_checked", &[&[11 + 9 * 15][..], &e57()].concat());
     put("scan", "zdf", &[&[12][..], include_bytes!("../../points.zdf")].concat());
 }
 
@@ -109,7 +111,9 @@ fn meshes() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 1/1 2/1/1 3//1 -1\n";
     put("scan", "obj", &[&[14][..], obj.as_bytes()].concat());
     let header = |format: &str| {
-        format!("ply\nformat {format} 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n")
+        format!(
+            "ply\nformat {format} 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        )
     };
     let text = header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     put("scan", "ply_faces", &[&[0][..], text.as_bytes()].concat());
@@ -132,7 +136,7 @@ fn e57() -> Vec<u8> {
             records.extend([
                 whole(RecordName::RowIndex, 1),
                 whole(RecordName::ColumnIndex, 2),
-                whole(RecordName::ReturnCount, 0),
+                whole(RecordName::Intensity, 0),
                 Record::CARTESIAN_INVALID_STATE,
             ]);
         }
@@ -143,12 +147,14 @@ fn e57() -> Vec<u8> {
                 RecordValue::Single(1.5),
                 RecordValue::Double(2.5),
             ];
-            values.extend([k / 3, k % 3, 0, k / 5].map(RecordValue::Integer).into_iter().take(more));
+            values
+                .extend([k / 3, k % 3, 0, k / 5].map(RecordValue::Integer).into_iter().take(more));
             points.add_point(values).expect("a point");
         }
         points.finalize().expect("into memory");
     }
     writer.finalize().expect("into memory");
+    drop(writer);
     bytes.into_inner()
 }
 

@@ -3,6 +3,8 @@
 
 use std::{collections::HashMap, path::Path};
 
+use foldhash::fast::RandomState;
+
 use super::{Parts, in_metres};
 use crate::{
     error::{Error, Place, malformed},
@@ -49,17 +51,27 @@ fn is_text(bytes: &[u8]) -> bool {
     start.len() >= 5 && start[..5].eq_ignore_ascii_case(b"solid")
 }
 
-/// Corners that become vertices, each place once.
+/// Corners that become vertices, each place once. They are numbered as they come: how they are found
+/// again decides nothing.
 #[derive(Default)]
 struct Corners {
-    numbers: HashMap<[u32; 3], u32>,
+    numbers: HashMap<u128, u32, RandomState>,
     places: Vec<[f32; 3]>,
 }
 
 impl Corners {
+    /// Room for the vertices of so many triangles: of a closed surface they are half as many.
+    fn with_room(triangles: usize) -> Self {
+        let (numbers, places) = (HashMap::default(), vec![]);
+        let mut corners = Self { numbers, places };
+        corners.numbers.reserve(triangles / 2);
+        corners
+    }
+
     #[inline(always)]
     fn number(&mut self, place: [f32; 3]) -> u32 {
-        *self.numbers.entry(place.map(f32::to_bits)).or_insert_with(|| {
+        let [x, y, z] = place.map(|x| u128::from(x.to_bits()));
+        *self.numbers.entry(x | y << 32 | z << 64).or_insert_with(|| {
             self.places.push(place);
             (self.places.len() - 1) as u32
         })
@@ -72,7 +84,7 @@ impl Corners {
 
 fn binary(bytes: &[u8], count: usize, unit: LengthUnit, path: &Path) -> Result<Parts, Error> {
     check_count(count, "triangles", TRIANGLE, bytes.len() - HEADER, path)?;
-    let mut corners = Corners::default();
+    let mut corners = Corners::with_room(count);
     let mut triangles = Vec::with_capacity(count);
     for record in bytes[HEADER..].chunks_exact(TRIANGLE).take(count) {
         let number = |at: usize| {

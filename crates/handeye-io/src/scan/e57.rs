@@ -45,6 +45,7 @@ pub(super) fn read(path: &Path) -> Result<Points, Error> {
     let bytes = files::bytes(path)?;
     let scans = scans(&bytes, path)?;
     let pages = content(&bytes);
+    drop(bytes);
     let counts = scans.iter().map(|s| usize::try_from(s.records).unwrap_or(usize::MAX));
     let total = counts.fold(0, usize::saturating_add);
     check_count(total, "points", 0, 0, path)?;

@@ -27,8 +27,7 @@ const LARGEST_CHUNK: usize = 256 << 20;
 
 pub(super) fn read(path: &Path) -> Result<Points, Error> {
     let bytes = files::bytes(path)?;
-    // A reader that did not foresee some broken file must not end the program: this border alone is
-    // guarded, for HDF5 is large and read by a library.
+    // HDF5 is large, and read by a library: a panic of it on some broken file must not end the program.
     catch_unwind(AssertUnwindSafe(|| unpacked(bytes, path))).unwrap_or_else(|_| {
         Err(malformed(Place::file(path), "is damaged beyond reading", "copy or record it again"))
     })
