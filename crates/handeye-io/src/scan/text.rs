@@ -28,7 +28,7 @@ pub(super) fn read(path: &Path, options: &ScanOptions) -> Result<Points, Error> 
     let unit = agreed(head.unit, options, path)?;
     let mut promised = head.promised;
     let mut xyz = Vec::new();
-    while let Some(line) = lines.next() {
+    for line in lines {
         if line.text.is_empty() {
             continue;
         }
