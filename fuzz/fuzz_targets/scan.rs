@@ -43,7 +43,7 @@ fuzz_target!(|data: &[u8]| {
 /// first byte is small they stay as they are.
 fn with_checksums(data: &[u8]) -> Cow<'_, [u8]> {
     match data {
-        [first @ 128.., file @ ..] if KINDS[usize::from(*first) % KINDS.len()] == "e57" => {
+        [first @ 128..=255, file @ ..] if KINDS[usize::from(*first) % KINDS.len()] == "e57" => {
             let whole = file.chunks_exact(PAGE).flat_map(|page| {
                 let content = &page[..PAGE - 4];
                 [content, &castagnoli(content).to_be_bytes()].concat()
