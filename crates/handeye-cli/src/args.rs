@@ -286,15 +286,16 @@ pub struct DetectArgs {
 /// Arguments of `register`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n\n\
+    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register scan.zdf part.stl --length-unit mm\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n\n\
 target_from_source takes points of SOURCE into TARGET; so does --initial, and the answer contains it.\n\
 guess.json: {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}, or a matrix of 4 rows.\n\n\
 Exit code 0: accepted; 3: rejected, or not determined by what both scans show."
 )]
 pub struct RegisterArgs {
-    /// The scan to be moved: PLY, PCD, NPY, NPZ, or depth in PNG or TIFF.
+    /// The scan to be moved: PLY, PCD, E57, ZDF, XYZ, TXT, CSV, ASC, PTS, NPY, NPZ, or depth in PNG or TIFF;
+    /// or a mesh: STL, OBJ, PLY with faces.
     pub source: PathBuf,
-    /// The scan that stays.
+    /// The scan or mesh that stays.
     pub target: PathBuf,
     /// auto (symmetric), point-to-point, point-to-plane or gicp.
     #[arg(long, default_value = "auto")]
@@ -308,7 +309,8 @@ pub struct RegisterArgs {
     /// Most rounds over all points, and over some from each start.
     #[arg(long, default_value_t = 60)]
     pub max_iterations: usize,
-    /// Unit of the points [default: mm for scans wider than 20 units, else m].
+    /// Unit of the points, where the file does not say it (E57 and ZDF do) [default: mm for what is wider than
+    /// 20 units, else m].
     #[arg(long)]
     pub length_unit: Option<Length>,
     /// Metres per unit of a depth image, such as 0.001.
