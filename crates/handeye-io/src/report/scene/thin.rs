@@ -78,8 +78,7 @@ impl Cubes {
     }
 
     fn count(&self, points: &[[f32; 3]], all: &[u32]) -> usize {
-        let mut numbers: Vec<u64> =
-            all.iter().map(|k| self.cube(&points[*k as usize]).0).collect();
+        let mut numbers: Vec<u64> = all.iter().map(|k| self.cube(&points[*k as usize]).0).collect();
         numbers.sort_unstable();
         numbers.dedup();
         numbers.len()
