@@ -14,6 +14,14 @@ const BOARD: &str = "#259a5c";
 const SEEN: &str = "#e0861a";
 const TOUCH: &str = "#cf3a30";
 
+const FLOOR: &str = "#8a94a3";
+
+/// Width and opacity of boards: what was seen is drawn over where the answer puts it.
+const BOARD_LINE: (f64, f64) = (3.6, 0.6);
+const SEEN_LINE: (f64, f64) = (1.3, 0.95);
+/// Pitch of the lines on the floor, m, and the farthest of them.
+const FLOOR_M: f64 = 0.1;
+const FARTHEST: f64 = 40.0;
 /// Diameter of a touched point, px.
 const TOUCHED_PX: f64 = 8.0;
 /// Depth of the camera's pyramid where no capture tells the size of the cell, m.
@@ -58,15 +66,15 @@ pub fn layers(
             frustum(&mut frustums, &base_from_camera, camera, 0.10 * size);
         }
         if let Some(camera_from_target) = capture.camera_from_target {
-            closed(&mut seen, &(base_from_camera * camera_from_target), &outline, (1.3, 0.7));
+            closed(&mut seen, &(base_from_camera * camera_from_target), &outline, SEEN_LINE);
         }
         if let (Setup::EyeToHand, Some(y)) = (c.setup, y) {
             let base_from_target = base_from_flange * y.rename::<Flange, Target>();
-            closed(&mut board, &base_from_target, &outline, (1.3, 0.7));
+            closed(&mut board, &base_from_target, &outline, BOARD_LINE);
         }
     }
     if let (Setup::EyeInHand, Some(y)) = (c.setup, y) {
-        closed(&mut board, &y.rename(), &outline, (2.6, 1.0));
+        closed(&mut board, &y.rename(), &outline, BOARD_LINE);
     }
     if frustums.is_empty() && c.setup == Setup::EyeToHand {
         frustum(&mut frustums, &x.rename(), camera, ALONE_M);
@@ -75,9 +83,29 @@ pub fn layers(
     let places: Vec<[f32; 3]> =
         touched.iter().map(|p| p.vector().map(|x| x as f32).into()).collect();
     tips.dots(&places, TOUCHED_PX);
-    let mut all = vec![base, frustums, board, seen, flange, tips];
+    let mut all = vec![base, frustums, board, seen, flange, tips, floor(&c.captures)];
     all.retain(|layer| !layer.is_empty());
     Some(all)
+}
+
+/// The plane z = 0 of the base, below the robot and all flange poses.
+fn floor(captures: &[CaptureResult]) -> Layer {
+    let mut layer = Layer::new(&format!("z = 0, every {:.0} mm", 1e3 * FLOOR_M), FLOOR);
+    let place = |c: &CaptureResult| c.base_from_flange.translation();
+    let reach = |axis: usize| {
+        let ends = captures.iter().map(|c| (place(c)[axis] / FLOOR_M).clamp(-FARTHEST, FARTHEST));
+        let (low, high) = ends.fold((-1.0, 1.0), |(low, high), x| (x.min(low), x.max(high)));
+        (low.floor() as i32 - 1, high.ceil() as i32 + 1)
+    };
+    let (x, y) = (reach(0), reach(1));
+    let at = |i: i32, j: i32| Vector3::new(f64::from(i), f64::from(j), 0.0) * FLOOR_M;
+    for i in x.0..=x.1 {
+        layer.line(&[at(i, y.0), at(i, y.1)], 1.0, 0.3);
+    }
+    for j in y.0..=y.1 {
+        layer.line(&[at(x.0, j), at(x.1, j)], 1.0, 0.3);
+    }
+    layer
 }
 
 fn cell_size(captures: &[CaptureResult]) -> f64 {

@@ -7,8 +7,8 @@
 /// Colours of layers, one after the other; they keep apart on light and on dark paper.
 pub const LAYERS: [&str; 8] =
     ["#2f7fd1", "#e08a1e", "#2f9e6e", "#c2557a", "#7b6fd0", "#2aa3b5", "#a8842c", "#c8553d"];
-/// What stays in the background.
-pub const QUIET: &str = "#8d99aa";
+/// What others are compared with: no colour of the scale, and no grey.
+pub const QUIET: &str = "#c9a294";
 /// Numbers that are missing.
 pub const MISSING: &str = "#9a9a9a";
 

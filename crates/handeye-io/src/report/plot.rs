@@ -130,13 +130,14 @@ pub struct Series<'a> {
 /// Bins of a histogram for each decade of its axis.
 const BINS: f64 = 16.0;
 /// Share of each series that may lie below the axis.
-const BELOW: f64 = 0.01;
+const BELOW: f64 = 0.03;
 
-/// How often values occur, on an axis of powers of ten that ends at `most`; empty without values.
+/// How often values occur, on an axis of powers of ten that ends at `most`; each series to its own height.
+/// Empty without values.
 pub fn histogram(all: &[Series], most: f64, unit: &str) -> String {
     let starts = all.iter().filter_map(|s| quantile(s.values, BELOW));
-    let least = starts.fold(f64::INFINITY, f64::min).max(most * 1e-5).log10().floor();
-    let (low, high) = (least, most.log10());
+    let least = 0.5 * nice(starts.fold(f64::INFINITY, f64::min).max(most * 1e-5));
+    let (low, high) = (least.log10(), most.log10());
     if all.iter().all(|s| s.values.is_empty()) || !(high > low) {
         return String::new();
     }
@@ -146,14 +147,14 @@ pub fn histogram(all: &[Series], most: f64, unit: &str) -> String {
         ((place * count as f64) as usize).min(count - 1)
     };
     let shares = |series: &Series| {
-        let mut shares = vec![0.0; count];
-        series.values.iter().for_each(|v| shares[bin(*v)] += 1.0 / series.values.len() as f64);
-        shares
+        let mut shares = vec![0.0f64; count];
+        series.values.iter().for_each(|v| shares[bin(*v)] += 1.0);
+        let highest = shares.iter().copied().fold(1.0, f64::max);
+        shares.iter().map(|share| share / highest).collect()
     };
     let shares: Vec<Vec<f64>> = all.iter().map(shares).collect();
-    let top = shares.iter().flatten().copied().fold(0.0, f64::max);
     let x = |at: f64| LEFT + (WIDTH - LEFT) * (at - low) / (high - low);
-    let y = |share: f64| HEIGHT - BOTTOM - share / top * (HEIGHT - BOTTOM - TOP - 8.0);
+    let y = |share: f64| HEIGHT - BOTTOM - share * (HEIGHT - BOTTOM - TOP - 8.0);
     let mut svg = format!("<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\">");
     svg += &decades(low, most, unit, &x);
     for (k, (series, shares)) in all.iter().zip(&shares).enumerate() {
@@ -181,9 +182,10 @@ pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
 /// Lines at 1, 2 and 5 times the powers of ten.
 fn decades(low: f64, most: f64, unit: &str, x: &impl Fn(f64) -> f64) -> String {
     let mut svg = String::new();
-    let mut power = 10f64.powf(low);
+    let mut power = 10f64.powf(low.floor());
+    let is_inside = |v: &f64| v.log10() > low - 1e-9 && *v <= 1.001 * most;
     while power <= most {
-        for value in [power, 2.0 * power, 5.0 * power].into_iter().filter(|v| *v <= 1.001 * most) {
+        for value in [power, 2.0 * power, 5.0 * power].into_iter().filter(is_inside) {
             let _ = write!(
                 svg,
                 "<line x1=\"{x:.1}\" x2=\"{x:.1}\" y1=\"{TOP}\" y2=\"{bottom}\" stroke=\"var(--line)\"/>\

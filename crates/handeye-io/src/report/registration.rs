@@ -103,24 +103,24 @@ fn reasons(found: &Dense) -> Vec<String> {
     if !found.reasons.is_empty() {
         return found.reasons.clone();
     }
-    vec!["the start was right, no other place fits as well, and the common surface holds all directions".into()]
+    vec!["no other place near the start fits as well, and the common surface leaves no direction free".into()]
 }
 
 fn facts(found: &Dense) -> Vec<(String, String)> {
     let mut all = vec![];
     let mut say = |value: String, name: &str| all.push((value, name.to_owned()));
     if found.rms_m.is_finite() {
-        say(format!("{:.3} mm", 1e3 * found.rms_m), "between the surfaces, RMS of the matches");
+        say(format!("{:.3} mm", 1e3 * found.rms_m), "between the surfaces, RMS");
     }
-    say(format!("{:.0} %", 100.0 * found.inlier_fraction), "of the source lies on the target");
+    say(format!("{:.0} %", 100.0 * found.inlier_fraction), "of the source on the target");
     if found.rms_m.is_finite() {
-        say(format!("{:.1} %", 100.0 * found.agreement), "agree where both show something");
+        say(format!("{:.1} %", 100.0 * found.agreement), "agree where both see");
     }
     if let Some(c) = &found.covariance {
         let largest =
             |first: usize| (0..3).map(|k| c[(first + k, first + k)].sqrt()).fold(0.0, f64::max);
         let (mm, deg) = (1e3 * largest(3), largest(0).to_degrees());
-        say(format!("{mm:.3} mm / {deg:.4}&deg;"), "one standard deviation, of the largest axis");
+        say(format!("{mm:.3} mm / {deg:.4}&deg;"), "standard deviation, worst axis");
     }
     all
 }
@@ -171,7 +171,7 @@ fn distances(r: &Registration, gaps: &Gaps) -> String {
          <th>with a counterpart</th></tr>{}{}</table></div><p class=\"note\">Of {} points of the source, evenly \
          spread in space: how far each lies from the plane through the target's points around the nearest \
          one. Points farther than {:.0} mm, and those beside the rim of the target, have no counterpart. The \
-         scale of the plot is logarithmic. Matches that were left out count here as well.</p>",
+         scale of the plot is logarithmic, and each area is drawn to its own height. Matches that were left out count here as well.</p>",
         plot::histogram(&all, 1e3 * r.gate_m, "mm"),
         row("before", &before, of),
         row("after", &after, of),

@@ -38,6 +38,14 @@ impl Axes {
         }
     }
 
+    /// Along what colours may be given, and its name.
+    fn rise(self) -> ([f64; 3], &'static str) {
+        match self {
+            Self::Base => ([0.0, 0.0, 1.0], "height"),
+            Self::Camera => ([0.0, 0.0, 1.0], "depth"),
+        }
+    }
+
     /// Turn and height of the first look, radians: a base from a side, a camera's view nearly as it was.
     fn look(self) -> [f64; 2] {
         match self {
@@ -218,6 +226,7 @@ pub fn grouped(number: usize) -> String {
 struct Data<'a> {
     basis: [[f64; 3]; 3],
     look: [f64; 2],
+    rise: [f64; 3],
     layers: &'a [Layer],
     states: usize,
     /// Red, green and blue of the scale, from the least on.
@@ -235,6 +244,7 @@ impl Scene {
         let data = Data {
             basis: self.axes.basis(),
             look: self.axes.look(),
+            rise: self.axes.rise().0,
             layers: &self.layers,
             states: self.states.len(),
             scale: base64(&colours::scale().concat()),
@@ -283,7 +293,8 @@ impl Scene {
                 "<div class=\"bar\"><button type=\"button\" data-size=\"0.8\" title=\"Smaller points (,)\">&minus;</button>\
                  <span>points</span><button type=\"button\" data-size=\"1.25\" title=\"Larger points (.)\">+</button></div>\
                  <div class=\"bar\"><button type=\"button\" data-paint=\"own\" aria-pressed=\"true\">by {own}</button>\
-                 <button type=\"button\" data-paint=\"height\" aria-pressed=\"false\">by height</button></div>"
+                 <button type=\"button\" data-paint=\"rise\" aria-pressed=\"false\">by {}</button></div>",
+                self.axes.rise().1
             );
         }
         format!("<div class=\"bars\">{bars}</div>")
@@ -299,11 +310,10 @@ impl Scene {
              <span class=\"ticks\"></span></span>\
              <label>colours end at <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" \
              aria-label=\"where the colours end\"> <output>{:.2} mm</output></label>\
-             <span><i class=\"dot\" style=\"background:{}\"></i>no counterpart within {:.0} mm</span></div>",
+             <span><i class=\"dot\" style=\"background:{}\"></i>no counterpart</span></div>",
             stops.join(","),
             values.top_mm,
-            colours::MISSING,
-            values.most_mm
+            colours::MISSING
         )
     }
 

@@ -5,19 +5,20 @@
   "use strict";
   var FIELD = Math.tan(17 * Math.PI / 180); // half the height of the view, at distance one
   var MOST_PIXELS = 9e6;
-  var SHADE = 110; // how dark a step in depth makes
+  var SHADE = 250; // how dark a step in depth makes
   var still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 
   var POINTS = ["#version 300 es",
     "precision highp float;",
     "in vec3 cell; in float value0; in float value1;",
     "uniform mat4 clip, eye; uniform vec3 up; uniform vec2 heights; uniform vec4 colour, missing;",
-    "uniform float pixels, metres, most, state, top; uniform int paint; uniform highp sampler2D scale;",
+    "uniform float pixels, metres, most, state, top, nearer; uniform int paint; uniform highp sampler2D scale;",
     "out vec4 shade; out vec3 place;",
     "vec4 ramp(float s) { return vec4(texture(scale, vec2((0.5 + clamp(s, 0.0, 1.0) * 63.0) / 64.0, 0.5)).rgb, 1.0); }",
     "void main() {",
     "  gl_Position = clip * vec4(cell, 1.0);",
     "  vec4 seen = eye * vec4(cell, 1.0);",
+    "  gl_Position.z -= nearer;",
     "  place = seen.xyz;",
     "  gl_PointSize = clamp(metres / gl_Position.w, pixels, 16.0 * pixels);",
     "  shade = colour;",
@@ -50,20 +51,34 @@
   var LIGHT = ["#version 300 es",
     "precision highp float;",
     "in vec2 at; uniform sampler2D picture; uniform highp sampler2D depth;",
-    "uniform vec3 sky, ground; uniform vec2 step_; uniform vec3 lens; uniform float strength; out vec4 colour;",
-    // the distance before the eye, from the depth: lens = third row of the projection, and whether it is one
+    "uniform vec3 sky, ground, lens; uniform vec2 pixel, wide; uniform float strength; out vec4 colour;",
+    // the distance before the eye, from the depth: lens is the third row of the projection, and whether it is one
     "float away(vec2 p) { float z = 2.0 * texture(depth, p).r - 1.0; return lens.z > 0.5 ? lens.y / (z + lens.x) : (z - lens.y) / -lens.x; }",
+    // how much of a ring of neighbours is nearer
+    "float ring(float d, float radius) {",
+    "  float sum = 0.0;",
+    "  for (int k = 0; k < 8; k++) {",
+    "    float a = (float(k) + 0.5) * 0.7853981634;",
+    "    vec2 p = at + radius * pixel * vec2(cos(a), sin(a));",
+    "    if (texture(depth, p).r < 1.0) { sum += min(1.0, strength / radius * max(0.0, 1.0 - away(p) / d)); }",
+    "  }",
+    "  return sum / 8.0;",
+    "}",
+    // how far the surface leans away from the light, by the slope of the depth; nothing is said across edges
+    "float slope(float d, vec2 way) {",
+    "  float a = away(at + way * pixel), b = away(at - way * pixel);",
+    "  float fore = (a - d) / d, back = (d - b) / d, one = abs(fore) < abs(back) ? fore : back;",
+    "  return abs(fore - back) < 0.004 * strength / 100.0 ? 0.5 * (fore + back) : clamp(one, -0.002, 0.002);",
+    "}",
     "void main() {",
     "  float own = texture(depth, at).r;",
     "  gl_FragDepth = own;",
     "  if (own >= 1.0) { colour = vec4(mix(ground, sky, at.y), 1.0); return; }",
-    "  float d = log2(away(at)), sum = 0.0;",
-    "  for (int k = 0; k < 8; k++) {",
-    "    float a = float(k) * 0.7853981634;",
-    "    vec2 p = at + step_ * vec2(cos(a), sin(a));",
-    "    if (texture(depth, p).r < 1.0) { sum += max(0.0, d - log2(away(p))); } ",
-    "  }",
-    "  colour = vec4(texture(picture, at).rgb * max(0.25, exp(-strength * sum / 8.0)), 1.0);",
+    "  float d = away(at), reach = wide.y;",
+    "  vec3 n = normalize(vec3(slope(d, vec2(reach, 0.0)), slope(d, vec2(0.0, reach)), reach * wide.x));",
+    "  float light = 0.62 + 0.42 * max(0.0, dot(n, normalize(vec3(-0.35, 0.5, 0.8))));",
+    "  float dark = 0.5 * ring(d, 1.2 * wide.y / 3.0) + 0.5 * ring(d, 1.4 * wide.y);",
+    "  colour = vec4(texture(picture, at).rgb * light * (1.0 - 0.6 * dark), 1.0);",
     "}"].join("\n");
   var STROKE = ["#version 300 es",
     "precision highp float;",
@@ -349,14 +364,16 @@
       gl.uniform4fv(p.colour, rgb(layer.colour).concat(1));
       gl.uniform4fv(p.missing, rgb(data.missing).concat(1));
       gl.uniform1i(p.kind, made.corners ? 1 : 0);
-      var mode = layer.pixels ? 0 : paint === "height" ? 2 : values ? 1 : 0;
+      var mode = layer.pixels ? 0 : paint === "rise" ? 2 : values ? 1 : 0;
       gl.uniform1i(p.paint, mode);
-      var up = data.basis[2], h = heights();
+      var up = data.rise, h = heights();
       gl.uniform3f(p.up, dot(up, [m[0], m[1], m[2]]), dot(up, [m[4], m[5], m[6]]), dot(up, [m[8], m[9], m[10]]));
       gl.uniform2f(p.heights, h[0] - dot(up, [m[12], m[13], m[14]]), h[1]);
       gl.uniform1f(p.pixels, layer.pixels ? layer.pixels * ratio : 1.25 * ratio * size);
       var metre = ph / 2 / FIELD / (c.flat ? look.distance : 1);
       gl.uniform1f(p.metres, layer.pixels ? 0 : 1.25 * size * layer.shape.spacing * metre);
+      // what has values lies over what it is compared with
+      gl.uniform1f(p.nearer, values ? Math.abs(c.lens[10]) * 2 * layer.shape.spacing : 0);
       gl.uniform1f(p.most, data.most_mm || 1);
       gl.uniform1f(p.state, data.states > 1 ? state : 0);
       gl.uniform1f(p.top, top);
@@ -366,7 +383,7 @@
     }
 
     function heights() {
-      var up = data.basis[2], low = Infinity, high = -Infinity;
+      var up = data.rise, low = Infinity, high = -Infinity;
       data.layers.forEach(function (layer, k) {
         if (!layer.shape || layer.pixels || !shown[k]) { return; }
         ends(layer).forEach(function (p) { low = Math.min(low, dot(up, p)); high = Math.max(high, dot(up, p)); });
@@ -375,7 +392,7 @@
     }
 
     function light(c, pw, ph) {
-      var p = gpu.light, radius = 1.1 * ratio;
+      var p = gpu.light;
       gl.viewport(0, 0, pw, ph);
       gl.useProgram(p.id);
       gl.depthFunc(gl.ALWAYS);
@@ -383,7 +400,9 @@
       gl.activeTexture(gl.TEXTURE1); gl.bindTexture(gl.TEXTURE_2D, gpu.depth); gl.uniform1i(p.depth, 1);
       gl.uniform3fv(p.sky, rgb(printing ? "#ffffff" : style("--sky")));
       gl.uniform3fv(p.ground, rgb(printing ? "#ffffff" : style("--ground")));
-      gl.uniform2f(p.step_, radius / pw, radius / ph);
+      gl.uniform2f(p.pixel, 1 / pw, 1 / ph);
+      // the width of a pixel at distance one, and how far neighbours are looked for
+      gl.uniform2f(p.wide, 2 * FIELD / ph / c.away, 3 * ratio);
       gl.uniform3f(p.lens, c.lens[10], c.lens[14], c.flat ? 0 : 1);
       gl.uniform1f(p.strength, SHADE * c.away);
       gl.bindVertexArray(gpu.empty);
@@ -490,6 +509,19 @@
       var to = fitting({ yaw: yaw, pitch: pitch, flat: look.flat });
       picked = null;
       go({ yaw: yaw, pitch: pitch, distance: to.distance, centre: to.centre });
+    }
+
+    /// Where to look from in another state, if not all of it is inside the view as it is.
+    function goalAt(to) {
+      var now = state;
+      state = to;
+      var c = camera(), isOutside = box().all.some(function (p) {
+        var q = apply(c.clip, p);
+        return q[3] <= 0 || Math.abs(q[0]) > q[3] || Math.abs(q[1]) > q[3];
+      });
+      var goal = isOutside ? fitting(look) : null;
+      state = now;
+      return goal;
     }
 
     var VIEWS = {
@@ -600,7 +632,11 @@
         if (d.state) {
           var from = state, to = Number(d.state);
           pressed("[data-state]", function (b) { return b === button; });
-          run(600, function (s) { state = from + s * (to - from); });
+          var was = look.centre, far = look.distance, goal = goalAt(to);
+          run(600, function (s) {
+            state = from + s * (to - from);
+            if (goal) { look.centre = add(was, add(goal.centre, was, -1), s); look.distance = far * Math.pow(goal.distance / far, s); }
+          });
         }
       });
     });
