@@ -339,8 +339,8 @@ pub struct Reading {
 The page needs neither a network nor anything beside it. Every file is a layer that can be switched\n\
 off. Scans lie in their own frame, which is the camera's. Two kinds of JSON files move them, and the\n\
 page says so: an answer of `handeye register --json` moves the first scan into the second, and one\n\
-eye-to-hand calibration.json moves all scans into the frame of the robot's base. Of more than 150 000\n\
-points that many are shown, evenly spread in space."
+eye-to-hand calibration.json moves all scans into the frame of the robot's base. At most\n\
+150 000 points of a scan are shown, and 500 000 of all, evenly spread in space."
 )]
 pub struct ViewArgs {
     /// Scans, a calibration.json, an answer of `handeye register --json`.

@@ -46,8 +46,6 @@ fn folder() -> Folder {
     folder
 }
 
-const EYE_TO_HAND: &str = "{\"setup\": \"eye-to-hand\", \"pairs\": PAIRS}";
-
 /// The answer of `solve` on exact pairs, which is a calibration.
 fn calibration(folder: &Folder, setup: &str) -> String {
     let x = Isometry3::new([0.5, 0.1, 1.2].into(), [3.0, 0.1, 0.2].into());
@@ -162,6 +160,29 @@ fn a_registration_moves_the_first_scan_and_an_eye_to_hand_calibration_all() {
     let apart = notes(&["source.pcd", "in-hand.json"]);
     assert!(apart.contains("means nothing"), "{apart}");
     assert_eq!(notes(&["in-hand.json"]), "[]");
+}
+
+#[test]
+fn a_depth_image_is_viewed_with_its_intrinsics() {
+    let folder = Folder::new();
+    let depth = vec![8000u16; 240 * 180];
+    image::ImageBuffer::<image::Luma<u16>, Vec<u16>>::from_raw(240, 180, depth)
+        .unwrap()
+        .save(folder.0.join("depth.png"))
+        .unwrap();
+    folder.put(
+        "camera.json",
+        "{\"camera_matrix\": [[240, 0, 119.5], [0, 240, 89.5], [0, 0, 1]], \"dist_coeffs\": [0, 0, 0, 0, 0]}",
+    );
+    let missing = handeye(&folder, &["view", "depth.png"]);
+    assert_eq!(missing.code, 1);
+    assert!(missing.stderr.contains("--camera is missing"), "{}", missing.stderr);
+    let run = handeye(
+        &folder,
+        &["view", "depth.png", "--camera", "camera.json", "--depth-scale", "0.0001", "--json"],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(run.json()["layers"][0]["points"], 240 * 180);
 }
 
 #[test]

@@ -133,7 +133,7 @@ fn view(r: &Registration, gaps: &Gaps) -> String {
     let share = |all: &[f32]| all.iter().map(|g| g / r.gate_m as f32).collect();
     let shares = [share(&gaps.before), share(&gaps.after)];
     let target = Layer::new(&format!("target: {}", r.target.name), colours::QUIET)
-        .with(Packed::cloud(r.target.points));
+        .with(Packed::cloud(r.target.points, MOST_POINTS));
     let source = Layer::new(&format!("source: {}", r.source.name), AFTER)
         .with(Packed::valued(&gaps.points, gaps.of, &shares))
         .placed(&[r.start, r.found.target_from_source]);

@@ -5,7 +5,7 @@ use nalgebra::Isometry3;
 
 use super::{
     cell, colours, escape, page,
-    scene::{Axes, Layer, Packed, Scene, grouped},
+    scene::{Axes, Layer, MOST_OF_ALL, MOST_POINTS, Packed, Scene, grouped},
     section, warnings,
 };
 
@@ -70,8 +70,10 @@ pub fn shown_html(shown: &Shown) -> (String, Vec<ThingCount>) {
     let (mut layers, mut counts) = (vec![], vec![]);
     let several =
         shown.things.iter().filter(|t| matches!(t, Thing::Calibration { .. })).count() > 1;
+    let clouds = shown.things.iter().filter(|t| matches!(t, Thing::Cloud { .. })).count();
+    let most = MOST_POINTS.min(MOST_OF_ALL / clouds.max(1));
     for (k, thing) in shown.things.iter().enumerate() {
-        let made = thing.layers(colours::LAYERS[k % colours::LAYERS.len()], several);
+        let made = thing.layers(colours::LAYERS[k % colours::LAYERS.len()], several, most);
         let count = |layer: &Layer| {
             layer.count().map(|(of, shown)| ThingCount { name: thing.name().into(), of, shown })
         };
@@ -108,10 +110,10 @@ impl Thing<'_> {
         }
     }
 
-    fn layers(&self, colour: &str, is_named: bool) -> Vec<Layer> {
+    fn layers(&self, colour: &str, is_named: bool, most: usize) -> Vec<Layer> {
         match self {
             Self::Cloud { name, points, place } => {
-                vec![Layer::new(name, colour).with(Packed::cloud(points)).placed(&[*place])]
+                vec![Layer::new(name, colour).with(Packed::cloud(points, most)).placed(&[*place])]
             }
             Self::Mesh { name, vertices, triangles, place } => {
                 let mesh = Packed::mesh(vertices, triangles);

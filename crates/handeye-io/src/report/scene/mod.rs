@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
 
 pub use self::{
-    pack::{MOST_POINTS, Packed},
+    pack::{MOST_OF_ALL, MOST_POINTS, Packed},
     thin::thin,
 };
 use super::{
@@ -161,7 +161,7 @@ impl Layer {
 
     /// Points that stand for something, as discs of so many pixels.
     pub fn dots(&mut self, points: &[[f32; 3]], pixels: f64) {
-        (self.shape, self.pixels) = (Packed::cloud(points), Some(pixels));
+        (self.shape, self.pixels) = (Packed::cloud(points, MOST_POINTS), Some(pixels));
     }
 
     /// A line through points, m.
@@ -213,7 +213,7 @@ pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k) % 3 == 0 {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
             text.push('\u{202f}');
         }
         text.push(digit);
@@ -351,7 +351,7 @@ mod tests {
 
     fn cloud() -> Layer {
         Layer::new("a <cloud>", colours::LAYERS[0])
-            .with(Packed::cloud(&[[0.0, 0.0, 1.0], [0.1, 0.0, 1.0]]))
+            .with(Packed::cloud(&[[0.0, 0.0, 1.0], [0.1, 0.0, 1.0]], 9))
     }
 
     fn scene(layers: Vec<Layer>) -> Scene {

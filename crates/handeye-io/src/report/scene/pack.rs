@@ -8,8 +8,10 @@ use serde::Serialize;
 use super::thin::{Cubes, thin};
 use crate::report::base64::base64;
 
-/// Most points of a cloud in a page; four of them make a page of 5 MB.
+/// Most points of a cloud in a page: 1.2 MB.
 pub const MOST_POINTS: usize = 150_000;
+/// Most points of all clouds in a page: 4 MB.
+pub const MOST_OF_ALL: usize = 500_000;
 /// Most triangles of a mesh in a page.
 pub const MOST_TRIANGLES: usize = 100_000;
 /// The last step.
@@ -53,10 +55,10 @@ struct Corners {
 }
 
 impl Packed {
-    /// A cloud; `None` without points.
-    pub fn cloud(points: &[[f32; 3]]) -> Option<Self> {
+    /// A cloud, of which at most so many points stay; `None` without points.
+    pub fn cloud(points: &[[f32; 3]], most: usize) -> Option<Self> {
         let of = points.iter().filter(|p| p.iter().all(|x| x.is_finite())).count();
-        let kept = thin(points, MOST_POINTS);
+        let kept = thin(points, most);
         let kept: Vec<[f32; 3]> = kept.into_iter().map(|k| points[k as usize]).collect();
         Self::places(&kept, of)
     }
@@ -237,7 +239,7 @@ mod tests {
     #[test]
     fn places_come_back_to_a_part_in_65_thousand_of_the_box() {
         let points = [[0.0, -2.0, 5.0], [1.0, 2.0, 5.0], [0.3, 1.7, 5.0]];
-        let packed = Packed::cloud(&points).unwrap();
+        let packed = Packed::cloud(&points, 9).unwrap();
         assert_eq!((packed.count, packed.low, packed.step[2]), (3, [0.0, -2.0, 5.0], 0.0));
         assert_eq!(packed.cells.len(), 24);
         assert!(packed.step[1] * STEPS - 4.0 < 1e-12);
@@ -264,6 +266,6 @@ mod tests {
         let packed = Packed::mesh(&vertices, &triangles).unwrap();
         assert_eq!((packed.shown(), packed.of), (8, 9));
         assert!(Packed::mesh(&vertices, &[]).is_none());
-        assert!(Packed::cloud(&[[f32::NAN; 3]]).is_none());
+        assert!(Packed::cloud(&[[f32::NAN; 3]], 9).is_none());
     }
 }

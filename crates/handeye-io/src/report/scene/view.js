@@ -1,6 +1,6 @@
 // The 3D view: lines, clouds and meshes by WebGL 2, without a library. It is drawn only when something
 // changes. Clouds and meshes go into a picture with depth first, which is then shaded where neighbouring
-// pixels lie nearer (eye-dome lighting, C. Boucheny, 2009); lines and labels are drawn over it.
+// pixels lie nearer (after eye-dome lighting, C. Boucheny, 2009); lines and labels are drawn over it.
 (function () {
   "use strict";
   var FIELD = Math.tan(17 * Math.PI / 180); // half the height of the view, at distance one
@@ -38,7 +38,7 @@
     "  colour = shade;",
     "  if (kind == 1) {",
     "    vec3 n = normalize(cross(dFdx(place), dFdy(place)));",
-    "    float light = 0.42 + 0.5 * abs(dot(n, normalize(vec3(0.25, 0.45, 0.85)))) + 0.1 * abs(n.z);",
+    "    float light = 0.76 + 0.3 * abs(dot(n, normalize(vec3(0.25, 0.45, 0.85))));",
     "    colour = vec4(shade.rgb * light, 1.0);",
     "  } else {",
     "    vec2 d = gl_PointCoord - 0.5;",
@@ -54,15 +54,16 @@
     "uniform vec3 sky, ground, lens; uniform vec2 pixel, wide; uniform float strength; out vec4 colour;",
     // the distance before the eye, from the depth: lens is the third row of the projection, and whether it is one
     "float away(vec2 p) { float z = 2.0 * texture(depth, p).r - 1.0; return lens.z > 0.5 ? lens.y / (z + lens.x) : (z - lens.y) / -lens.x; }",
-    // how much of a ring of neighbours is nearer
+    // how far opposite neighbours, taken together, lie nearer: none on planes, however they lean
+    "float near(vec2 p, float d) { return texture(depth, p).r < 1.0 ? 1.0 - away(p) / d : 0.0; }",
     "float ring(float d, float radius) {",
     "  float sum = 0.0;",
-    "  for (int k = 0; k < 8; k++) {",
+    "  for (int k = 0; k < 4; k++) {",
     "    float a = (float(k) + 0.5) * 0.7853981634;",
-    "    vec2 p = at + radius * pixel * vec2(cos(a), sin(a));",
-    "    if (texture(depth, p).r < 1.0) { sum += min(1.0, strength / radius * max(0.0, 1.0 - away(p) / d)); }",
+    "    vec2 way = radius * pixel * vec2(cos(a), sin(a));",
+    "    sum += clamp(strength / radius * (near(at + way, d) + near(at - way, d)), 0.0, 1.0);",
     "  }",
-    "  return sum / 8.0;",
+    "  return sum / 4.0;",
     "}",
     // how far the surface leans away from the light, by the slope of the depth; nothing is said across edges
     "float slope(float d, vec2 way) {",
@@ -669,7 +670,7 @@
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ask);
     window.addEventListener("beforeprint", function () { printing = true; draw(); });
     window.addEventListener("afterprint", function () { printing = false; draw(); });
-    new ResizeObserver(ask).observe(canvas);
+    new ResizeObserver(draw).observe(canvas); // before it is painted, so never stretched
     build();
     draw();
   });
