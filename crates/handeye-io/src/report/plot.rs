@@ -18,6 +18,8 @@ const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 190.0;
 const LEFT: f64 = 46.0;
 const BOTTOM: f64 = 34.0;
+/// Half a number at the end of an axis.
+const RIGHT: f64 = 14.0;
 const TOP: f64 = 22.0;
 
 /// Bars side by side, with a scale.
@@ -123,7 +125,7 @@ pub struct Series<'a> {
     pub name: &'a str,
     /// Of its area and its line.
     pub colour: &'a str,
-    /// Positive ones; others go to where the axis begins.
+    /// Positive ones; those below the axis are not drawn.
     pub values: &'a [f64],
 }
 
@@ -142,18 +144,18 @@ pub fn histogram(all: &[Series], most: f64, unit: &str) -> String {
         return String::new();
     }
     let count = ((high - low) * BINS).ceil() as usize;
-    let bin = |v: f64| {
-        let place = (v.max(f64::MIN_POSITIVE).log10() - low) / (high - low);
-        ((place * count as f64) as usize).min(count - 1)
+    let bin = |v: &f64| {
+        let place = (v.log10() - low) / (high - low) * count as f64;
+        (place >= 0.0).then(|| (place as usize).min(count - 1))
     };
     let shares = |series: &Series| {
         let mut shares = vec![0.0f64; count];
-        series.values.iter().for_each(|v| shares[bin(*v)] += 1.0);
+        series.values.iter().filter_map(bin).for_each(|k| shares[k] += 1.0);
         let highest = shares.iter().copied().fold(1.0, f64::max);
         shares.iter().map(|share| share / highest).collect()
     };
     let shares: Vec<Vec<f64>> = all.iter().map(shares).collect();
-    let x = |at: f64| LEFT + (WIDTH - LEFT) * (at - low) / (high - low);
+    let x = |at: f64| LEFT + (WIDTH - LEFT - RIGHT) * (at - low) / (high - low);
     let y = |share: f64| HEIGHT - BOTTOM - share * (HEIGHT - BOTTOM - TOP - 8.0);
     let mut svg = format!("<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\">");
     svg += &decades(low, most, unit, &x);

@@ -7,6 +7,10 @@
 const FILLED: f64 = 0.93;
 /// Most sizes of cubes that are tried.
 const MOST_TRIES: usize = 10;
+/// Of so many cubes one is counted, whichever its number says; their sizes are tried on those.
+const COUNTED: f64 = 16.0;
+/// Where the count of some has misled, cubes are larger by this factor.
+const LARGER: f64 = 1.02;
 /// Bits of a cube's number along an axis.
 const BITS: u32 = 21;
 
@@ -15,7 +19,13 @@ pub fn thin(points: &[[f32; 3]], most: usize) -> Vec<u32> {
     let is_finite = |k: &u32| points[*k as usize].iter().all(|x| x.is_finite());
     let mut all: Vec<u32> = (0..points.len() as u32).filter(is_finite).collect();
     if all.len() > most {
-        all = Cubes::of(points, &all, most).middles(points, &all);
+        let mut cubes = Cubes::of(points, &all, most);
+        let mut kept = cubes.middles(points, &all);
+        while kept.len() > most {
+            cubes.edge *= LARGER;
+            kept = cubes.middles(points, &all);
+        }
+        all = kept;
     }
     let at = |k: &u32| points[*k as usize].map(ordered);
     all.sort_unstable_by_key(|k| (at(k), *k));
@@ -35,14 +45,14 @@ pub struct Cubes {
 }
 
 impl Cubes {
-    /// The smallest ones of which no more than `most` hold points.
+    /// The smallest ones of which about `most` hold points, and hardly more.
     fn of(points: &[[f32; 3]], all: &[u32], most: usize) -> Self {
         let (low, extent) = extent(points, all);
         let wanted = most.max(1) as f64;
         let (mut small, mut large) = (extent / f64::from(1u32 << BITS), extent * 1.01);
         let mut edge = extent / wanted.sqrt();
         for _ in 0..MOST_TRIES {
-            let count = Self { low, edge }.count(points, all) as f64;
+            let count = Self { low, edge }.count(points, all);
             if count > wanted {
                 small = edge;
             } else {
@@ -77,11 +87,15 @@ impl Cubes {
         (number, off)
     }
 
-    fn count(&self, points: &[[f32; 3]], all: &[u32]) -> usize {
-        let mut numbers: Vec<u64> = all.iter().map(|k| self.cube(&points[*k as usize]).0).collect();
+    /// About how many hold points.
+    fn count(&self, points: &[[f32; 3]], all: &[u32]) -> f64 {
+        let number = |k: &u32| self.cube(&points[*k as usize]).0;
+        // the golden ratio spreads numbers over all of 64 bits, of which the first four are zero in one of 16
+        let is_counted = |number: &u64| number.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 60 == 0;
+        let mut numbers: Vec<u64> = all.iter().map(number).filter(is_counted).collect();
         numbers.sort_unstable();
         numbers.dedup();
-        numbers.len()
+        COUNTED * numbers.len() as f64
     }
 
     fn middles(&self, points: &[[f32; 3]], all: &[u32]) -> Vec<u32> {
