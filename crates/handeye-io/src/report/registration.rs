@@ -167,7 +167,7 @@ fn distances(r: &Registration, gaps: &Gaps) -> String {
     };
     let of = gaps.points.len();
     format!(
-        "{}<div class=\"scroll\"><table><tr><th></th><th>median</th><th>RMS</th><th>95 %</th><th>99 %</th>\
+        "<div class=\"scroll\">{}</div><div class=\"scroll\"><table><tr><th></th><th>median</th><th>RMS</th><th>95 %</th><th>99 %</th>\
          <th>with a counterpart</th></tr>{}{}</table></div><p class=\"note\">Of {} points of the source, evenly \
          spread in space: how far each lies from the plane through the target's points around the nearest \
          one. Points farther than {:.0} mm, and those beside the rim of the target, have no counterpart. The \

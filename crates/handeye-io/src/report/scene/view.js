@@ -441,6 +441,8 @@
       context.setTransform(dense, 0, 0, dense, 0, 0);
       context.font = "12px system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif";
       context.lineJoin = "round";
+      // browsers print this canvas, and not all of them the other
+      if (printing) { context.drawImage(canvas, 0, 0, w, h); }
       var ink = printing ? "#1c2430" : style("--ink"), soft = printing ? "#5b6675" : style("--soft"), halo = printing ? "#ffffff" : style("--sky");
       function words(text, x, y, colour) {
         context.strokeStyle = halo; context.lineWidth = 3.5; context.strokeText(text, x, y);
