@@ -335,12 +335,13 @@ pub struct Reading {
 /// Arguments of `view`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye view scan.ply\n  handeye view a.ply b.ply --out both.html\n  handeye view scan.ply result/calibration.json\n  handeye register a.ply b.ply --json > found.json; handeye view a.ply b.ply found.json\n\n\
-The page needs neither a network nor anything beside it. Every file is a layer that can be switched\n\
-off. Scans lie in their own frame, which is the camera's. Two kinds of JSON files move them, and the\n\
-page says so: an answer of `handeye register --json` moves the first scan into the second, and one\n\
-eye-to-hand calibration.json moves all scans into the frame of the robot's base. At most\n\
-150 000 points of a scan are shown, and 500 000 of all, evenly spread in space."
+    after_help = "Examples:\n  handeye view scan.ply\n  handeye view a.ply b.ply --out both.html\n  handeye view scan.ply result/calibration.json\n  handeye register a.ply b.ply --json > found.json\n  handeye view a.ply b.ply found.json\n\n\
+The page needs neither a network nor anything beside it. Every file is a layer\n\
+that can be switched off. Scans lie in their own frame, which is the camera's.\n\
+Two kinds of JSON files move them, and the page says so: an answer of\n\
+`handeye register --json` moves the first scan into the second, and one\n\
+eye-to-hand calibration.json moves all scans into the frame of the robot's base.\n\
+At most 150 000 points of a scan are shown, and 500 000 of all, evenly spread."
 )]
 pub struct ViewArgs {
     /// Scans, a calibration.json, an answer of `handeye register --json`.

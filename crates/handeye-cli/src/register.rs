@@ -1,6 +1,11 @@
 //! `handeye register`: where one scan lies in another.
 
-use std::{fs, path::Path, thread, time::Instant};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    thread,
+    time::Instant,
+};
 
 use handeye::{
     Scan, Verdict, Warning,
@@ -84,6 +89,10 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     if args.max_iterations == 0 {
         return Err(Failure::Usage("--max-iterations must be positive".into()));
     }
+    let inputs = [Some(&args.source), Some(&args.target), args.initial.as_ref()];
+    if let Some(page) = &args.report {
+        is_no_input(page, inputs.into_iter().flatten())?;
+    }
     let (method, name) = method(&args.method)?;
     let start = args.initial.as_deref().map_or(Ok(Isometry3::identity()), initial)?;
     let mut warnings = vec![];
@@ -137,6 +146,19 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         eprintln!("report: {}", page.display());
     }
     Ok(if answer.verdict == Verdict::Accepted { 0 } else { 3 })
+}
+
+/// A page that would take the place of what it shows is refused.
+pub fn is_no_input<'a>(
+    page: &Path,
+    mut inputs: impl Iterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    let Ok(there) = page.canonicalize() else { return Ok(()) };
+    if inputs.any(|input| input.canonicalize().is_ok_and(|input| input == there)) {
+        let what = format!("{} would be written over: name another page", page.display());
+        return Err(Failure::Usage(what));
+    }
+    Ok(())
 }
 
 /// A file's name without its folder.

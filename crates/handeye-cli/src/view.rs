@@ -63,6 +63,7 @@ struct Layer {
 }
 
 pub fn run(args: &ViewArgs, manners: &Manners) -> Result<u8, Failure> {
+    register::is_no_input(&args.out, args.files.iter())?;
     let (mut contents, mut warnings) = (vec![], vec![]);
     for path in &args.files {
         contents.push(read(path, &args.reading, &mut warnings)?);

@@ -67,9 +67,7 @@ fn calibration(folder: &Folder, setup: &str) -> String {
                "camera_from_target": pose(&camera_from_target)})
     };
     let pairs: Vec<Value> = (0..12).map(pair).collect();
-    let text =
-        EYE_TO_HAND.replace("eye-to-hand", setup).replace("PAIRS", &json!(pairs).to_string());
-    folder.put("pairs.json", &text);
+    folder.put("pairs.json", &json!({"setup": setup, "pairs": pairs}).to_string());
     let run = handeye(folder, &["solve", "pairs.json", "--json"]);
     assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
     run.stdout
@@ -160,6 +158,21 @@ fn a_registration_moves_the_first_scan_and_an_eye_to_hand_calibration_all() {
     let apart = notes(&["source.pcd", "in-hand.json"]);
     assert!(apart.contains("means nothing"), "{apart}");
     assert_eq!(notes(&["in-hand.json"]), "[]");
+}
+
+#[test]
+fn no_page_takes_the_place_of_what_it_shows() {
+    let folder = folder();
+    let before = folder.read("source.pcd");
+    for command in [
+        ["view", "source.pcd", "target.pcd", "--out", "./source.pcd"],
+        ["register", "source.pcd", "target.pcd", "--report", "./source.pcd"],
+    ] {
+        let run = handeye(&folder, &command);
+        assert_eq!(run.code, 2, "{command:?}: {}", run.stderr);
+        assert!(run.stderr.contains("would be written over"), "{}", run.stderr);
+    }
+    assert!(before == folder.read("source.pcd"));
 }
 
 #[test]
