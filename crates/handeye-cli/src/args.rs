@@ -56,7 +56,7 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Register one scan to another: ICP with a covariance and a verdict.
     Register(RegisterArgs),
-    /// Write a page that shows scans, calibrations and registrations in 3D.
+    /// Write a page that shows scans, meshes, calibrations and registrations in 3D.
     View(ViewArgs),
     /// Find the target's corners in pictures.
     Detect(DetectArgs),
@@ -288,15 +288,16 @@ pub struct DetectArgs {
 /// Arguments of `register`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n  handeye register scan.ply reference.ply --report registration.html\n\n\
+    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register scan.zdf part.stl --length-unit mm\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n  handeye register scan.ply reference.ply --report registration.html\n\n\
 target_from_source takes points of SOURCE into TARGET; so does --initial, and the answer contains it.\n\
 guess.json: {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}, or a matrix of 4 rows.\n\n\
 Exit code 0: accepted; 3: rejected, or not determined by what both scans show."
 )]
 pub struct RegisterArgs {
-    /// The scan to be moved: PLY, PCD, NPY, NPZ, or depth in PNG or TIFF.
+    /// The scan to be moved: PLY, PCD, E57, ZDF, XYZ, TXT, CSV, ASC, PTS, NPY, NPZ, or depth in PNG or TIFF;
+    /// or a mesh: STL, OBJ, PLY with faces.
     pub source: PathBuf,
-    /// The scan that stays.
+    /// The scan or mesh that stays.
     pub target: PathBuf,
     /// auto (symmetric), point-to-point, point-to-plane or gicp.
     #[arg(long, default_value = "auto")]
@@ -321,7 +322,8 @@ pub struct RegisterArgs {
 /// What files of scans do not say.
 #[derive(Args)]
 pub struct Reading {
-    /// Unit of the points [default: mm for scans wider than 20 units, else m].
+    /// Unit of the points, where the file does not say it (E57 and ZDF do) [default: mm for what is wider than
+    /// 20 units, else m].
     #[arg(long)]
     pub length_unit: Option<Length>,
     /// Metres per unit of a depth image, such as 0.001.
@@ -335,7 +337,7 @@ pub struct Reading {
 /// Arguments of `view`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye view scan.ply\n  handeye view a.ply b.ply --out both.html\n  handeye view scan.ply result/calibration.json\n  handeye register a.ply b.ply --json > found.json\n  handeye view a.ply b.ply found.json\n\n\
+    after_help = "Examples:\n  handeye view scan.ply\n  handeye view scan.zdf part.stl --length-unit mm --out both.html\n  handeye view scan.ply result/calibration.json\n  handeye register a.ply b.ply --json > found.json\n  handeye view a.ply b.ply found.json\n\n\
 The page needs neither a network nor anything beside it. Every file is a layer\n\
 that can be switched off. Scans lie in their own frame, which is the camera's.\n\
 Two kinds of JSON files move them, and the page says so: an answer of\n\
@@ -344,7 +346,8 @@ eye-to-hand calibration.json moves all scans into the frame of the robot's base.
 At most 150 000 points of a scan are shown, and 500 000 of all, evenly spread."
 )]
 pub struct ViewArgs {
-    /// Scans, a calibration.json, an answer of `handeye register --json`.
+    /// Scans and meshes as `register` reads them, a calibration.json, an answer of `handeye register
+    /// --json`.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// The page; one that is there is written over.

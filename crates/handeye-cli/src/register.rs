@@ -1,4 +1,4 @@
-//! `handeye register`: where one scan lies in another.
+//! `handeye register`: where one scan lies in another, or in a mesh.
 
 use std::{
     fs,
@@ -8,14 +8,14 @@ use std::{
 };
 
 use handeye::{
-    Scan, Verdict, Warning,
+    Scan, TriangleMesh, Verdict, Warning,
     calibration::{Rows, rows},
     register::{Dense, DenseConfig, DenseMethod, Stop, Surface, register_surfaces},
 };
 use handeye_io::{
-    Error, ScanOptions, read_intrinsics, read_scan,
+    Error, ScanOptions, is_mesh, read_intrinsics, read_mesh, read_scan,
     report::{NamedCloud, Registration, registration_html},
-    scan_size,
+    scan_size, scan_unit,
     units::LengthUnit,
     write_atomically,
 };
@@ -30,6 +30,11 @@ use crate::{
 
 /// A scan that is wider than this, in its own unit, is taken to be in millimetres.
 const WIDEST_M: f64 = 20.0;
+/// Points that are laid over a mesh: about as many as a scan has. More would hardly make the pieces of
+/// its surface smaller.
+const POINTS_ON_MESH: f64 = 3e5;
+/// Finer than this, m, no camera tells points apart.
+const FINEST_SPACING_M: f64 = 2e-4;
 /// Rotations may be off by so much from one of length one.
 const ROUNDED: f64 = 1e-3;
 
@@ -134,7 +139,7 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         });
         write_atomically(page, html.as_bytes())?;
     }
-    let points = [&source, &target].map(|scan| seen(scan).count());
+    let points = [&source, &target].map(|scan| seen(scan.points()).count());
     let answer = answer(&found, name, points, seconds, warnings);
     if manners.json {
         output::json(&answer);
@@ -213,13 +218,27 @@ pub fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
     Ok(Isometry3::from_parts(Translation3::from(nalgebra::Vector3::from(t)), rotation))
 }
 
-/// Reads a scan, in the unit that was said or that its width tells.
-pub fn read(path: &Path, args: &Reading, warnings: &mut Vec<Warning>) -> Result<Scan, Failure> {
+/// Reads a scan, or a mesh as points laid over it, in the unit that was said or that its width tells.
+fn read(path: &Path, args: &Reading, warnings: &mut Vec<Warning>) -> Result<Scan, Failure> {
+    if !is_mesh(path) {
+        return read_points(path, args, warnings);
+    }
+    let mesh = read_triangles(path, args, warnings)?;
+    let spacing = (mesh.area_m2() / POINTS_ON_MESH).sqrt().max(FINEST_SPACING_M);
+    mesh.sampled(spacing).map_err(|error| Failure::input(path, error.to_string()))
+}
+
+/// Reads a scan.
+pub fn read_points(
+    path: &Path,
+    args: &Reading,
+    warnings: &mut Vec<Warning>,
+) -> Result<Scan, Failure> {
     let intrinsics = match &args.camera {
         Some(camera) => Some(read_intrinsics(camera, None, scan_size(path)?)?),
         None => None,
     };
-    let unit = args.length_unit.map(LengthUnit::from);
+    let unit = scan_unit(path).or(args.length_unit.map(LengthUnit::from));
     let options = ScanOptions {
         length_unit: unit.or(intrinsics.is_none().then_some(LengthUnit::Metre)),
         depth_scale: args.depth_scale,
@@ -228,21 +247,47 @@ pub fn read(path: &Path, args: &Reading, warnings: &mut Vec<Warning>) -> Result<
     };
     let scan = read_scan(path, &options).map_err(undeclared)?;
     // what a depth image says of its unit, its scale says
-    if unit.is_some() || intrinsics.is_some() || width(&scan) <= WIDEST_M {
+    if unit.is_some() || intrinsics.is_some() || !is_in_millimetres(scan.points(), path, warnings) {
         return Ok(scan);
+    }
+    Scan::new(scan.width(), scan.height(), from_millimetres(scan.points()))
+        .ok_or_else(|| Failure::input(path, "has no points"))
+}
+
+/// Reads a mesh.
+pub fn read_triangles(
+    path: &Path,
+    args: &Reading,
+    warnings: &mut Vec<Warning>,
+) -> Result<TriangleMesh, Failure> {
+    let unit = args.length_unit.map(LengthUnit::from);
+    let mesh = read_mesh(path, Some(unit.unwrap_or(LengthUnit::Metre)))?;
+    if unit.is_some() || !is_in_millimetres(mesh.vertices(), path, warnings) {
+        return Ok(mesh);
+    }
+    TriangleMesh::new(from_millimetres(mesh.vertices()), mesh.triangles().to_vec())
+        .map_err(|error| Failure::input(path, error.to_string()))
+}
+
+/// Points too far apart for metres are in millimetres, and that is said.
+fn is_in_millimetres(points: &[[f32; 3]], path: &Path, warnings: &mut Vec<Warning>) -> bool {
+    let width = width(points);
+    if width <= WIDEST_M {
+        return false;
     }
     warnings.push(Warning::new(
         "unit-assumed",
         format!(
-            "{}: the points are {:.0} units apart, which is taken for millimetres: say --length-unit m \
-             if they are metres",
-            path.display(),
-            width(&scan)
+            "{}: the points are {width:.0} units apart, which is taken for millimetres: say --length-unit \
+             m if they are metres",
+            path.display()
         ),
     ));
-    let points = scan.points().iter().map(|p| p.map(|x| x * 1e-3)).collect();
-    Scan::new(scan.width(), scan.height(), points)
-        .ok_or_else(|| Failure::input(path, "has no points"))
+    true
+}
+
+fn from_millimetres(points: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    points.iter().map(|p| p.map(|x| x * 1e-3)).collect()
 }
 
 /// Names the option where a manifest would have a key.
@@ -259,15 +304,15 @@ fn undeclared(error: Error) -> Failure {
     )
 }
 
-fn seen(scan: &Scan) -> impl Iterator<Item = &[f32; 3]> {
-    scan.points().iter().filter(|p| p[0].is_finite())
+fn seen(points: &[[f32; 3]]) -> impl Iterator<Item = &[f32; 3]> {
+    points.iter().filter(|p| p[0].is_finite())
 }
 
 /// The longest side of a box around most points.
-fn width(scan: &Scan) -> f64 {
-    let count = seen(scan).count();
+fn width(points: &[[f32; 3]]) -> f64 {
+    let count = seen(points).count();
     (0..3).fold(0.0, |widest, axis| {
-        let mut values: Vec<f32> = seen(scan).map(|p| p[axis]).collect();
+        let mut values: Vec<f32> = seen(points).map(|p| p[axis]).collect();
         let high = values.len() - 1 - count / 100;
         let high = *values.select_nth_unstable_by(high, f32::total_cmp).1;
         let low = *values.select_nth_unstable_by(count / 100, f32::total_cmp).1;

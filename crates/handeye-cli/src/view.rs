@@ -5,8 +5,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::{Calibration, Scan, Setup, Verdict, Warning};
+use handeye::{Calibration, Scan, Setup, TriangleMesh, Verdict, Warning};
 use handeye_io::{
+    is_mesh,
     report::{Shown, Thing, ThingCount, shown_html},
     write_atomically,
 };
@@ -21,15 +22,20 @@ use crate::{
     output, register,
 };
 
-/// Files of scans.
-const SCANS: [&str; 7] = ["ply", "pcd", "npy", "npz", "png", "tif", "tiff"];
+/// Files of scans; of the others, meshes are told by themselves.
+const SCANS: [&str; 14] = [
+    "ply", "pcd", "e57", "zdf", "xyz", "txt", "csv", "asc", "pts", "npy", "npz", "png", "tif",
+    "tiff",
+];
 /// What other files are told.
-const KINDS: &str = "what can be viewed is scans (PLY, PCD, NPY, NPZ, depth in PNG and TIFF), the calibration.json \
-                     of `handeye calibrate`, and an answer of `handeye register --json`";
+const KINDS: &str = "what can be viewed is scans (PLY, PCD, E57, ZDF, XYZ, TXT, CSV, ASC, PTS, NPY, NPZ, depth in \
+                     PNG and TIFF), meshes (STL, OBJ, PLY with faces), the calibration.json of `handeye \
+                     calibrate`, and an answer of `handeye register --json`";
 
 /// What a file holds.
 enum Content {
     Scan(Scan),
+    Mesh(TriangleMesh),
     Calibration(Box<Calibration>),
     Registration(Found),
 }
@@ -58,7 +64,8 @@ struct Told<'a> {
 #[derive(Serialize)]
 struct Layer {
     name: String,
-    points: usize,
+    what: &'static str,
+    of: usize,
     shown: usize,
 }
 
@@ -75,9 +82,13 @@ pub fn run(args: &ViewArgs, manners: &Manners) -> Result<u8, Failure> {
         let name = name.clone();
         match content {
             Content::Scan(scan) => {
-                let scans = things.iter().filter(|t| matches!(t, Thing::Cloud { .. })).count();
-                let place = frames.place(scans == 0);
+                let place = frames.place(things.iter().all(is_calibration));
                 things.push(Thing::Cloud { name, points: scan.points(), place });
+            }
+            Content::Mesh(mesh) => {
+                let place = frames.place(things.iter().all(is_calibration));
+                let (vertices, triangles) = (mesh.vertices(), mesh.triangles());
+                things.push(Thing::Mesh { name, vertices, triangles, place });
             }
             Content::Calibration(calibration) => {
                 things.push(Thing::Calibration { name, calibration });
@@ -90,10 +101,14 @@ pub fn run(args: &ViewArgs, manners: &Manners) -> Result<u8, Failure> {
     let (page, counts) =
         shown_html(&Shown { title, things, is_in_base, notes: &notes, warnings: &warnings });
     write_atomically(&args.out, page.as_bytes())?;
-    let layer = |c: ThingCount| Layer { name: c.name, points: c.of, shown: c.shown };
+    let layer = |c: ThingCount| Layer { name: c.name, what: c.what, of: c.of, shown: c.shown };
     let layers = counts.into_iter().map(layer).collect();
     tell(&Told { page: &args.out, layers, notes: &notes, warnings: &warnings }, manners);
     Ok(0)
+}
+
+fn is_calibration(thing: &Thing) -> bool {
+    matches!(thing, Thing::Calibration { .. })
 }
 
 fn tell(told: &Told, manners: &Manners) {
@@ -103,11 +118,11 @@ fn tell(told: &Told, manners: &Manners) {
     output::warn(told.warnings, manners);
     let mut text = String::new();
     for layer in &told.layers {
-        let shown = match layer.shown == layer.points {
+        let shown = match layer.shown == layer.of {
             true => String::new(),
             false => format!("{} of ", layer.shown),
         };
-        text += &format!("{}: {shown}{} points\n", layer.name, layer.points);
+        text += &format!("{}: {shown}{} {}\n", layer.name, layer.of, layer.what);
     }
     text += &told.notes.iter().map(|note| output::wrapped("", note)).collect::<String>();
     output::print(&format!("{text}page: {}\n", told.page.display()));
@@ -118,13 +133,16 @@ fn read(path: &Path, reading: &Reading, warnings: &mut Vec<Warning>) -> Result<C
     if kind == "json" {
         return read_result(path);
     }
+    if is_mesh(path) {
+        return register::read_triangles(path, reading, warnings).map(Content::Mesh);
+    }
     if !SCANS.contains(&kind.as_str()) {
         return Err(Failure::input(
             path,
             format!("files of kind {kind:?} cannot be viewed; {KINDS}"),
         ));
     }
-    register::read(path, reading, warnings).map(Content::Scan)
+    register::read_points(path, reading, warnings).map(Content::Scan)
 }
 
 /// A result of this program, told by its keys.
@@ -183,8 +201,10 @@ impl Frames {
         };
         let names = names(files);
         let named = || names.iter().zip(contents);
-        let scans: Vec<&String> =
-            named().filter(|(_, c)| matches!(c, Content::Scan(_))).map(|(name, _)| name).collect();
+        let scans: Vec<&String> = named()
+            .filter(|(_, c)| matches!(c, Content::Scan(_) | Content::Mesh(_)))
+            .map(|(name, _)| name)
+            .collect();
         let found: Vec<(&String, &Found)> = named()
             .filter_map(|(name, c)| match c {
                 Content::Registration(found) => Some((name, found)),
@@ -198,7 +218,8 @@ impl Frames {
             })
             .collect();
         frames.register(&found, &scans)?;
-        frames.calibrate(&calibrations, scans.len());
+        let has_mesh = contents.iter().any(|c| matches!(c, Content::Mesh(_)));
+        frames.calibrate(&calibrations, scans.len(), has_mesh);
         if frames.notes.is_empty() && scans.len() > 1 {
             frames.notes.push(
                 "every scan lies in its own frame: they show one scene only where the camera stood still, or \
@@ -234,7 +255,12 @@ impl Frames {
     }
 
     /// Moves all scans, where it is known whereto.
-    fn calibrate(&mut self, calibrations: &[(&String, &Calibration)], scans: usize) {
+    fn calibrate(
+        &mut self,
+        calibrations: &[(&String, &Calibration)],
+        scans: usize,
+        has_mesh: bool,
+    ) {
         self.is_in_base = !calibrations.is_empty();
         for (name, c) in calibrations.iter().filter(|(_, c)| c.verdict != Verdict::Accepted) {
             self.notes.push(format!("{name} is shown{}", doubt(c.verdict, &c.reasons)));
@@ -243,6 +269,11 @@ impl Frames {
             return;
         }
         match calibrations {
+            _ if has_mesh => self.notes.push(
+                "a mesh lies in a frame of its own, which is not the camera's: nothing was moved into the frame of \
+                 the robot's base, and how meshes and scans lie to the calibration means nothing"
+                    .into(),
+            ),
             [(name, c)] if c.setup == Setup::EyeToHand => {
                 if let Some(pose) = &c.hand_eye.mount_from_camera {
                     self.base_from_camera = *pose.iso();

@@ -229,3 +229,101 @@ fn what_cannot_be_used_is_named() {
         assert!(run.stderr.contains(named), "{arguments:?}: {}", run.stderr);
     }
 }
+
+/// Blocks on a table: what a drawing of a part has.
+fn blocks() -> Room {
+    let block = |half: [f64; 3], place: [f64; 3], turn: [f64; 3]| Thing {
+        solid: Solid::Block { half },
+        room_from_thing: Isometry3::new(place.into(), turn.into()),
+    };
+    Room {
+        things: vec![
+            block([0.3, 0.25, 0.01], [0.0, 0.0, -0.01], [0.0; 3]),
+            block([0.06, 0.03, 0.04], [-0.1, 0.05, 0.04], [0.0, 0.0, 0.4]),
+            block([0.04, 0.07, 0.06], [0.12, -0.06, 0.05], [0.2, 0.1, -0.5]),
+            block([0.03, 0.03, 0.09], [0.05, 0.13, 0.08], [0.1, -0.3, 0.2]),
+        ],
+    }
+}
+
+/// The sides of all blocks, as two triangles each, in STL (text), mm.
+fn stl(room: &Room) -> String {
+    let mut text = "solid part\n".to_owned();
+    for thing in &room.things {
+        let Solid::Block { half } = thing.solid else { panic!("only blocks") };
+        for (axis, side) in (0..3).flat_map(|axis| [(axis, -1.0), (axis, 1.0)]) {
+            let corner = |(a, b): (f64, f64)| {
+                let mut p = Vector3::zeros();
+                p[axis] = side * half[axis];
+                p[(axis + 1) % 3] = a * half[(axis + 1) % 3];
+                p[(axis + 2) % 3] = b * half[(axis + 2) % 3];
+                thing.room_from_thing.transform_point(&p.into()) * 1000.0
+            };
+            let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner);
+            for k in [[0, 1, 2], [0, 2, 3]] {
+                text += "facet normal 0 0 0\nouter loop\n";
+                for c in k.map(|k| corners[k]) {
+                    writeln!(text, "vertex {} {} {}", c.x, c.y, c.z).unwrap();
+                }
+                text += "endloop\nendfacet\n";
+            }
+        }
+    }
+    text + "endsolid part\n"
+}
+
+#[test]
+fn a_scan_is_registered_to_a_mesh_of_what_it_shows() {
+    let room = blocks();
+    let place = Isometry3::new([0.02, -0.03, 0.8].into(), [PI, 0.0, 0.0].into())
+        * Isometry3::new(Vector3::zeros(), [0.1, 0.2, 0.05].into());
+    let camera = Intrinsics::pinhole(480, 360, 480.0, 480.0, 239.5, 179.5);
+    let scan = room.scan(&place, &camera, 2e-4, &mut Random::new(5));
+    let folder = Folder::new();
+    folder.put("part.stl", &stl(&room));
+    folder.put("scan.pcd", &pcd(&scan, 1.0, true));
+    let seen = scan.points().iter().filter(|p| p[0].is_finite());
+    let lines: String = seen.map(|p| format!("{};{};{}\n", p[0], p[1], p[2])).collect();
+    folder.put("scan.csv", &format!("x_m;y_m;z_m\n{lines}"));
+    let guess = place * Isometry3::new([0.01, -0.008, 0.012].into(), [0.02, -0.03, 0.02].into());
+    let m = guess.to_homogeneous();
+    let rows: Vec<Vec<f64>> = (0..4).map(|i| (0..4).map(|j| m[(i, j)]).collect()).collect();
+    folder.put("guess.json", &json!(rows).to_string());
+    for (scan, unit) in [("scan.pcd", None), ("scan.csv", Some("mm"))] {
+        let mut arguments = vec!["register", scan, "part.stl", "--initial", "guess.json", "--json"];
+        arguments.extend(unit.map(|unit| ["--length-unit", unit]).into_iter().flatten());
+        let run = handeye(&folder, &arguments);
+        assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+        let answer = run.json();
+        let (degrees, mm) = errors(&place, &found(&answer));
+        assert!(degrees < 0.05 && mm < 0.3, "{scan}: {degrees} deg, {mm} mm");
+        let warned = answer["warnings"].as_array().unwrap();
+        assert_eq!(warned.iter().any(|w| w["code"] == "unit-assumed"), unit.is_none());
+        let points = answer["points"][1].as_u64().unwrap();
+        assert!((200_000..=300_000).contains(&points), "{points}");
+    }
+    // the other way round
+    let back: Vec<Vec<f64>> = {
+        let m = guess.inverse().to_homogeneous();
+        (0..4).map(|i| (0..4).map(|j| m[(i, j)]).collect()).collect()
+    };
+    folder.put("back.json", &json!(back).to_string());
+    let arguments = ["register", "part.stl", "scan.pcd", "--initial", "back.json", "--json"];
+    let answer = handeye(&folder, &arguments).json();
+    let (degrees, mm) = errors(&place, &found(&answer).inverse());
+    assert!(degrees < 0.05 && mm < 0.3, "{degrees} deg, {mm} mm");
+}
+
+#[test]
+fn a_mesh_that_cannot_be_sampled_is_named() {
+    let folder = Folder::new();
+    folder.put("cut.stl", "solid part\nfacet normal 0 0 1\n");
+    folder.put("point.obj", "v 1 1 1\nf 1 1 1\n");
+    for (name, expected) in
+        [("cut.stl", "cut.stl: is cut short"), ("point.obj", "point.obj: shows no surface")]
+    {
+        let run = handeye(&folder, &["register", name, name]);
+        assert_eq!(run.code, 1, "{}", run.stdout);
+        assert!(run.stderr.contains(expected), "{}", run.stderr);
+    }
+}

@@ -125,7 +125,7 @@ fn scans_are_viewed_each_as_a_layer_and_the_page_is_the_same_again() {
         (told["page"].as_str(), told["layers"][1]["name"].as_str()),
         (Some("view.html"), Some("target.pcd"))
     );
-    assert_eq!(told["layers"][0]["points"], told["layers"][0]["shown"]);
+    assert_eq!(told["layers"][0]["of"], told["layers"][0]["shown"]);
     assert!(told["notes"][0].as_str().unwrap().contains("own frame"));
     let page = folder.read("view.html");
     assert!(page.contains("source.pcd") && page.contains("class=\"scene\""));
@@ -158,6 +158,35 @@ fn a_registration_moves_the_first_scan_and_an_eye_to_hand_calibration_all() {
     let apart = notes(&["source.pcd", "in-hand.json"]);
     assert!(apart.contains("means nothing"), "{apart}");
     assert_eq!(notes(&["in-hand.json"]), "[]");
+}
+
+#[test]
+fn a_mesh_is_viewed_as_triangles_in_the_unit_that_was_said() {
+    let folder = Folder::new();
+    folder
+        .put("part.obj", "v 0 0 500\nv 100 0 500\nv 0 100 500\nv 100 100 510\nf 1 2 3\nf 2 4 3\n");
+    let run = handeye(&folder, &["view", "part.obj", "--json", "--quiet"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let told = run.json();
+    assert_eq!(
+        told["layers"],
+        json!([{"name": "part.obj", "what": "triangles", "of": 2, "shown": 2}])
+    );
+    assert_eq!(told["warnings"][0]["code"], "unit-assumed");
+    assert!(folder.read("view.html").contains("2 triangles"));
+    folder.put("calibration.json", &calibration(&folder, "eye-to-hand"));
+    let run = handeye(&folder, &["view", "part.obj", "calibration.json", "--json"]);
+    assert!(
+        run.json()["notes"][0].as_str().unwrap().contains("nothing was moved"),
+        "{}",
+        run.stdout
+    );
+    let run = handeye(&folder, &["view", "part.obj", "--length-unit", "mm"]);
+    assert!(
+        run.stdout.contains("part.obj: 2 triangles") && run.stderr.is_empty(),
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]
@@ -195,7 +224,7 @@ fn a_depth_image_is_viewed_with_its_intrinsics() {
         &["view", "depth.png", "--camera", "camera.json", "--depth-scale", "0.0001", "--json"],
     );
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert_eq!(run.json()["layers"][0]["points"], 240 * 180);
+    assert_eq!(run.json()["layers"][0]["of"], 240 * 180);
 }
 
 #[test]

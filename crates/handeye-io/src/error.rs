@@ -202,6 +202,11 @@ pub(crate) fn malformed(place: Place, what: impl Into<String>, advice: impl Into
     Error::Malformed { place, what: what.into(), advice: advice.into() }
 }
 
+/// Shorthand for [`Error::Undeclared`] of a file.
+pub(crate) fn undeclared(path: &Path, key: &str, question: &str) -> Error {
+    Error::Undeclared { place: Place::file(path), key: key.into(), question: question.into() }
+}
+
 /// The candidate nearest to a misspelt word, if one is near.
 pub(crate) fn nearest<'a>(
     word: &str,

@@ -34,6 +34,7 @@ pub mod streams;
 pub mod target;
 pub mod target_art;
 pub mod touches;
+pub mod triangle_mesh;
 pub mod unscaled;
 pub mod verify;
 
@@ -52,4 +53,5 @@ pub use sequence::calibrate_sequence;
 pub use solve::Method;
 pub use streams::{Stamped, Streams, calibrate_streams};
 pub use target::TargetModel;
+pub use triangle_mesh::TriangleMesh;
 pub use unscaled::calibrate_unscaled;

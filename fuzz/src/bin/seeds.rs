@@ -2,6 +2,7 @@
 
 use std::{fs, io::Cursor, path::Path};
 
+use e57::{E57Writer, Record, RecordDataType, RecordName, RecordValue};
 use handeye::{
     GrayImage, Intrinsics, Pose, TargetModel,
     simulate::{DepthSensor, Optics, Scene},
@@ -73,6 +74,88 @@ fn scans(target: &TargetModel) {
         put("scan", name, &[&[k][..], bytes].concat());
     }
     put("scan", "npy", &[&[2][..], &npy("'<f4'", "2, 2, 3", &[0x3f; 48])].concat());
+    lists();
+    meshes();
+    put("scan", "e57", &[&[11][..], &e57()].concat());
+    // from 128 on with checksums made right
+    put("scan", "e57_checked", &[&[11 + 9 * 15][..], &e57()].concat());
+    put("scan", "zdf", &[&[12][..], include_bytes!("../../points.zdf")].concat());
+}
+
+/// Points in text.
+fn lists() {
+    for (k, name, text) in [
+        (6, "xyz", "# x y z\n1 2 3\n4 5 6\nnan nan nan\n7 8 9\n"),
+        (7, "csv", "id,x_mm,y_mm,z_mm\n1,2,3,4\n2,,,\n3,5,6,7\n"),
+        (8, "asc", "//X Y Z R G B\n2\n1 2 3 4 5 6\n7 8 9 1 2 3\n"),
+        (9, "txt", "x;y;z\n1,5;2,5;3\n\"4\";5;6\n"),
+        (10, "pts", "2\n1 2 3 -5 1 2 3\n4 5 6 -5 1 2 3\n1\n7 8 9 -5 1 2 3\n"),
+    ] {
+        put("scan", name, &[&[k][..], text.as_bytes()].concat());
+    }
+}
+
+fn meshes() {
+    let corners = [[0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5]];
+    let mut stl = vec![b' '; 80];
+    stl.extend(2u32.to_le_bytes());
+    for _ in 0..2 {
+        stl.extend([0; 12]);
+        stl.extend(corners.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+        stl.extend([0; 2]);
+    }
+    put("scan", "stl", &[&[13][..], &stl].concat());
+    let facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\n";
+    let text = format!("solid a\n{facet}{facet}endsolid a\n");
+    put("scan", "stl_text", &[&[13][..], text.as_bytes()].concat());
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 1/1 2/1/1 3//1 -1\n";
+    put("scan", "obj", &[&[14][..], obj.as_bytes()].concat());
+    let header = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+    };
+    let text = header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    put("scan", "ply_faces", &[&[0][..], text.as_bytes()].concat());
+    let mut binary = header("binary_little_endian").into_bytes();
+    binary.extend(corners.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+    binary.push(3);
+    binary.extend([0u32, 1, 2].iter().flat_map(|v| v.to_le_bytes()));
+    put("scan", "ply_faces_binary", &[&[0][..], &binary].concat());
+}
+
+/// Two scans, one with rows and columns and a number that takes no bits.
+fn e57() -> Vec<u8> {
+    let mut bytes = Cursor::new(vec![]);
+    let mut writer = E57Writer::new(&mut bytes, "{whole}").expect("into memory");
+    let whole = |name, max| Record { name, data_type: RecordDataType::Integer { min: 0, max } };
+    let mut records =
+        vec![Record::CARTESIAN_X_F32, Record::CARTESIAN_Y_F32, Record::CARTESIAN_Z_F64];
+    for more in [0, 4] {
+        if more > 0 {
+            records.extend([
+                whole(RecordName::RowIndex, 1),
+                whole(RecordName::ColumnIndex, 2),
+                whole(RecordName::Intensity, 0),
+                Record::CARTESIAN_INVALID_STATE,
+            ]);
+        }
+        let mut points = writer.add_pointcloud("{scan}", records.clone()).expect("records");
+        for k in 0..6i64 {
+            let mut values = vec![
+                RecordValue::Single(k as f32),
+                RecordValue::Single(1.5),
+                RecordValue::Double(2.5),
+            ];
+            values
+                .extend([k / 3, k % 3, 0, k / 5].map(RecordValue::Integer).into_iter().take(more));
+            points.add_point(values).expect("a point");
+        }
+        points.finalize().expect("into memory");
+    }
+    writer.finalize().expect("into memory");
+    drop(writer);
+    bytes.into_inner()
 }
 
 /// A file of numpy.

@@ -72,7 +72,7 @@ pub(super) struct Touches {
 }
 
 const PICTURES: [&str; 6] = ["png", "jpg", "jpeg", "bmp", "tif", "tiff"];
-const CLOUDS: [&str; 2] = ["ply", "pcd"];
+const CLOUDS: [&str; 7] = ["ply", "pcd", "e57", "zdf", "xyz", "asc", "pts"];
 const TABLES: [&str; 7] = ["csv", "txt", "json", "yaml", "yml", "npy", "npz"];
 const CAMERAS: [&str; 5] = ["yaml", "yml", "json", "xml", "npz"];
 /// Words in names of depth images.
@@ -81,6 +81,8 @@ const DEPTH: [&str; 5] = ["depth", "scan", "range", "disp", "xyz"];
 const MOST_CAMERAS: usize = 8;
 /// An array of more rows and columns than this is a picture of depths, no table.
 const LARGEST_TABLE: usize = 64;
+/// So many lines of three numbers are the points of a scan.
+const FEWEST_POINTS: usize = 1000;
 /// Larger tables are not looked into.
 const MOST_BYTES: u64 = 16 << 20;
 
@@ -131,6 +133,11 @@ fn table(group: &Group, root: &Path) -> Kind {
     let wide = |r: &Record| r.cells.len() >= LARGEST_TABLE;
     if alone.len() >= LARGEST_TABLE && alone.iter().all(wide) {
         return Kind::Depth;
+    }
+    let of_a_point = |r: &Record| r.cells.len() == 3 && numbers(r).len() == 3;
+    let is_text = ["csv", "txt"].contains(&group.extension().as_str());
+    if is_text && alone.len() >= FEWEST_POINTS && alone.iter().all(of_a_point) {
+        return Kind::Clouds;
     }
     if is_list_of_corners(&alone) {
         return Kind::Corners;

@@ -9,7 +9,7 @@ use super::{
     groups::Group,
     kind::{self, Kind, Notation, Poses, Touches},
 };
-use crate::target_file::target_toml;
+use crate::{scan_unit, target_file::target_toml};
 
 /// Files and what they hold.
 type Kinds = [(Group, Kind)];
@@ -280,6 +280,9 @@ fn scans(kinds: &Kinds, folder: &Path, placements: &[String], page: &mut Page) {
     page.table("[scans]");
     files(&groups, page);
     let depth = kinds.iter().any(|(g, k)| g.pattern == first.pattern && matches!(k, Kind::Depth));
+    if scan_unit(&folder.join(&first.members[0])).is_some() {
+        return;
+    }
     if !depth {
         return page.ask("are the points in \"m\" or in \"mm\"?", &["length_unit = \"mm\""]);
     }

@@ -60,6 +60,8 @@ pub struct ThingCount {
     /// Its name.
     pub name: String,
     /// Points or triangles.
+    pub what: &'static str,
+    /// So many there are.
     pub of: usize,
     /// That are drawn.
     pub shown: usize,
@@ -75,7 +77,12 @@ pub fn shown_html(shown: &Shown) -> (String, Vec<ThingCount>) {
     for (k, thing) in shown.things.iter().enumerate() {
         let made = thing.layers(colours::LAYERS[k % colours::LAYERS.len()], several, most);
         let count = |layer: &Layer| {
-            layer.count().map(|(of, shown)| ThingCount { name: thing.name().into(), of, shown })
+            layer.count().map(|(of, shown)| ThingCount {
+                name: thing.name().into(),
+                what: thing.parts(),
+                of,
+                shown,
+            })
         };
         if !matches!(thing, Thing::Calibration { .. }) {
             counts.extend(made.iter().filter_map(count));
@@ -108,6 +115,10 @@ impl Thing<'_> {
                 name
             }
         }
+    }
+
+    fn parts(&self) -> &'static str {
+        if matches!(self, Self::Mesh { .. }) { "triangles" } else { "points" }
     }
 
     fn layers(&self, colour: &str, is_named: bool, most: usize) -> Vec<Layer> {

@@ -6,9 +6,9 @@ use handeye::Scan;
 use image::DynamicImage;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 
-use super::{ScanOptions, undeclared, with_points};
+use super::{ScanOptions, with_points};
 use crate::{
-    error::{Error, Place, malformed},
+    error::{Error, Place, malformed, undeclared},
     files,
     image::{check_size, decode},
 };

@@ -1,16 +1,19 @@
-//! Scans of 3D cameras: point clouds in PLY and PCD, depth in PNG and TIFF, either in NPY and NPZ.
+//! Scans of 3D cameras: points in PLY, PCD, E57, ZDF and text, depth in PNG and TIFF, either in NPY and NPZ.
 
 mod depth;
+mod e57;
 mod numpy;
 mod pcd;
 mod ply;
+mod text;
+mod zdf;
 
 use std::path::Path;
 
 use handeye::{Intrinsics, Scan};
 
 use crate::{
-    error::{Error, Place, malformed},
+    error::{Error, Place, malformed, undeclared},
     files,
     image::image_size,
     units::LengthUnit,
@@ -19,7 +22,7 @@ use crate::{
 /// What a scan's file does not say.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ScanOptions {
-    /// Unit of the coordinates of points.
+    /// Unit of the coordinates of points, where the file or its format does not say it.
     pub length_unit: Option<LengthUnit>,
     /// Metres per unit of depth.
     pub depth_scale: Option<f64>,
@@ -29,16 +32,15 @@ pub struct ScanOptions {
     pub intrinsics: Option<Intrinsics>,
 }
 
-/// Most points a scan may have.
-const MOST_POINTS: usize = 100_000_000;
-
 /// What a file holds, in metres.
 struct Points {
     xyz: Vec<[f32; 3]>,
     grid: Option<(usize, usize)>,
 }
 
-/// Reads a scan into metres; points at the origin, and depths of 0, are missing.
+/// Reads a scan into metres; points at the origin, and depths of 0, are missing. An E57 file of one scan
+/// has its points in the frame of its camera, one of several in that of the file, where their poses put
+/// them.
 ///
 /// # Errors
 /// What is no scan, is cut short or empty, or needs a unit, scale or intrinsics that are not given.
@@ -46,13 +48,29 @@ pub fn read_scan(path: &Path, options: &ScanOptions) -> Result<Scan, Error> {
     match files::extension(path).as_str() {
         "ply" => of_points(ply::read(path, unit(options, path)?)?, options, path),
         "pcd" => of_points(pcd::read(path, unit(options, path)?)?, options, path),
+        "xyz" | "txt" | "csv" | "asc" | "pts" => {
+            of_points(text::read(path, options)?, options, path)
+        }
+        "e57" => of_points(e57::read(path)?, options, path),
+        "zdf" => of_points(zdf::read(path)?, options, path),
         "npy" | "npz" => numpy::read(path, options),
         "png" | "tif" | "tiff" => depth::read(path, options),
         other => Err(malformed(
             Place::file(path),
             format!("scans of kind \".{other}\" cannot be read"),
-            "PLY, PCD, NPY, NPZ, and depth in PNG and TIFF can; export one of them",
+            "PLY, PCD, E57, ZDF, XYZ, TXT, CSV, ASC, PTS, NPY, NPZ, and depth in PNG and TIFF can; export one of \
+             them",
         )),
+    }
+}
+
+/// The unit of the points, where the file or its format says it. It needs no declaration then.
+pub fn scan_unit(path: &Path) -> Option<LengthUnit> {
+    match files::extension(path).as_str() {
+        "e57" => Some(LengthUnit::Metre),
+        "zdf" => Some(LengthUnit::Millimetre),
+        "xyz" | "txt" | "csv" | "asc" | "pts" => text::unit_said(path),
+        _ => None,
     }
 }
 
@@ -66,10 +84,6 @@ pub fn scan_size(path: &Path) -> Result<Option<(u32, u32)>, Error> {
         "png" | "tif" | "tiff" => image_size(path).map(Some),
         _ => Ok(None),
     }
-}
-
-fn undeclared(path: &Path, key: &str, question: &str) -> Error {
-    Error::Undeclared { place: Place::file(path), key: key.into(), question: question.into() }
 }
 
 fn unit(options: &ScanOptions, path: &Path) -> Result<LengthUnit, Error> {
@@ -108,140 +122,4 @@ fn with_points(scan: Scan, path: &Path) -> Result<Scan, Error> {
         ));
     }
     Ok(scan)
-}
-
-/// Refuses more points than are read, and more than the file's bytes can hold.
-fn check_count(
-    count: usize,
-    fewest_bytes: usize,
-    present: usize,
-    path: &Path,
-) -> Result<(), Error> {
-    if count > MOST_POINTS {
-        return Err(Error::TooLarge {
-            place: Place::file(path),
-            what: "the number of points".into(),
-            found: count as u64,
-            limit: MOST_POINTS as u64,
-            advice: "is the file damaged?".into(),
-        });
-    }
-    if count.saturating_mul(fewest_bytes) > present {
-        return Err(cut_short(count, path));
-    }
-    Ok(())
-}
-
-fn cut_short(count: usize, path: &Path) -> Error {
-    malformed(
-        Place::file(path),
-        format!("is cut short: the header promises {count} points"),
-        "copy or record it again",
-    )
-}
-
-/// A number type of a binary point file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Number {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Number {
-    fn size(self) -> usize {
-        match self {
-            Number::I8 | Number::U8 => 1,
-            Number::I16 | Number::U16 => 2,
-            Number::I32 | Number::U32 | Number::F32 => 4,
-            Number::F64 => 8,
-        }
-    }
-
-    /// The number at the start of `bytes`; `None` if they are too few.
-    fn read(self, bytes: &[u8], big_endian: bool) -> Option<f64> {
-        let mut raw = [0u8; 8];
-        raw[..self.size()].copy_from_slice(bytes.get(..self.size())?);
-        if big_endian {
-            raw[..self.size()].reverse();
-        }
-        let [b0, b1, b2, b3, ..] = raw;
-        Some(match self {
-            Number::I8 => i8::from_le_bytes([b0]).into(),
-            Number::U8 => b0.into(),
-            Number::I16 => i16::from_le_bytes([b0, b1]).into(),
-            Number::U16 => u16::from_le_bytes([b0, b1]).into(),
-            Number::I32 => i32::from_le_bytes([b0, b1, b2, b3]).into(),
-            Number::U32 => u32::from_le_bytes([b0, b1, b2, b3]).into(),
-            Number::F32 => f32::from_le_bytes([b0, b1, b2, b3]).into(),
-            Number::F64 => f64::from_le_bytes(raw),
-        })
-    }
-}
-
-/// Where a coordinate stands in a record.
-#[derive(Clone, Copy)]
-struct Column {
-    offset: usize,
-    number: Number,
-}
-
-/// Points of binary records of equal size; `None` where bytes are missing.
-fn of_records(
-    body: &[u8],
-    size: usize,
-    count: usize,
-    columns: [Column; 3],
-    big_endian: bool,
-    unit: LengthUnit,
-) -> Option<Vec<[f32; 3]>> {
-    let is_inside = |c: &Column| c.offset + c.number.size() <= size;
-    let records = body.get(..count.checked_mul(size)?)?;
-    if size == 0 || !columns.iter().all(is_inside) {
-        return None;
-    }
-    let records = records.chunks_exact(size);
-    if !big_endian && columns.iter().all(|c| c.number == Number::F32) {
-        let at = columns.map(|c| c.offset);
-        let single = |record: &[u8], k: usize| {
-            let bytes = [record[at[k]], record[at[k] + 1], record[at[k] + 2], record[at[k] + 3]];
-            f64::from(f32::from_le_bytes(bytes))
-        };
-        return Some(records.map(|r| in_metres([0, 1, 2].map(|k| single(r, k)), unit)).collect());
-    }
-    let point = |record: &[u8]| {
-        let at = |c: Column| c.number.read(&record[c.offset..], big_endian);
-        let [x, y, z] = columns.map(at);
-        Some(in_metres([x?, y?, z?], unit))
-    };
-    records.map(point).collect()
-}
-
-/// Points of lines of words, of which three are coordinates; `None` where they are missing.
-fn of_lines<'a>(
-    lines: impl Iterator<Item = &'a str>,
-    count: usize,
-    words: [usize; 3],
-    unit: LengthUnit,
-) -> Option<Vec<[f32; 3]>> {
-    let last = words.into_iter().max()?;
-    let mut points = Vec::new();
-    for line in lines.filter(|line| !line.trim_ascii().is_empty()).take(count) {
-        let mut point = [None; 3];
-        for (k, word) in line.split_ascii_whitespace().enumerate().take(last + 1) {
-            for axis in 0..3 {
-                if words[axis] == k {
-                    point[axis] = word.parse().ok();
-                }
-            }
-        }
-        let [x, y, z] = point;
-        points.push(in_metres([x?, y?, z?], unit));
-    }
-    (points.len() == count).then_some(points)
 }

@@ -3,10 +3,11 @@
 
 use std::path::Path;
 
-use super::{Column, Number, Points, check_count, cut_short, in_metres, of_lines, of_records};
+use super::{Points, in_metres};
 use crate::{
     error::{Error, Place, malformed},
     files,
+    records::{Column, Number, check_count, cut_short, of_lines, of_records},
     units::LengthUnit,
 };
 
@@ -39,19 +40,20 @@ pub(super) fn read(path: &Path, unit: LengthUnit) -> Result<Points, Error> {
     };
     let body = &bytes[header.end..];
     let fewest = if header.data == "binary" { record_size(&header) } else { 0 };
-    check_count(header.points, fewest, body.len(), path)?;
+    check_count(header.points, "points", fewest, body.len(), path)?;
+    let point = |p| in_metres(p, unit);
     let xyz = match header.data.as_str() {
         "ascii" => std::str::from_utf8(body).ok().and_then(|text| {
-            of_lines(text.lines(), header.points, [x, y, z].map(|f| f.word), unit)
+            of_lines(text.lines(), header.points, [x, y, z].map(|f| f.word), point)
         }),
         "binary" => {
             let columns = [x, y, z].map(|f| f.column);
-            of_records(body, record_size(&header), header.points, columns, false, unit)
+            of_records(body, record_size(&header), header.points, columns, false, point)
         }
         "binary_compressed" => packed(body, &header, [x, y, z].map(|f| f.column), unit),
         other => return Err(wrong(&format!("its DATA is \"{other}\""))),
     };
-    let xyz = xyz.ok_or_else(|| cut_short(header.points, path))?;
+    let xyz = xyz.ok_or_else(|| cut_short(header.points, "points", path))?;
     let organised = header.height > 1 && header.width.checked_mul(header.height) == Some(xyz.len());
     Ok(Points { xyz, grid: organised.then_some((header.width, header.height)) })
 }
