@@ -56,6 +56,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Register one scan to another: ICP with a covariance and a verdict.
     Register(RegisterArgs),
+    /// Write a page that shows scans, meshes, calibrations and registrations in 3D.
+    View(ViewArgs),
     /// Find the target's corners in pictures.
     Detect(DetectArgs),
     /// Write a simulated dataset whose truth is known.
@@ -286,7 +288,7 @@ pub struct DetectArgs {
 /// Arguments of `register`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register scan.zdf part.stl --length-unit mm\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n\n\
+    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register scan.zdf part.stl --length-unit mm\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n  handeye register scan.ply reference.ply --report registration.html\n\n\
 target_from_source takes points of SOURCE into TARGET; so does --initial, and the answer contains it.\n\
 guess.json: {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}, or a matrix of 4 rows.\n\n\
 Exit code 0: accepted; 3: rejected, or not determined by what both scans show."
@@ -309,6 +311,17 @@ pub struct RegisterArgs {
     /// Most rounds over all points, and over some from each start.
     #[arg(long, default_value_t = 60)]
     pub max_iterations: usize,
+    /// A page with the verdict, both scans in 3D before and after, and their distances.
+    #[arg(long, value_name = "PAGE.html")]
+    pub report: Option<PathBuf>,
+    /// How the scans are read.
+    #[command(flatten)]
+    pub reading: Reading,
+}
+
+/// What files of scans do not say.
+#[derive(Args)]
+pub struct Reading {
     /// Unit of the points, where the file does not say it (E57 and ZDF do) [default: mm for what is wider than
     /// 20 units, else m].
     #[arg(long)]
@@ -319,6 +332,30 @@ pub struct RegisterArgs {
     /// Intrinsics of the depth images, in any file that a manifest may name.
     #[arg(long)]
     pub camera: Option<PathBuf>,
+}
+
+/// Arguments of `view`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye view scan.ply\n  handeye view scan.zdf part.stl --length-unit mm --out both.html\n  handeye view scan.ply result/calibration.json\n  handeye register a.ply b.ply --json > found.json\n  handeye view a.ply b.ply found.json\n\n\
+The page needs neither a network nor anything beside it. Every file is a layer\n\
+that can be switched off. Scans lie in their own frame, which is the camera's.\n\
+Two kinds of JSON files move them, and the page says so: an answer of\n\
+`handeye register --json` moves the first scan into the second, and one\n\
+eye-to-hand calibration.json moves all scans into the frame of the robot's base.\n\
+At most 150 000 points of a scan are shown, and 500 000 of all, evenly spread."
+)]
+pub struct ViewArgs {
+    /// Scans and meshes as `register` reads them, a calibration.json, an answer of `handeye register
+    /// --json`.
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// The page; one that is there is written over.
+    #[arg(long, short, default_value = "view.html", value_name = "PAGE")]
+    pub out: PathBuf,
+    /// How the scans are read.
+    #[command(flatten)]
+    pub reading: Reading,
 }
 
 /// A unit of length.

@@ -18,6 +18,7 @@ mod solve;
 mod target;
 mod tcp;
 mod verify;
+mod view;
 
 use std::{env, process::ExitCode};
 
@@ -65,6 +66,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Verify(args) => verify::run(args, &program.manners),
         Command::Check(args) => check::run(args, &program.manners),
         Command::Register(args) => register::run(args, &program.manners),
+        Command::View(args) => view::run(args, &program.manners),
         Command::Detect(args) => detect::run(args, &program.manners),
         Command::Simulate(args) => simulate::run(args, &program.manners),
         Command::Demo(args) => demo::run(args, &program.manners),

@@ -1,6 +1,11 @@
 //! `handeye register`: where one scan lies in another, or in a mesh.
 
-use std::{fs, path::Path, thread, time::Instant};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    thread,
+    time::Instant,
+};
 
 use handeye::{
     Scan, TriangleMesh, Verdict, Warning,
@@ -8,14 +13,17 @@ use handeye::{
     register::{Dense, DenseConfig, DenseMethod, Stop, Surface, register_surfaces},
 };
 use handeye_io::{
-    Error, ScanOptions, is_mesh, read_intrinsics, read_mesh, read_scan, scan_size, scan_unit,
+    Error, ScanOptions, is_mesh, read_intrinsics, read_mesh, read_scan,
+    report::{NamedCloud, Registration, registration_html},
+    scan_size, scan_unit,
     units::LengthUnit,
+    write_atomically,
 };
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    args::{Manners, RegisterArgs},
+    args::{Manners, Reading, RegisterArgs},
     failure::Failure,
     output,
 };
@@ -86,12 +94,16 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     if args.max_iterations == 0 {
         return Err(Failure::Usage("--max-iterations must be positive".into()));
     }
+    let inputs = [Some(&args.source), Some(&args.target), args.initial.as_ref()];
+    if let Some(page) = &args.report {
+        is_no_input(page, inputs.into_iter().flatten())?;
+    }
     let (method, name) = method(&args.method)?;
     let start = args.initial.as_deref().map_or(Ok(Isometry3::identity()), initial)?;
     let mut warnings = vec![];
     let began = Instant::now();
-    let source = read(&args.source, args, &mut warnings)?;
-    let target = read(&args.target, args, &mut warnings)?;
+    let source = read(&args.source, &args.reading, &mut warnings)?;
+    let target = read(&args.target, &args.reading, &mut warnings)?;
     let read = began.elapsed();
     let config = DenseConfig {
         method,
@@ -113,6 +125,20 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         prepare: (prepared - read).as_secs_f64(),
         iterate: (began.elapsed() - prepared).as_secs_f64(),
     };
+    if let Some(page) = &args.report {
+        let html = registration_html(&Registration {
+            source: NamedCloud { name: &name_of(&args.source), points: source.points() },
+            target: NamedCloud { name: &name_of(&args.target), points: target.points() },
+            start,
+            found: &found,
+            method: name,
+            gate_m: config.max_correspondence_distance_m,
+            seconds: [seconds.read, seconds.prepare, seconds.iterate],
+            warnings: &warnings,
+            threads: config.threads,
+        });
+        write_atomically(page, html.as_bytes())?;
+    }
     let points = [&source, &target].map(|scan| seen(scan.points()).count());
     let answer = answer(&found, name, points, seconds, warnings);
     if manners.json {
@@ -121,7 +147,28 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         output::warn(&answer.warnings, manners);
         output::print(&text(&answer));
     }
+    if let Some(page) = args.report.as_ref().filter(|_| !manners.quiet) {
+        eprintln!("report: {}", page.display());
+    }
     Ok(if answer.verdict == Verdict::Accepted { 0 } else { 3 })
+}
+
+/// A page that would take the place of what it shows is refused.
+pub fn is_no_input<'a>(
+    page: &Path,
+    mut inputs: impl Iterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    let Ok(there) = page.canonicalize() else { return Ok(()) };
+    if inputs.any(|input| input.canonicalize().is_ok_and(|input| input == there)) {
+        let what = format!("{} would be written over: name another page", page.display());
+        return Err(Failure::Usage(what));
+    }
+    Ok(())
+}
+
+/// A file's name without its folder.
+pub fn name_of(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 fn method(name: &str) -> Result<(DenseMethod, &'static str), Failure> {
@@ -137,7 +184,8 @@ fn method(name: &str) -> Result<(DenseMethod, &'static str), Failure> {
     })
 }
 
-fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
+/// A start: a transform, an answer of this command, or a matrix.
+pub fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
     let text = fs::read_to_string(path).map_err(|error| Failure::unreadable(path, &error))?;
     let read: Initial =
         serde_json::from_str(&text).map_err(|error| Failure::in_json(path, &error, ""))?;
@@ -170,10 +218,22 @@ fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
     Ok(Isometry3::from_parts(Translation3::from(nalgebra::Vector3::from(t)), rotation))
 }
 
-fn read(path: &Path, args: &RegisterArgs, warnings: &mut Vec<Warning>) -> Result<Scan, Failure> {
-    if is_mesh(path) {
-        return read_surface(path, args, warnings);
+/// Reads a scan, or a mesh as points laid over it, in the unit that was said or that its width tells.
+fn read(path: &Path, args: &Reading, warnings: &mut Vec<Warning>) -> Result<Scan, Failure> {
+    if !is_mesh(path) {
+        return read_points(path, args, warnings);
     }
+    let mesh = read_triangles(path, args, warnings)?;
+    let spacing = (mesh.area_m2() / POINTS_ON_MESH).sqrt().max(FINEST_SPACING_M);
+    mesh.sampled(spacing).map_err(|error| Failure::input(path, error.to_string()))
+}
+
+/// Reads a scan.
+pub fn read_points(
+    path: &Path,
+    args: &Reading,
+    warnings: &mut Vec<Warning>,
+) -> Result<Scan, Failure> {
     let intrinsics = match &args.camera {
         Some(camera) => Some(read_intrinsics(camera, None, scan_size(path)?)?),
         None => None,
@@ -194,21 +254,19 @@ fn read(path: &Path, args: &RegisterArgs, warnings: &mut Vec<Warning>) -> Result
         .ok_or_else(|| Failure::input(path, "has no points"))
 }
 
-/// A mesh as points laid over it.
-fn read_surface(
+/// Reads a mesh.
+pub fn read_triangles(
     path: &Path,
-    args: &RegisterArgs,
+    args: &Reading,
     warnings: &mut Vec<Warning>,
-) -> Result<Scan, Failure> {
+) -> Result<TriangleMesh, Failure> {
     let unit = args.length_unit.map(LengthUnit::from);
-    let mut mesh = read_mesh(path, Some(unit.unwrap_or(LengthUnit::Metre)))?;
-    let refused = |error: handeye::Error| Failure::input(path, error.to_string());
-    if unit.is_none() && is_in_millimetres(mesh.vertices(), path, warnings) {
-        let vertices = from_millimetres(mesh.vertices());
-        mesh = TriangleMesh::new(vertices, mesh.triangles().to_vec()).map_err(refused)?;
+    let mesh = read_mesh(path, Some(unit.unwrap_or(LengthUnit::Metre)))?;
+    if unit.is_some() || !is_in_millimetres(mesh.vertices(), path, warnings) {
+        return Ok(mesh);
     }
-    let spacing = (mesh.area_m2() / POINTS_ON_MESH).sqrt().max(FINEST_SPACING_M);
-    mesh.sampled(spacing).map_err(refused)
+    TriangleMesh::new(from_millimetres(mesh.vertices()), mesh.triangles().to_vec())
+        .map_err(|error| Failure::input(path, error.to_string()))
 }
 
 /// Points too far apart for metres are in millimetres, and that is said.

@@ -66,13 +66,13 @@ fn slice(map: &TreMap, s: &TreSlice, range: (f64, f64)) -> String {
     }
     let _ = write!(
         svg,
-        "<rect x=\"{x}\" y=\"10\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"none\" stroke=\"#9aa5b4\"/>\
-         <text x=\"{x}\" y=\"{ty:.1}\" fill=\"#5b6675\">{:.0}</text>\
-         <text x=\"{right:.1}\" y=\"{ty:.1}\" text-anchor=\"end\" fill=\"#5b6675\">{:.0}</text>\
-         <text x=\"{middle:.1}\" y=\"{ly:.1}\" text-anchor=\"middle\" fill=\"#1c2430\">{}, mm</text>\
-         <text x=\"{lx}\" y=\"{bottom:.1}\" text-anchor=\"end\" fill=\"#5b6675\">{:.0}</text>\
-         <text x=\"{lx}\" y=\"20\" text-anchor=\"end\" fill=\"#5b6675\">{:.0}</text>\
-         <text x=\"{lx}\" y=\"{half:.1}\" text-anchor=\"end\" fill=\"#1c2430\">{}</text></svg>",
+        "<rect x=\"{x}\" y=\"10\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"none\" stroke=\"var(--soft)\"/>\
+         <text x=\"{x}\" y=\"{ty:.1}\" fill=\"var(--soft)\">{:.0}</text>\
+         <text x=\"{right:.1}\" y=\"{ty:.1}\" text-anchor=\"end\" fill=\"var(--soft)\">{:.0}</text>\
+         <text x=\"{middle:.1}\" y=\"{ly:.1}\" text-anchor=\"middle\" fill=\"var(--ink)\">{}, mm</text>\
+         <text x=\"{lx}\" y=\"{bottom:.1}\" text-anchor=\"end\" fill=\"var(--soft)\">{:.0}</text>\
+         <text x=\"{lx}\" y=\"20\" text-anchor=\"end\" fill=\"var(--soft)\">{:.0}</text>\
+         <text x=\"{lx}\" y=\"{half:.1}\" text-anchor=\"end\" fill=\"var(--ink)\">{}</text></svg>",
         map.minimum_mm[a],
         map.maximum_mm[a],
         AXES[a],

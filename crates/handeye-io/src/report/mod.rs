@@ -1,14 +1,20 @@
 //! `report.html`: one self-contained page that tells a person what was found and how sure it is.
 //!
 //! Everything but the 3D view is plain HTML and SVG made here, so that the page reads and prints
-//! without a script; nothing is loaded from anywhere.
+//! without a script; nothing is loaded from anywhere. Other pages are made of the same parts: a touch test,
+//! a registration, and what `handeye view` shows.
 
 mod arm;
+mod base64;
+mod cell;
+mod colours;
 mod map;
 mod picture;
 mod plot;
+mod registration;
 mod scans;
 mod scene;
+mod shown;
 mod touch_test;
 
 use std::fmt::Write;
@@ -19,6 +25,8 @@ use handeye::{
 };
 
 pub use picture::{MarkedCorner, Picture};
+pub use registration::{NamedCloud, Registration, registration_html};
+pub use shown::{Shown, Thing, ThingCount, shown_html};
 pub use touch_test::{TouchTest, touch_test_html};
 
 /// What the page shows.
@@ -40,14 +48,13 @@ pub struct Report<'a> {
 }
 
 const STYLE: &str = include_str!("style.css");
-const VIEW: &str = include_str!("view.js");
 
 /// The whole page.
 pub fn html(report: &Report) -> String {
     let c = report.calibration;
     let mut body = verdict(report);
     body += &transform(report);
-    body += &warnings(c);
+    body += &warnings(&c.warnings);
     body += &candidates(c);
     body += &captures(c);
     body += &touches(c);
@@ -57,16 +64,62 @@ pub fn html(report: &Report) -> String {
     body += &scans::scans(c);
     body += &diversity(c);
     body += &pictures(report);
+    page(
+        ("Hand-eye calibration", &report.title),
+        &body,
+        "Lengths in mm, angles in degrees. A covariance is written in the camera's axes at the camera.",
+    )
+}
+
+/// A page of this kind and name.
+fn page((kind, title): (&str, &str), body: &str, footer: &str) -> String {
     format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
-         <title>{title} - hand-eye calibration</title><style>{STYLE}</style></head>\n<body><main>\
-         <h1>Hand-eye calibration &middot; {title}</h1>{body}\
-         <footer>handeye {version}. Lengths in mm, angles in degrees. A covariance is written in \
-         the camera's axes at the camera.</footer></main><script>{VIEW}</script></body></html>\n",
-        title = escape(&report.title),
+         <title>{title} - {}</title><style>{STYLE}</style></head>\n<body><main>\
+         <h1>{kind} &middot; {title}</h1>{body}\
+         <footer>handeye {version}. {footer}</footer></main></body></html>\n",
+        kind.to_lowercase(),
+        title = escape(title),
         version = env!("CARGO_PKG_VERSION"),
     )
+}
+
+/// The verdict in a word of its kind, its reasons, and figures with their names.
+fn judgement(
+    verdict: Verdict,
+    word: &str,
+    reasons: &[String],
+    facts: &[(String, String)],
+) -> String {
+    let class = match verdict {
+        Verdict::Accepted => "accepted",
+        Verdict::Rejected => "rejected",
+        Verdict::Undetermined => "undetermined",
+    };
+    let sentence = |(k, reason): (usize, &String)| {
+        let (reason, tag) = (capital(&escape(reason)), if k == 0 { "div" } else { "p" });
+        let class = if k == 0 { " class=\"sentence\"" } else { "" };
+        format!("<{tag}{class}>{reason}.</{tag}>")
+    };
+    let reasons: String = reasons.iter().enumerate().map(sentence).collect();
+    let fact = |(value, name): &(String, String)| {
+        format!("<div class=\"fact\"><b>{value}</b><span>{}</span></div>", escape(name))
+    };
+    let facts: String = facts.iter().map(fact).collect();
+    format!(
+        "<section class=\"verdict {class}\"><div class=\"word\">{word}</div>{reasons}\
+         <div class=\"facts\">{facts}</div></section>\n"
+    )
+}
+
+/// The word for a verdict.
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Accepted => "Accepted",
+        Verdict::Rejected => "Rejected",
+        Verdict::Undetermined => "Undetermined",
+    }
 }
 
 /// Text for HTML.
@@ -88,19 +141,7 @@ fn deg(value: Option<f64>) -> String {
 
 fn verdict(report: &Report) -> String {
     let c = report.calibration;
-    let (class, word) = match c.verdict {
-        Verdict::Accepted => ("accepted", "Accepted"),
-        Verdict::Rejected => ("rejected", "Rejected"),
-        Verdict::Undetermined => ("undetermined", "Undetermined"),
-    };
-    let mut reasons = c.reasons.iter();
-    let first = reasons.next().map_or(String::new(), |r| capital(&escape(r)));
-    let more: String = reasons.map(|r| format!("<p>{}.</p>", capital(&escape(r)))).collect();
-    format!(
-        "<section class=\"verdict {class}\"><div class=\"word\">{word}</div>\
-         <div class=\"sentence\">{first}.</div>{more}<div class=\"facts\">{}</div></section>\n",
-        facts(c)
-    )
+    judgement(c.verdict, word(c.verdict), &c.reasons, &facts(c))
 }
 
 fn capital(text: &str) -> String {
@@ -108,7 +149,7 @@ fn capital(text: &str) -> String {
     chars.next().map_or(String::new(), |c| c.to_uppercase().chain(chars).collect())
 }
 
-fn facts(c: &Calibration) -> String {
+fn facts(c: &Calibration) -> Vec<(String, String)> {
     let mut all = Vec::new();
     if let Some(tre) = &c.predicted_tre_mm {
         all.push((format!("{:.2} mm", tre.p95), "predicted error, 95 %".to_owned()));
@@ -125,10 +166,7 @@ fn facts(c: &Calibration) -> String {
     if !c.touches.is_empty() {
         all.push((c.touches.len().to_string(), "touched corners".to_owned()));
     }
-    let fact = |(value, name): (String, String)| {
-        format!("<div class=\"fact\"><b>{value}</b><span>{name}</span></div>")
-    };
-    all.into_iter().map(fact).collect()
+    all
 }
 
 fn transform(report: &Report) -> String {
@@ -187,14 +225,14 @@ fn sigmas(c: &Calibration) -> String {
     )
 }
 
-fn warnings(c: &Calibration) -> String {
-    if c.warnings.is_empty() {
+fn warnings(all: &[handeye::Warning]) -> String {
+    if all.is_empty() {
         return String::new();
     }
     let item = |w: &handeye::Warning| {
         format!("<li>{} <code>{}</code></li>", capital(&escape(&w.message)), escape(&w.code))
     };
-    let items: String = c.warnings.iter().map(item).collect();
+    let items: String = all.iter().map(item).collect();
     section("What to look at", "", &format!("<ul class=\"warnings\">{items}</ul>"))
 }
 
@@ -317,27 +355,10 @@ fn touches(c: &Calibration) -> String {
 
 fn view(report: &Report) -> String {
     let c = report.calibration;
-    let Some(scene) = scene::scene(c, report.target, report.camera, &report.touched) else {
+    let Some(scene) = cell::scene(c, report.target, report.camera, &report.touched) else {
         return String::new();
     };
-    let Ok(json) = serde_json::to_string(&scene) else { return String::new() };
-    let entry = |colour: &str, name: &str| {
-        format!("<span><i style=\"background:{colour}\"></i>{name}</span>")
-    };
-    let mut legend =
-        entry(scene::CAMERA, "camera") + &entry(scene::SEEN, "target as each capture saw it");
-    legend += &entry(scene::BOARD, "target where the answer puts it");
-    legend += &entry(scene::FLANGE, "flange poses (small axes)");
-    if !report.touched.is_empty() {
-        legend += &entry(scene::TOUCH, "touched points");
-    }
-    let content = format!(
-        "<canvas class=\"scene\" data-scene=\"scene\" aria-label=\"robot base, flange poses, camera and targets\"></canvas>\
-         <script type=\"application/json\" id=\"scene\">{}</script><div class=\"legend\">{legend}</div>\
-         <p class=\"note\">Drag to turn, wheel to zoom, shift-drag to move, double-click to reset. Axes: x red, y green, z blue.</p>",
-        json.replace("</", "<\\/")
-    );
-    section("The cell", "", &content)
+    section("The cell", "", &scene.html("robot base, flange poses, camera and targets"))
 }
 
 /// The predicted error: where it is how large, what it comes from, what would help.
@@ -349,7 +370,7 @@ fn budget(c: &Calibration) -> String {
             let _ = write!(
                 content,
                 "<p>Three slices through the middle of the box, in the {} frame; 95 of 100 points of \
-                 that place are predicted to be off by less than the colour says. White is where \
+                 that place are predicted to be off by less than the colour says. Blank is where \
                  the camera does not see.</p>{slices}",
                 escape(&map.frame)
             );

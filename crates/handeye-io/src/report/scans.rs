@@ -93,7 +93,7 @@ fn map(all: &[BoardDeviation]) -> String {
     let (w, h) = ((x.1 - x.0) * scale + 2.0 * MARGIN, (y.1 - y.0) * scale + 2.0 * MARGIN);
     let mut svg = format!(
         "<svg viewBox=\"0 0 {w:.0} {h:.0}\" role=\"img\" aria-label=\"deviation of the board from a plane\" \
-         style=\"max-width:{w:.0}px\"><rect width=\"{w:.0}\" height=\"{h:.0}\" fill=\"#f7f8fa\"/>"
+         style=\"max-width:{w:.0}px\"><rect width=\"{w:.0}\" height=\"{h:.0}\" fill=\"var(--wash)\"/>"
     );
     for d in all {
         let _ = write!(

@@ -7,7 +7,7 @@ use handeye::{
     verify::{ChiSquare, Verification, Within},
 };
 
-use super::{STYLE, capital, escape, plot, section};
+use super::{escape, judgement, page, plot, section, warnings};
 
 /// What the page shows.
 pub struct TouchTest<'a> {
@@ -29,36 +29,23 @@ pub struct TouchTest<'a> {
 
 /// The whole page.
 pub fn touch_test_html(test: &TouchTest) -> String {
-    let body = verdict(test) + &warnings(test) + &touches(test) + &statistics(test);
-    format!(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
-         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
-         <title>{title} - touch test</title><style>{STYLE}</style></head>\n<body><main>\
-         <h1>Touch test &middot; {title}</h1>{body}\
-         <footer>handeye {version}. Lengths in mm, differences in the axes of the base: tip minus \
-         prediction.</footer></main></body></html>\n",
-        title = escape(&test.title),
-        version = env!("CARGO_PKG_VERSION"),
-    )
-}
-
-fn verdict(test: &TouchTest) -> String {
-    let (class, word) = match test.verdict {
-        Verdict::Accepted => ("accepted", "Passed"),
-        Verdict::Rejected => ("rejected", "Failed"),
-        Verdict::Undetermined => ("undetermined", "Undetermined"),
+    let word = match test.verdict {
+        Verdict::Accepted => "Passed",
+        Verdict::Rejected => "Failed",
+        Verdict::Undetermined => "Undetermined",
     };
-    let mut reasons = test.reasons.iter();
-    let first = reasons.next().map_or(String::new(), |r| capital(&escape(r)));
-    let more: String = reasons.map(|r| format!("<p>{}.</p>", capital(&escape(r)))).collect();
-    format!(
-        "<section class=\"verdict {class}\"><div class=\"word\">{word}</div>\
-         <div class=\"sentence\">{first}.</div>{more}<div class=\"facts\">{}</div></section>\n",
-        facts(test)
+    let body = judgement(test.verdict, word, test.reasons, &facts(test))
+        + &warnings(test.warnings)
+        + &touches(test)
+        + &statistics(test);
+    page(
+        ("Touch test", &test.title),
+        &body,
+        "Lengths in mm, differences in the axes of the base: tip minus prediction.",
     )
 }
 
-fn facts(test: &TouchTest) -> String {
+fn facts(test: &TouchTest) -> Vec<(String, String)> {
     let f = test.found;
     let mut all = vec![
         (format!("{:.2} mm", f.rms * 1e3), "distance, RMS".to_owned()),
@@ -69,22 +56,7 @@ fn facts(test: &TouchTest) -> String {
         let count = format!("{} of {}", within.count, f.differences.len());
         all.push((count, format!("touches within {tolerance} mm")));
     }
-    all.into_iter()
-        .map(|(value, name)| {
-            format!("<div class=\"fact\"><b>{value}</b><span>{}</span></div>", escape(&name))
-        })
-        .collect()
-}
-
-fn warnings(test: &TouchTest) -> String {
-    if test.warnings.is_empty() {
-        return String::new();
-    }
-    let item = |w: &handeye::Warning| {
-        format!("<li>{} <code>{}</code></li>", capital(&escape(&w.message)), escape(&w.code))
-    };
-    let items: String = test.warnings.iter().map(item).collect();
-    section("What to look at", "", &format!("<ul class=\"warnings\">{items}</ul>"))
+    all
 }
 
 fn touches(test: &TouchTest) -> String {

@@ -5,6 +5,7 @@ pub mod dense;
 mod descent;
 mod freedom;
 mod global;
+pub mod gaps;
 mod grid_view;
 pub mod icp;
 pub mod kd_tree;
@@ -21,6 +22,7 @@ mod surface;
 mod voxels;
 
 pub use dense::{Dense, DenseConfig, DenseMethod, register, register_surfaces};
+pub use gaps::Reference;
 pub use icp::{Icp, IcpConfig, Stop, point_to_point};
 pub use kd_tree::{KdTree, Neighbour};
 pub use measured_fit::{MeasuredFit, MeasuredPoint, measured_fit};
