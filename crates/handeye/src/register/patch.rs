@@ -53,6 +53,13 @@ pub struct Patch {
     pub count: f64,
 }
 
+impl Patch {
+    /// Square of the cosine between its normal and the ray from the origin.
+    pub fn slant(&self) -> f64 {
+        self.normal.dot(&self.mean).powi(2) / self.mean.norm_squared().max(f64::MIN_POSITIVE)
+    }
+}
+
 /// Most steps to the smallest eigenvalue.
 const MOST_STEPS: usize = 20;
 /// A step of less than this share of the trace is the last: what is left is its square.

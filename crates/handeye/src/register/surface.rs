@@ -23,6 +23,9 @@ const FEWEST: f64 = 2.0;
 const FILLED: f64 = 0.6;
 /// Scatter across a plane above this many times the usual one is no plane's.
 const ROUGH: f64 = 50.0;
+/// The same, seen from a camera, with the usual one at that slant: less separates planes from what reaches from
+/// one surface to another.
+const ROUGH_AT_SLANT: f64 = 300.0;
 /// Above this many times the usual one it is due to the shape, and no mean makes it less.
 const SHAPED: f64 = 2.0;
 /// But where the scatter across is below this share of that along it, nothing is rough.
@@ -71,7 +74,7 @@ impl Surface {
         let reach = if side == 1 { 2 } else { 1 };
         let fewest = FILLED * (side * (2 * reach + 1)).pow(2) as f64;
         let (mut patches, size) = blocks::patches(scan, side, reach, fewest, threads);
-        leave_out_rough(&mut patches);
+        leave_out_rough(&mut patches, true);
         let finder = Finder::Camera(GridView::of(&patches, size)?);
         Some(Self::new(patches, finder, Some(size.0)))
     }
@@ -80,7 +83,7 @@ impl Surface {
         let held = (HELD * (points.len() as f64 / 1e5).powf(0.75)).max(FEWEST);
         let voxels = Voxels::of(points, held, threads)?;
         let mut patches = voxels.patches(FILLED * 9.0 * held, threads);
-        leave_out_rough(&mut patches);
+        leave_out_rough(&mut patches, false);
         patches.retain(Option::is_some);
         let means: Vec<[f32; 3]> =
             patches.iter().flatten().map(|p| p.mean.map(|x| x as f32).into()).collect();
@@ -164,11 +167,16 @@ impl Surface {
     }
 }
 
-fn leave_out_rough(patches: &mut [Option<Patch>]) {
-    let usual = linalg::median(patches.iter().flatten().map(|p| p.across));
+/// Cameras err along their rays, so points scatter less across a surface that is seen at a slant; where they
+/// scatter more, the window reaches from one surface to another behind it.
+fn leave_out_rough(patches: &mut [Option<Patch>], from_camera: bool) {
+    let slant = |p: &Patch| if from_camera { p.slant() } else { 1.0 };
+    let rough = if from_camera { ROUGH_AT_SLANT } else { ROUGH };
+    let usual = linalg::median(patches.iter().flatten().map(|p| p.across / slant(p)));
     for patch in patches {
-        *patch = patch.filter(|p| p.across <= (ROUGH * usual).max(FLAT * p.along)).map(|p| {
-            let shape = (p.across - SHAPED * usual).max(0.0);
+        let limit = |p: &Patch| (rough * usual * slant(p)).max(FLAT * p.along);
+        *patch = patch.filter(|p| p.across <= limit(p)).map(|p| {
+            let shape = (p.across - SHAPED * usual * slant(&p)).max(0.0);
             Patch { variance: p.across / p.held + shape, ..p }
         });
     }

@@ -168,8 +168,8 @@ fn every_method_comes_to_the_same_place() {
     let (source, target, truth) = scans(1, |k| k);
     let start = off(&truth, &mut Random::new(8));
     let methods = [
-        (DenseMethod::Auto, 0.3),
-        (DenseMethod::PointToPlane, 0.4),
+        (DenseMethod::Auto, 0.4),
+        (DenseMethod::PointToPlane, 0.5),
         (DenseMethod::PlaneToPlane, 1.5),
         (DenseMethod::PointToPoint, 20.0),
     ];
