@@ -302,9 +302,12 @@ pub struct RegisterArgs {
     /// auto (symmetric), point-to-point, point-to-plane or gicp.
     #[arg(long, default_value = "auto")]
     pub method: String,
-    /// JSON file with the start [default: both scans lie as they are].
+    /// JSON file with the start [default: both scans lie as they are; see --global].
     #[arg(long)]
     pub initial: Option<PathBuf>,
+    /// Look for the source everywhere in the target, without a start.
+    #[arg(long, conflicts_with = "initial")]
+    pub global: bool,
     /// Surfaces farther apart are not compared; about how far the start may be off [default: 50].
     #[arg(long)]
     pub max_distance_mm: Option<f64>,

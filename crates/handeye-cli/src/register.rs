@@ -109,6 +109,7 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         method,
         max_correspondence_distance_m: gate * 1e-3,
         max_iterations: args.max_iterations,
+        global: args.global,
         threads: thread::available_parallelism().map_or(1, usize::from),
         ..DenseConfig::default()
     };
@@ -120,6 +121,10 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     let surfaces = (surface(&source, &args.source)?, surface(&target, &args.target)?);
     let prepared = began.elapsed();
     let found = register_surfaces(&surfaces.0, &surfaces.1, &start, &config);
+    if found.verdict == Verdict::Rejected && args.initial.is_none() && !args.global {
+        let what = "no start was given, so both scans were taken to lie as they are: --global looks for one";
+        warnings.push(Warning::new("no-start", what));
+    }
     let seconds = Seconds {
         read: read.as_secs_f64(),
         prepare: (prepared - read).as_secs_f64(),

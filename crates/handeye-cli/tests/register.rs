@@ -101,6 +101,27 @@ fn scans_are_registered_whatever_their_kind_and_unit() {
     assert!(run.stdout.lines().all(|line| line.chars().count() <= 80), "{}", run.stdout);
 }
 
+#[test]
+fn a_start_is_looked_for_where_it_is_asked_for() {
+    let (source, target, truth) = scans(&cell());
+    let away = Isometry3::new([0.4, -0.3, 0.2].into(), [0.2, -0.1, 1.9].into());
+    let moved = |p: &[f32; 3]| {
+        away.transform_point(&p.map(f64::from).into()).coords.map(|x| x as f32).into()
+    };
+    let points = source.points().iter().map(moved).collect();
+    let moved = Scan::new(source.width(), source.height(), points).unwrap();
+    let folder = Folder::new();
+    folder.put("source.pcd", &pcd(&moved, 1.0, false));
+    folder.put("target.pcd", &pcd(&target, 1.0, true));
+    let lost = handeye(&folder, &["register", "source.pcd", "target.pcd"]);
+    assert_eq!(lost.code, 3);
+    assert!(lost.stderr.contains("--global looks for one"), "{}", lost.stderr);
+    let run = handeye(&folder, &["register", "source.pcd", "target.pcd", "--global", "--json"]);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    let (degrees, mm) = errors(&truth, &(found(&run.json()) * away));
+    assert!(degrees < 0.2 && mm < 0.6, "{degrees} deg, {mm} mm");
+}
+
 /// A camera matrix alone does not say of which size its pictures are: the depth image does.
 #[test]
 fn depth_images_are_registered_with_their_intrinsics() {

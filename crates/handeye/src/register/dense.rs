@@ -127,11 +127,7 @@ pub fn register_surfaces(
 ) -> Dense {
     registered(source, target, start, config).unwrap_or_else(|_| Dense {
         verdict: Verdict::Rejected,
-        reasons: vec![format!(
-            "hardly anything of the source lies within {:.0} mm of the target: give a better start, or a \
-             larger distance",
-            1e3 * config.max_correspondence_distance_m
-        )],
+        reasons: vec![nothing_near(config)],
         undetermined: vec![],
         target_from_source: *start,
         covariance: None,
@@ -142,6 +138,17 @@ pub fn register_surfaces(
         rms_m: f64::NAN,
         sigma: f64::NAN,
     })
+}
+
+fn nothing_near(config: &DenseConfig) -> String {
+    if config.global {
+        return "the source was found nowhere in the target: give a start, or scans with more shape in common".into();
+    }
+    format!(
+        "hardly anything of the source lies within {:.0} mm of the target: give a better start, or a larger \
+         distance",
+        1e3 * config.max_correspondence_distance_m
+    )
 }
 
 fn registered(
