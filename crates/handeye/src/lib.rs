@@ -11,6 +11,7 @@ pub mod dictionary;
 pub mod error;
 pub mod evaluate;
 pub mod frame;
+mod gram;
 pub mod image;
 pub mod intrinsics;
 pub mod kinematics;

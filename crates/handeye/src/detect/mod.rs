@@ -13,7 +13,6 @@ mod coded;
 mod crossings;
 mod erf;
 mod fits;
-pub(crate) mod gram;
 mod grid;
 pub mod homography;
 mod levenberg;

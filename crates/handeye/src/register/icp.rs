@@ -12,7 +12,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::{RigidFit, rigid_fit};
+use super::{RigidFit, kd_tree::KdTree, rigid_fit};
 use crate::{Error, lie};
 
 /// When to match and when to stop.
@@ -72,17 +72,19 @@ pub fn point_to_point(
     target_from_source: &Isometry3<f64>,
     config: &IcpConfig,
 ) -> Result<Icp, Error> {
+    let places: Vec<[f32; 3]> = target.iter().map(|q| q.map(|x| x as f32).into()).collect();
+    let tree = KdTree::new(&places);
     let mut at = *target_from_source;
     let mut stop = Stop::MaxIterations;
     let mut iterations = 0;
-    let mut matches = nearest(source, target, &at, config);
+    let mut matches = nearest(source, &tree, &at, config);
     while iterations < config.max_iterations {
         iterations += 1;
         let (p, q) = matched(source, target, &matches);
         let next = rigid_fit(&p, &q)?.target_from_source;
         let change = lie::log(&at.inv_mul(&next)).amax();
         at = next;
-        matches = nearest(source, target, &at, config);
+        matches = nearest(source, &tree, &at, config);
         if change < config.transformation_epsilon {
             stop = Stop::Converged;
             break;
@@ -104,24 +106,17 @@ fn matched(
     source.iter().zip(matches).filter_map(|(p, m)| m.map(|k| (*p, target[k]))).unzip()
 }
 
-/// Nearest target point of each moved source point, by trying all: the sets here are the corners
-/// of a board.
+/// Nearest target point of each moved source point.
 fn nearest(
     source: &[Vector3<f64>],
-    target: &[Vector3<f64>],
+    tree: &KdTree,
     at: &Isometry3<f64>,
     config: &IcpConfig,
 ) -> Vec<Option<usize>> {
-    let gate = config.max_correspondence_distance_m.powi(2);
+    let gate = config.max_correspondence_distance_m as f32;
     let find = |p: &Vector3<f64>| {
         let p = at.transform_vector(p) + at.translation.vector;
-        let distance = |q: &Vector3<f64>| (p - q).norm_squared();
-        let (k, d2) = target
-            .iter()
-            .enumerate()
-            .map(|(k, q)| (k, distance(q)))
-            .min_by(|a, b| a.1.total_cmp(&b.1))?;
-        (d2 <= gate).then_some(k)
+        tree.nearest(&p.map(|x| x as f32).into(), gate).map(|found| found.index as usize)
     };
     source.iter().map(find).collect()
 }

@@ -7,8 +7,8 @@ use nalgebra::SVector;
 
 use super::disc::{Disc, LANES, Lane, Pixels};
 use crate::detect::erf::erf;
-use crate::detect::gram::{accumulate, pairs};
 use crate::detect::saturated::share_within;
+use crate::gram::{accumulate, pairs};
 
 pub(super) type Parameters = SVector<f64, 9>;
 

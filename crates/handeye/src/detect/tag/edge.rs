@@ -14,9 +14,9 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::quads::Quad;
 use crate::GrayImage;
-use crate::detect::gram::place;
 use crate::detect::levenberg::{Bounded, Descent, Linearised, descend};
 use crate::detect::saturated::is_saturated;
+use crate::gram::place;
 pub(super) use model::Parameters;
 use model::{LANES, Model, Pixels, products};
 

@@ -6,8 +6,8 @@ use multiversion::multiversion;
 use nalgebra::SVector;
 
 use crate::detect::erf::erf;
-use crate::detect::gram::{accumulate, pairs};
 use crate::detect::saturated::share_within;
+use crate::gram::{accumulate, pairs};
 
 pub(in super::super) type Parameters = SVector<f64, 6>;
 

@@ -1,7 +1,7 @@
 //! Products of all pairs of rows, several pixels at once.
 
 /// Pairs of so many rows.
-pub(super) const fn pairs(rows: usize) -> usize {
+pub(crate) const fn pairs(rows: usize) -> usize {
     rows * (rows + 1) / 2
 }
 
@@ -13,7 +13,7 @@ pub(crate) const fn place<const ROWS: usize>(m: usize, n: usize) -> usize {
 /// Adds the products of rows of `LANES` pixels to `SUMS` sums each, which a processor adds as many at
 /// once.
 #[inline(always)]
-pub(super) fn accumulate<
+pub(crate) fn accumulate<
     const ROWS: usize,
     const LANES: usize,
     const SUMS: usize,
