@@ -14,7 +14,7 @@ use crate::{
 const ORDERS: [(&str, Order); 3] =
     [("organised", Order::Organised), ("cloud", Order::Rows), ("shuffled", Order::Shuffled)];
 /// Pairs of runs, with one thread and with two; the fastest of each counts.
-const RUNS: usize = 15;
+const RUNS: usize = 9;
 
 fn registered(pair: &Pair, start: &Isometry3<f64>, threads: usize) -> Dense {
     let config = DenseConfig { threads, ..DenseConfig::default() };
