@@ -1,5 +1,7 @@
 //! From how far off a registration still finds its way, and whether it knows when it did not.
 
+use std::collections::BTreeMap;
+
 use handeye::{
     Scan, Verdict, lie,
     register::{Dense, DenseConfig, register},
@@ -25,6 +27,9 @@ const FREE_TURN_DEG: f64 = 170.0;
 const WRONG_DEG: f64 = 0.3;
 const WRONG_M: f64 = 1.5e-3;
 
+/// Words that tell one reason from another.
+const WORDS: usize = 6;
+
 #[derive(Default)]
 struct Tally {
     right: usize,
@@ -32,6 +37,8 @@ struct Tally {
     wrong: usize,
     /// Squared error over the stated covariance, over 6, of all accepted answers.
     normalised: Vec<f64>,
+    /// How often each first reason was given.
+    reasons: BTreeMap<String, usize>,
 }
 
 /// All starts, and none, with organised scans and clouds.
@@ -56,6 +63,7 @@ fn row(order: &str, start: Value, tally: &Tally) -> Value {
         "right": tally.right,
         "refused": tally.refused,
         "wrong": tally.wrong,
+        "reasons": tally.reasons,
         "normalised": tally.normalised.iter().sum::<f64>() / count,
     })
 }
@@ -94,12 +102,22 @@ fn pair(turned: bool, random: &mut Random) -> Pair {
 }
 
 impl Tally {
+    fn refuse(&mut self, reason: &str) {
+        self.refused += 1;
+        let told = reason.split(' ').filter(|word| !word.contains(|c: char| c.is_ascii_digit()));
+        let kind: Vec<&str> = told.take(WORDS).collect();
+        *self.reasons.entry(kind.join(" ")).or_default() += 1;
+    }
+
     fn add(&mut self, found: Option<Dense>, truth: &Isometry3<f64>) {
-        let accepted = found.filter(|f| f.verdict == Verdict::Accepted);
-        let Some(found) = accepted else {
-            self.refused += 1;
+        let Some(found) = found else {
+            self.refuse("a scan shows no surface");
             return;
         };
+        if found.verdict != Verdict::Accepted {
+            self.refuse(found.reasons.first().map_or("", String::as_str));
+            return;
+        }
         let error = lie::log(&truth.inv_mul(&found.target_from_source));
         let middle = Point3::new(0.0, 0.0, DISTANCE_M);
         let off = (truth * middle - found.target_from_source * middle).norm();

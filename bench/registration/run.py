@@ -1,8 +1,9 @@
 """Registration of scans: handeye beside small_gicp and Open3D, its k-d tree beside theirs and SciPy's.
 
     pip install -r bench/registration/requirements.txt
-    python bench/registration/run.py                  writes its section of BENCHMARK.md
-    python bench/registration/run.py --dry            prints it only
+    python bench/registration/run.py                  writes its sections of BENCHMARK.md
+    python bench/registration/run.py --only basin     or others, threads: writes that section alone
+    python bench/registration/run.py --dry            prints only
     python bench/registration/run.py --folder DIR     keeps the scans there
 
 Cargo builds handeye. The run takes a quarter of an hour and a gigabyte of disk.
@@ -14,6 +15,7 @@ import os
 os.environ["OMP_NUM_THREADS"] = "1"
 
 import argparse
+import collections
 import importlib.metadata
 import json
 import pathlib
@@ -30,7 +32,6 @@ import small_gicp
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 BENCHMARK = ROOT / "BENCHMARK.md"
-BEGIN, END = "<!-- registration:begin -->", "<!-- registration:end -->"
 # of the scenes that are timed, and of the one whose memory is measured: pixels
 SMALL, LARGE, LARGEST = (366, 274), (1280, 1024), (3660, 2745)
 GATE = 0.01
@@ -222,6 +223,7 @@ def waited_for_quiet():
 
 
 def thread_lines(folder):
+    handeye("render", folder, *LARGE, 1)
     least, same, quiet = {order: np.full(2, np.inf) for order in ORDERS}, dict.fromkeys(ORDERS, True), 0
     for _ in range(ATTEMPTS):
         quiet += waited_for_quiet()
@@ -232,7 +234,7 @@ def thread_lines(folder):
     for order, (one, two) in least.items():
         rows.append([ORDERS[order], f"{one:.1f}", f"{two:.1f}", f"{one / two:.2f}", met(one / two >= 1.8),
                      "yes" if same[order] else "**no**"])
-    return ["### Two threads", "",
+    return ["## Registration by two threads", "",
             f"{LARGE[0]} x {LARGE[1]}, wall time, ms: the least of {ATTEMPTS} times 9 runs of each in turn. Two threads need both",
             f"processors of the machine; others took less than a tenth of them when {quiet} of the {ATTEMPTS}",
             "began, none can be sure of them throughout, and the gain may be larger. Goal: 1.8 times as fast, and the same answer, bit for bit.", "",
@@ -247,14 +249,19 @@ def basin_lines(scenes):
         rows.append([row["order"], start, str(row["right"]), str(row["refused"]),
                      f"**{row['wrong']}**" if row["wrong"] else "0", f"{normalised:.2f}", met(0.8 <= normalised <= 1.25)])
     wrong, count = sum(r["wrong"] for r in answers), scenes * len(answers)
-    return ["### How far off a start may be", "",
+    why = collections.Counter()
+    for row in answers:
+        why.update(row["reasons"])
+    told = "; ".join(f"“{reason} …” {times}" for reason, times in why.most_common())
+    return ["## Registration: how far off a start may be", "",
             f"{scenes} scenes for each row, 240 x 180, views drawn at random: 0.15 m aside, 0.2 rad tilted, 0.3 rad turned",
             "at most. *Wrong*: accepted and off by more than 0.3 degrees or 1.5 mm. *Normalised error*: the mean of the",
             "squared error over the stated covariance, over 6, of all that was accepted: 1 is right, above 1 handeye is",
             "too sure; goal: 0.8 to 1.25.", "",
             *table(["points", "start is off by", "right", "refused", "wrong", "normalised error", "met"], rows),
             f"Wrong: {wrong} of {count} (goal: none; {met(wrong == 0)}). Right or refused: "
-            f"{100 * (1 - wrong / count):.2f} % (goal: 99 %; {met(wrong <= 0.01 * count)}).", ""]
+            f"{100 * (1 - wrong / count):.2f} % (goal: 99 %; {met(wrong <= 0.01 * count)}).", "",
+            f"Refused because, in the first words of the first reason: {told}.", ""]
 
 
 def tree_rows(folder, size):
@@ -339,7 +346,8 @@ def machine():
     return f"{os.cpu_count()} processors ({model}); load {os.getloadavg()[2]:.1f} over the last quarter of an hour"
 
 
-def section(folder, options):
+def comparison(folder, options):
+    """With the other programs, and what is measured on the same scenes."""
     for size, count in [(SMALL, options.scenes), (LARGE, options.scenes), (LARGEST, 1)]:
         handeye("render", folder, *size, count)
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("small_gicp", "open3d", "scipy"))
@@ -347,35 +355,43 @@ def section(folder, options):
     return ["## Registration", "", *SETTING.splitlines(), "", *PEERS_TOLD.splitlines(), "",
             f"Written by `bench/registration/run.py` with {versions}; {options.scenes} scenes of each size,",
             f"{options.timed} of them timed; {machine()}.", "",
-            *(line for lines in registrations for line in lines), *basin_lines(options.basin), *tree_lines(folder),
-            *pair_lines(), *memory_lines(folder), *thread_lines(folder)]
+            *(line for lines in registrations for line in lines), *tree_lines(folder), *pair_lines(),
+            *memory_lines(folder)]
 
 
-def write_section(lines):
+def write_section(part, lines):
+    begin, end = f"<!-- registration-{part}:begin -->", f"<!-- registration-{part}:end -->"
     text = BENCHMARK.read_text() if BENCHMARK.exists() else "# Benchmark\n"
-    if BEGIN not in text:
-        text += f"\n{BEGIN}\n{END}\n"
-    block = "\n".join([BEGIN, *lines, END])
-    BENCHMARK.write_text(text[:text.index(BEGIN)] + block + text[text.index(END) + len(END):])
+    if begin not in text:
+        text += f"\n{begin}\n{end}\n"
+    block = "\n".join([begin, *lines, end])
+    BENCHMARK.write_text(text[:text.index(begin)] + block + text[text.index(end) + len(end):])
+
+
+PARTS = {
+    "others": comparison,
+    "basin": lambda _, options: basin_lines(options.scenes_of_basin),
+    "threads": lambda folder, _: thread_lines(folder),
+}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--only", choices=PARTS, help="this section alone")
     parser.add_argument("--scenes", type=int, default=24, help="scenes of each size")
     parser.add_argument("--timed", type=int, default=6, help="those that are timed")
-    parser.add_argument("--basin", type=int, default=100, help="scenes for each start")
+    parser.add_argument("--scenes-of-basin", type=int, default=100, help="scenes for each start")
     parser.add_argument("--folder", type=pathlib.Path, help="keep the scans there")
     parser.add_argument("--dry", action="store_true", help="print only")
     options = parser.parse_args()
-    if options.folder:
-        options.folder.mkdir(parents=True, exist_ok=True)
-        lines = section(options.folder.resolve(), options)
-    else:
-        with tempfile.TemporaryDirectory() as folder:
-            lines = section(pathlib.Path(folder), options)
-    print("\n".join(lines))
-    if not options.dry:
-        write_section(lines)
+    with tempfile.TemporaryDirectory() as passing:
+        folder = (options.folder or pathlib.Path(passing)).resolve()
+        folder.mkdir(parents=True, exist_ok=True)
+        for part in [options.only] if options.only else PARTS:
+            lines = PARTS[part](folder, options)
+            print("\n".join(lines))
+            if not options.dry:
+                write_section(part, lines)
 
 
 if __name__ == "__main__":
