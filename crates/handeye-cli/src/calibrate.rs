@@ -6,8 +6,8 @@ use std::{
 };
 
 use handeye::{
-    Calibration, Config, Session, Setup, Verdict, Warning, calibrate, refine::noise::KnownNoise,
-    register::IcpConfig,
+    Calibration, Config, Session, Setup, Verdict, Warning, calibrate, calibration::SceneKind,
+    refine::noise::KnownNoise, register::IcpConfig,
 };
 use handeye_io::{
     Dataset, WorkspaceFrame,
@@ -88,7 +88,8 @@ pub fn run_on(
     manners: &Manners,
 ) -> Result<(Calibration, Session), Failure> {
     check_workspace(dataset)?;
-    let progress = Progress::new("reading captures", manners);
+    let what = if dataset.shape.is_some() { "placing scans" } else { "reading captures" };
+    let progress = Progress::new(what, manners);
     let measured = measure::measure(dataset, &|done, all| progress.tell(done, all))?;
     drop(progress);
     let config = Config {
@@ -140,16 +141,44 @@ fn explain(calibration: &mut Calibration, measured: &Measured) {
             capture.reason = Some(reason.clone());
         }
     }
-    let (missing, all) = (measured.not_found.len(), calibration.captures.len());
-    if let Some((id, reason)) = measured.not_found.first()
-        && 2 * missing > all
-    {
-        let message = format!(
-            "the target was not found in {missing} pictures of {all} captures ({id}: {reason}): \
-             check [target]"
-        );
-        calibration.warnings.insert(0, Warning::new("target-not-found", message));
+    if let Some(scene) = &measured.scene {
+        calibration.scans.get_or_insert_default().scene = Some(scene.clone());
     }
+    explain_missing(calibration, measured);
+}
+
+/// Says first what most captures miss.
+fn explain_missing(calibration: &mut Calibration, measured: &Measured) {
+    let (missing, all) = (measured.not_found.len(), calibration.captures.len());
+    let Some((id, reason)) = measured.not_found.first().filter(|_| 2 * missing > all) else {
+        return;
+    };
+    let (code, message) = match measured.scene.as_ref().map(|scene| scene.kind) {
+        None => (
+            "target-not-found",
+            format!(
+                "the target was not found in {missing} pictures of {all} captures ({id}: {reason}): \
+                 check [target]"
+            ),
+        ),
+        Some(SceneKind::Scene) => (
+            "scans-not-placed",
+            format!(
+                "{missing} of {all} scans have no place in the scene ({id}: {reason}): scan a scene with \
+                 shape on all sides, from places that see much in common"
+            ),
+        ),
+        Some(SceneKind::Object) => (
+            "target-not-found",
+            format!(
+                "{missing} of {all} scans do not show the object ({id}: {reason}): check [object]"
+            ),
+        ),
+    };
+    if measured.scene.is_some() && calibration.verdict != Verdict::Accepted {
+        calibration.reasons.insert(0, message.clone());
+    }
+    calibration.warnings.insert(0, Warning::new(code, message));
 }
 
 /// The corrected model of the arm, where one was found.

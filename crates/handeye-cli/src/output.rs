@@ -121,6 +121,10 @@ pub fn summary(c: &Calibration) {
     text += &transform(c);
     text += &candidates(c);
     text += &c.certificate.as_ref().map_or(String::new(), certificate);
+    if let Some(scene) = c.scans.as_ref().and_then(|scans| scans.scene.as_ref()) {
+        text += "\n";
+        text += &wrapped("", &scene.sentence(c.captures.len()));
+    }
     let used = c.captures.iter().filter(|k| k.used).count();
     if !c.captures.is_empty() {
         text += &format!("\n{used} of {} captures used", c.captures.len());

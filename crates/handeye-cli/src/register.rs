@@ -13,7 +13,7 @@ use handeye::{
     register::{Dense, DenseConfig, DenseMethod, Stop, Surface, register_surfaces},
 };
 use handeye_io::{
-    Error, ScanOptions, is_mesh, read_intrinsics, read_mesh, read_scan,
+    Error, ScanOptions, is_mesh, points_on, read_intrinsics, read_mesh, read_scan,
     report::{NamedCloud, Registration, registration_html},
     scan_size, scan_unit,
     units::LengthUnit,
@@ -30,11 +30,6 @@ use crate::{
 
 /// A scan that is wider than this, in its own unit, is taken to be in millimetres.
 const WIDEST_M: f64 = 20.0;
-/// Points that are laid over a mesh: about as many as a scan has. More would hardly make the pieces of
-/// its surface smaller.
-const POINTS_ON_MESH: f64 = 3e5;
-/// Finer than this, m, no camera tells points apart.
-const FINEST_SPACING_M: f64 = 2e-4;
 /// Rotations may be off by so much from one of length one.
 const ROUNDED: f64 = 1e-3;
 
@@ -229,8 +224,7 @@ fn read(path: &Path, args: &Reading, warnings: &mut Vec<Warning>) -> Result<Scan
         return read_points(path, args, warnings);
     }
     let mesh = read_triangles(path, args, warnings)?;
-    let spacing = (mesh.area_m2() / POINTS_ON_MESH).sqrt().max(FINEST_SPACING_M);
-    mesh.sampled(spacing).map_err(|error| Failure::input(path, error.to_string()))
+    points_on(&mesh).map_err(|error| Failure::input(path, error.to_string()))
 }
 
 /// Reads a scan.

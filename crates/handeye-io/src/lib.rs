@@ -24,6 +24,7 @@ mod records;
 pub mod report;
 pub mod robot;
 mod scan;
+mod shapes;
 pub mod simulated;
 mod table;
 mod target_file;
@@ -35,13 +36,13 @@ mod xml;
 pub use camera::read_intrinsics;
 pub use dataset::{
     CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PixelOrigin, PlacementSource,
-    RobotFile, RobotPoses, WorkspaceBox, WorkspaceFrame, columns, read_robot_poses,
+    RobotFile, RobotPoses, Shape, WorkspaceBox, WorkspaceFrame, columns, read_robot_poses,
 };
 pub use error::{Error, Place};
 pub use files::write_atomically;
 pub use image::{image_size, read_image};
 pub use init::{FirstManifest, Question, first_manifest};
-pub use mesh::{is_mesh, read_mesh};
+pub use mesh::{is_mesh, points_on, read_mesh};
 pub use scan::{ScanOptions, read_scan, scan_size, scan_unit};
 pub use target_file::{NamedTarget, Targets, read_target, read_targets, target_toml};
 pub use touch_file::{TouchedPoint, read_touched_points};

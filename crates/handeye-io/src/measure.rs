@@ -11,14 +11,15 @@ use std::{
 use handeye::{
     Camera, GrayImage, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
     SurfaceCorner, Target, TargetModel, TargetPose, Warning,
-    calibration::{CaptureStep, ColourStepResult},
+    calibration::{CaptureStep, ColourStepResult, SceneResult},
     detect::{self, NotFound, sphere, surface},
     intrinsics, lens,
     linalg::median,
 };
 
 use crate::{
-    CaptureSource, Dataset, Error, Place, PlacementSource, error::malformed, parallel, pixel_origin,
+    CaptureSource, Dataset, Error, Place, PlacementSource, error::malformed, parallel,
+    pixel_origin, shapes,
 };
 
 /// What was measured, and what is worth knowing of how.
@@ -29,6 +30,8 @@ pub struct Measured {
     pub camera_rms_px: Option<f64>,
     /// How depths on the two colours of the print differ, where scans tell it.
     pub colour_step: Option<ColourStepResult>,
+    /// How scans were placed, where a shape takes a board's place.
+    pub scene: Option<SceneResult>,
     /// Why captures show no target, by name.
     pub not_found: Vec<(String, String)>,
     /// What to know.
@@ -80,6 +83,9 @@ pub fn measure(
     dataset: &Dataset,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Measured, Error> {
+    if let Some(shape) = &dataset.shape {
+        return shapes::measure(dataset, shape, progress);
+    }
     let shots: Vec<Shot> = dataset
         .captures
         .iter()
@@ -102,7 +108,7 @@ pub fn measure(
     let not_found = captures.filter_map(|(c, s)| Some((c.id.clone(), s.not_found.clone()?)));
     let not_found = not_found.collect();
     let session = session(dataset, seen, poses, camera);
-    Ok(Measured { session, camera_rms_px, colour_step, not_found, warnings })
+    Ok(Measured { session, camera_rms_px, colour_step, scene: None, not_found, warnings })
 }
 
 fn look_at_all(

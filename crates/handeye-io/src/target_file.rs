@@ -108,7 +108,7 @@ impl<'de> Deserialize<'de> for Targets {
     }
 }
 
-struct TargetsVisitor;
+pub(crate) struct TargetsVisitor;
 
 impl<'de> Visitor<'de> for TargetsVisitor {
     type Value = Targets;

@@ -13,7 +13,7 @@ use crate::{
 
 pub use scans::{
     BoardDeviation, CaptureFlatness, CaptureStep, ColourStepResult, FlatnessResult, FramesResult,
-    ScanResult,
+    ScanResult, SceneKind, ScenePair, SceneResult,
 };
 
 /// Whether the answer can be used.

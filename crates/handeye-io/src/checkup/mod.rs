@@ -17,7 +17,7 @@ use serde::Serialize;
 pub use amend::apply;
 
 use crate::{
-    Dataset, Error, Place,
+    Dataset, Error, Place, Shape,
     dataset::{self, Rereading, rereadings},
     error::malformed,
     files, measure,
@@ -123,6 +123,12 @@ pub fn check(
         let what = "a ball shows no rotation, and that is what tells mistakes apart";
         return Err(malformed(Place::file(manifest), what, "take some captures of a board"));
     }
+    if let Some(Shape::Scene { .. }) = dataset.shape {
+        let what = "scans of a scene are brought together with the help of the robot poses, so they \
+                    cannot tell what is wrong with those";
+        let advice = "take some captures of a board, or of an object of known shape";
+        return Err(malformed(Place::file(manifest), what, advice));
+    }
     let measured = measure::measure(&dataset, progress)?;
     let session = measured.session;
     let robot = rereadings(manifest, root, &dataset)?;
@@ -130,7 +136,7 @@ pub fn check(
         (0..dataset.captures.len()).partition(|&i| !session.observations[i].candidates.is_empty());
     let name = |i: &usize| session.observations[*i].capture.clone();
     if seen.len() < explain::FEWEST {
-        return Err(too_few(manifest, seen.len(), measured.not_found.first()));
+        return Err(too_few(&dataset, seen.len(), measured.not_found.first()));
     }
     let declared = of_session(&session, &seen, |i| session.observations[i].base_from_flange);
     let case = Case {
@@ -153,15 +159,19 @@ pub fn check(
     Ok(checkup)
 }
 
-fn too_few(manifest: &Path, seen: usize, reason: Option<&(String, String)>) -> Error {
+fn too_few(dataset: &Dataset, seen: usize, reason: Option<&(String, String)>) -> Error {
     let what = format!(
         "the target was seen in {seen} captures, {} are needed to contradict a mistake",
         explain::FEWEST
     );
     let advice = reason.map_or("add captures".into(), |(capture, why)| {
-        format!("check [target] and the pictures (capture {capture}: {why})")
+        let which = match dataset.shape {
+            Some(_) => "[object] and the scans",
+            None => "[target] and the pictures",
+        };
+        format!("check {which} (capture {capture}: {why})")
     });
-    malformed(Place::file(manifest), what, advice)
+    malformed(Place::file(&dataset.manifest), what, advice)
 }
 
 fn of_session(

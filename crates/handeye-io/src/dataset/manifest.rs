@@ -6,12 +6,12 @@ use handeye::Setup;
 use serde::Deserialize;
 use toml::de::{DeTable, DeValue};
 
+use super::shapes::{ObjectSpec, SceneSpec, TargetSpec};
 use crate::{
     camera::CameraSpec,
     error::{Error, Place, malformed, nearest},
     robot::DhSpec,
     table::{Column, Layout},
-    target_file::Targets,
     units::{AngleUnit, LengthUnit},
 };
 
@@ -19,7 +19,9 @@ use crate::{
 #[serde(deny_unknown_fields)]
 pub(crate) struct Manifest {
     pub(super) setup: Setup,
-    pub(super) target: Option<Targets>,
+    pub(super) target: Option<TargetSpec>,
+    pub(super) scene: Option<SceneSpec>,
+    pub(super) object: Option<ObjectSpec>,
     pub(super) camera: Option<CameraSpec>,
     pub(super) robot: Option<RobotSpec>,
     pub(super) images: Option<ImagesSpec>,

@@ -7,6 +7,7 @@ mod pairing;
 mod poses;
 mod rereading;
 mod robot_file;
+mod shapes;
 mod touches;
 
 use std::path::{Path, PathBuf};
@@ -28,6 +29,7 @@ pub(crate) use manifest::{Manifest, Source};
 use opening::Opening;
 pub(crate) use rereading::{Rereading, rereadings};
 pub use robot_file::{RobotFile, RobotPoses, columns, read_robot_poses};
+pub use shapes::Shape;
 pub use touches::FIXED_BOARD;
 
 /// Name of the manifest in a folder.
@@ -40,8 +42,10 @@ pub struct Dataset {
     pub manifest: PathBuf,
     /// Where the camera is.
     pub setup: Setup,
-    /// What the camera looks at; `None` with poses of the board or with point pairs alone.
+    /// What the camera looks at; `None` with poses of the board, point pairs alone, or a shape.
     pub target: Option<TargetModel>,
+    /// What takes a board's place, where scans are brought together by their shape.
+    pub shape: Option<Shape>,
     /// What else the pictures may show, and is not used.
     pub other_targets: Vec<TargetModel>,
     /// The camera's intrinsics; `None` when they are to be calibrated from the views.

@@ -17,6 +17,7 @@ use super::{
     },
     pairing::{self, Series},
     poses::{self, Named},
+    shapes::TargetSpec,
     touches,
 };
 use crate::{
@@ -48,8 +49,9 @@ struct Parts {
 impl Opening {
     pub(super) fn dataset(&self) -> Result<Dataset, Error> {
         let m = &self.manifest;
-        self.check_target()?;
         let mut warnings = Vec::new();
+        let shape = self.shape(&mut warnings)?;
+        self.check_target()?;
         let parts = self.parts(&mut warnings)?;
         let intrinsics = self.intrinsics(&parts)?;
         let correspondences = match &m.point_pairs {
@@ -63,6 +65,7 @@ impl Opening {
             manifest: self.source.path.clone(),
             setup: m.setup,
             target: self.target()?.cloned(),
+            shape,
             other_targets: self.other_targets()?,
             intrinsics,
             lens: m.camera.as_ref().and_then(|spec| spec.calibrate),
@@ -95,15 +98,20 @@ impl Opening {
                 .source
                 .undeclared("target", "which board does the camera see? ([target] kind = ...)")),
             None => Ok(()),
-            Some(target) => target
-                .check()
+            Some(_) => self
+                .boards()
+                .map_or(Ok(()), Targets::check)
                 .map_err(|source| Error::Values { place: self.source.place("target"), source }),
         }
     }
 
+    fn boards(&self) -> Option<&Targets> {
+        self.manifest.target.as_ref().and_then(TargetSpec::boards)
+    }
+
     /// The target that the calibration uses.
     fn target(&self) -> Result<Option<&TargetModel>, Error> {
-        let Some(targets) = &self.manifest.target else { return Ok(None) };
+        let Some(targets) = self.boards() else { return Ok(None) };
         let picked = targets.pick(self.manifest.captures.target.as_deref());
         picked.map(Some).map_err(|(what, advice)| {
             malformed(
@@ -116,7 +124,7 @@ impl Opening {
 
     fn other_targets(&self) -> Result<Vec<TargetModel>, Error> {
         let own = self.target()?;
-        let all = self.manifest.target.iter().flat_map(Targets::models);
+        let all = self.boards().into_iter().flat_map(Targets::models);
         Ok(all.filter(|model| Some(*model) != own).cloned().collect())
     }
 

@@ -5,7 +5,7 @@ mod stl;
 
 use std::path::Path;
 
-use handeye::TriangleMesh;
+use handeye::{Scan, TriangleMesh};
 
 use crate::{
     error::{Error, Place, malformed, undeclared},
@@ -19,6 +19,21 @@ use crate::{
 struct Parts {
     vertices: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
+}
+
+/// Points that are laid over a mesh: about as many as a scan has. More would hardly make the pieces of
+/// its surface smaller.
+const POINTS_ON_MESH: f64 = 3e5;
+/// Finer than this, m, no camera tells points apart.
+const FINEST_SPACING_M: f64 = 2e-4;
+
+/// Points laid evenly over a mesh, to be compared with those of a scan.
+///
+/// # Errors
+/// A mesh too large to be covered.
+pub fn points_on(mesh: &TriangleMesh) -> Result<Scan, handeye::Error> {
+    let spacing = (mesh.area_m2() / POINTS_ON_MESH).sqrt().max(FINEST_SPACING_M);
+    mesh.sampled(spacing)
 }
 
 /// Whether a file is a mesh: STL, OBJ, and PLY whose header promises faces.

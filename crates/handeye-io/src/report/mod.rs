@@ -61,6 +61,7 @@ pub fn html(report: &Report) -> String {
     body += &view(report);
     body += &budget(c);
     body += &arm::arm(c);
+    body += &scans::scene(c);
     body += &scans::scans(c);
     body += &diversity(c);
     body += &pictures(report);
@@ -275,6 +276,11 @@ fn candidates(c: &Calibration) -> String {
     section("Candidates side by side", "", &table)
 }
 
+/// Whether the camera did not look at a scene or an object instead.
+fn has_board(c: &Calibration) -> bool {
+    c.scans.as_ref().is_none_or(|scans| scans.scene.is_none())
+}
+
 fn captures(c: &Calibration) -> String {
     if c.captures.is_empty() {
         return String::new();
@@ -307,9 +313,10 @@ fn captures(c: &Calibration) -> String {
     let rows: String = c.captures.iter().map(row).collect();
     let content = format!(
         "{}<div class=\"scroll\"><table><tr><th>capture</th><th>corners</th><th>own pose,<br>px</th><th>through the<br>robot, px</th><th>misfit,<br>mm</th><th>misfit,<br>degrees</th><th>left out,<br>mm</th><th class=\"words\">why not used</th></tr>{rows}</table></div>\
-         <p class=\"note\">Misfit: by how much robot and camera disagree on where the target's first corner is. Left out: the \
+         <p class=\"note\">Misfit: by how much robot and camera disagree on where the target's {} is. Left out: the \
          same with an answer that has not seen the capture.</p>",
-        plot::bars(&bars, "mm", ("misfit", "left out"))
+        plot::bars(&bars, "mm", ("misfit", "left out")),
+        if has_board(c) { "first corner" } else { "origin" }
     );
     section("Captures", "long", &content)
 }
@@ -432,9 +439,13 @@ fn diversity(c: &Calibration) -> String {
         );
     }
     if let Some(s) = &c.target_scale {
+        let (what, of) = match has_board(c) {
+            true => ("Size of the target as the robot's motions see it", "the declared one"),
+            false => ("Distances as the robot's motions see them", "those in the scans"),
+        };
         let _ = write!(
             content,
-            "<p class=\"note\">Size of the target as the robot's motions see it: {:.4} &plusmn; {:.4} of the declared one.</p>",
+            "<p class=\"note\">{what}: {:.4} &plusmn; {:.4} of {of}.</p>",
             s.value, s.sigma
         );
     }

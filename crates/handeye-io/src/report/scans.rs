@@ -4,10 +4,74 @@ use std::fmt::Write;
 
 use handeye::{
     Calibration,
-    calibration::{BoardDeviation, ColourStepResult, FlatnessResult, FramesResult},
+    calibration::{
+        BoardDeviation, ColourStepResult, FlatnessResult, FramesResult, SceneKind, ScenePair,
+    },
 };
 
-use super::section;
+use super::{capital, escape, section};
+
+/// More pairs that slide are not written out.
+const MOST_SLIDING: usize = 6;
+
+/// How scans were placed without a board; empty where there was one.
+pub(super) fn scene(c: &Calibration) -> String {
+    let Some(scene) = c.scans.as_ref().and_then(|scans| scans.scene.as_ref()) else {
+        return String::new();
+    };
+    let title = match scene.kind {
+        SceneKind::Scene => "Scene",
+        SceneKind::Object => "Object",
+    };
+    let rows: String = scene.pairs.iter().map(pair).collect();
+    let content = format!(
+        "<p>{}.</p>{}<details><summary>Each pair</summary><div class=\"scroll\"><table><tr><th>this</th>\
+         <th>in the scan of</th><th>lies on<br>it, %</th><th>agrees,<br>%</th><th>apart,<br>RMS mm</th>\
+         <th class=\"words\">why it does not count</th></tr>{rows}</table></div><p class=\"note\">Lies on it: \
+         share of the first that the second shows as well. Agrees: of the places where both show something, \
+         the share at which it is the same.</p></details>",
+        capital(&scene.sentence(c.captures.len())),
+        sliding(&scene.pairs),
+    );
+    section(title, "", &content)
+}
+
+fn pair(p: &ScenePair) -> String {
+    let class = if p.used { "" } else { "out" };
+    format!(
+        "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{:.0}</td><td>{:.0}</td><td>{}</td>\
+         <td class=\"words\">{}</td></tr>",
+        escape(&p.source),
+        escape(&p.target),
+        100.0 * p.overlap,
+        100.0 * p.agreement,
+        super::mm(p.rms_mm),
+        p.reason.as_deref().map_or(String::new(), escape)
+    )
+}
+
+/// What the common surface of pairs does not tell.
+fn sliding(pairs: &[ScenePair]) -> String {
+    let all: Vec<&ScenePair> = pairs.iter().filter(|p| !p.undetermined.is_empty()).collect();
+    if all.is_empty() {
+        return String::new();
+    }
+    let item = |p: &&ScenePair| {
+        let free = escape(&p.undetermined.join("; "));
+        format!("<li>{} in {}: {free}</li>", escape(&p.source), escape(&p.target))
+    };
+    let items: String = all.iter().take(MOST_SLIDING).map(item).collect();
+    let more = match all.len().saturating_sub(MOST_SLIDING) {
+        0 => String::new(),
+        more => format!("<li>and {more} more</li>"),
+    };
+    format!(
+        "<h3>What is not determined</h3><p>In {} of {} pairs the surface in common slides on itself; they do not \
+         count. Free are</p><ul>{items}{more}</ul>",
+        all.len(),
+        pairs.len()
+    )
+}
 
 /// Empty where there are no scans.
 pub(super) fn scans(c: &Calibration) -> String {

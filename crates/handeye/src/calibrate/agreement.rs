@@ -253,9 +253,11 @@ fn suspect_units(used: &[&Observation], result: &mut Calibration) {
     }
 }
 
-/// Whether the target poses came from elsewhere.
+/// Whether the target poses came from elsewhere; those of scanned shapes are our own, with a covariance.
 fn bare(session: &Session) -> bool {
+    let mut poses = session.observations.iter().flat_map(|o| &o.candidates);
     session.observations.iter().all(|o| o.corners.is_empty())
+        && (session.target.is_some() || poses.all(|pose| pose.covariance.is_none()))
 }
 
 fn readings(

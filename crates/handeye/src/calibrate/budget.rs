@@ -13,15 +13,22 @@ use crate::{
 };
 
 /// Every source of error with its size and its part in the error at the workpiece.
-pub(super) fn budget(problem: &Problem, fit: &JointFit, at: &Workpiece) -> Vec<BudgetEntry> {
+///
+/// Of a session without a board, poses that come with their covariance are of scans.
+pub(super) fn budget(
+    problem: &Problem,
+    fit: &JointFit,
+    at: &Workpiece,
+    has_board: bool,
+) -> Vec<BudgetEntry> {
     let shares = fit.covariance_shares(problem);
     let at_workpiece = |source: Option<Source>| {
         let (_, covariance) = shares.iter().find(|(s, _)| *s == source)?;
         at.rms_mm(covariance)
     };
     let entry = |s: &Sigma| BudgetEntry {
-        source: s.source.name().into(),
-        sigma: text(s),
+        source: if is_scan(s, has_board) { "scan" } else { s.source.name() }.into(),
+        sigma: text(s, has_board),
         sigma_mm: (!s.source.is_rotation() && s.source != Source::Picture).then_some(s.sigma * 1e3),
         sigma_deg: s.source.is_rotation().then_some(s.sigma.to_degrees()),
         sigma_uncertainty: s.uncertainty,
@@ -42,8 +49,15 @@ pub(super) fn budget(problem: &Problem, fit: &JointFit, at: &Workpiece) -> Vec<B
     all
 }
 
-fn text(s: &Sigma) -> String {
+fn is_scan(s: &Sigma, has_board: bool) -> bool {
+    s.source == Source::Picture && !has_board
+}
+
+fn text(s: &Sigma, has_board: bool) -> String {
     let size = match s.source {
+        _ if is_scan(s, has_board) => {
+            format!("{:.2} times what the registration of the scans says", s.sigma)
+        }
         Source::Picture => format!("{:.2} times what the corners' scatter says", s.sigma),
         x if x.is_rotation() => format!("{:.4} deg per axis", s.sigma.to_degrees()),
         _ => format!("{:.3} mm per axis", s.sigma * 1e3),
@@ -73,8 +87,17 @@ const CHANGES: [(&str, &[Source]); 3] = [
     ("touches twice as exact: a pointed tip, calibrated well", &[Source::Touch]),
 ];
 
+/// What halves the noise of scans that are registered, in words.
+const SCANS_CHANGE: &str =
+    "scans placed twice as exactly: less noise, more in common, shape on all sides";
+
 /// What would help, the most helpful first.
-pub(super) fn advice(problem: &Problem, fit: &JointFit, at: &Workpiece) -> Vec<Advice> {
+pub(super) fn advice(
+    problem: &Problem,
+    fit: &JointFit,
+    at: &Workpiece,
+    has_board: bool,
+) -> Vec<Advice> {
     let mut all = vec![];
     let mut add = |change: &str, covariance: Option<DMatrix<f64>>| {
         if let Some(mm) = covariance.and_then(|c| at.rms_mm(&c)) {
@@ -96,6 +119,12 @@ pub(super) fn advice(problem: &Problem, fit: &JointFit, at: &Workpiece) -> Vec<A
     }
     for (words, sources) in CHANGES {
         if fit.noise.sigmas.iter().any(|s| sources.contains(&s.source)) {
+            let of_scans = fit
+                .noise
+                .sigmas
+                .iter()
+                .any(|s| sources.contains(&s.source) && is_scan(s, has_board));
+            let words = if of_scans { SCANS_CHANGE } else { words };
             add(words, fit.covariance_for(problem, &halved(&fit.noise, sources)));
         }
     }

@@ -62,8 +62,9 @@ pub(super) fn estimate<'a>(
     if let Some(arm) = &arm {
         arm.report(&views, workpiece.rms_of_best_mm().filter(|_| reach.is_some()), result);
     }
-    result.error_budget = budget::budget(whole, best, &workpiece);
-    result.advice = budget::advice(whole, best, &workpiece);
+    let has_board = views.session.target.is_some();
+    result.error_budget = budget::budget(whole, best, &workpiece, has_board);
+    result.advice = budget::advice(whole, best, &workpiece, has_board);
     let judge =
         Judge { views: &views, paired: &trusted, known: config.known, workpiece: &workpiece };
     let mut candidates = judge.view_candidates(&fit, joint.is_some(), config);

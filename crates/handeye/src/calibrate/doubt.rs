@@ -96,8 +96,8 @@ pub(super) fn suspect_order(
         Order::Shifted(k) => format!("{} after", places(k)),
     };
     let message = format!(
-        "the robot poses look listed {how} their pictures: paired so, {} of {n} captures agree, \
-         within {:.1} mm; check how pictures and poses are paired",
+        "the robot poses look listed {how} their captures: paired so, {} of {n} captures agree, \
+         within {:.1} mm; check how captures and poses are paired",
         after.agree, after.translation_mm
     );
     result.reasons.insert(0, message.clone());

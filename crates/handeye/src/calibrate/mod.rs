@@ -77,6 +77,11 @@ pub struct Session {
 }
 
 impl Session {
+    /// What the poses of the target were read from, in a word for people.
+    pub(crate) fn read_from(&self) -> &'static str {
+        if self.target.is_some() { "picture" } else { "target pose" }
+    }
+
     /// Captures alone: no target model, camera, touches, or anything else that was measured.
     pub fn of_captures(setup: Setup, observations: Vec<Observation>) -> Self {
         Self {

@@ -98,24 +98,27 @@ fn in_words(captures: &Captures, i: usize, reason: &Reason) -> (&'static str, St
         () => format!("capture {}", id(j)),
     };
     let neighbour = |j: usize| j.abs_diff(i) == 1;
+    let seen = captures.session.read_from();
     match *reason {
         Reason::Turned(degrees, about) => {
             let about = about.map_or(String::new(), |m| {
                 format!(" about ({:.0}, {:.0}) mm of its own plane", m.x * 1e3, m.y * 1e3)
             });
-            (
-                "target-turned",
-                format!(
-                    "it fits with the board turned by {degrees} degrees{about}: its corners are \
-                     numbered from another end than in the other pictures; detect it again, or \
-                     number them anew"
-                ),
-            )
+            let why = match captures.session.target {
+                Some(_) => {
+                    "its corners are numbered from another end than in the other pictures; detect it \
+                     again, or number them anew"
+                }
+                None => "its pose was found the other way round than in the other captures",
+            };
+            let message =
+                format!("it fits with the target turned by {degrees} degrees{about}: {why}");
+            ("target-turned", message)
         }
         Reason::Exchanged(j) => (
             "captures-exchanged",
             format!(
-                "its picture and that of capture {} look exchanged; if they are, exchange them in \
+                "its {seen} and that of capture {} look exchanged; if they are, exchange them in \
                  the data",
                 id(j)
             ),
@@ -123,22 +126,22 @@ fn in_words(captures: &Captures, i: usize, reason: &Reason) -> (&'static str, St
         Reason::Elsewhere(j) if neighbour(j) => (
             "order-shifted",
             format!(
-                "its picture fits the robot pose of {}: the order looks off by one from here on; \
+                "its {seen} fits the robot pose of {}: the order looks off by one from here on; \
                  if so, pair them so in the data",
                 which(j)
             ),
         ),
         Reason::Elsewhere(j) => {
-            ("captures-exchanged", format!("its picture fits the robot pose of {}", which(j)))
+            ("captures-exchanged", format!("its {seen} fits the robot pose of {}", which(j)))
         }
         Reason::Stale(j) if j == i + 1 => (
             "order-shifted",
-            format!("its robot pose belongs to the picture of {}; its own is missing", which(j)),
+            format!("its robot pose belongs to the {seen} of {}; its own is missing", which(j)),
         ),
         Reason::Stale(j) => (
             "stale-robot-pose",
             format!(
-                "its robot pose is that of {}, at which another picture was taken: read before the \
+                "its robot pose is that of {}, at which another {seen} was taken: read before the \
                  robot had moved, so its own is missing",
                 which(j)
             ),

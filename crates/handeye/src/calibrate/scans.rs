@@ -35,6 +35,7 @@ pub(super) fn report(session: &Session, result: &mut Calibration) {
         colour_step: None,
         flatness: flat(&seen, target, &mut result.warnings),
         frames: agreement(session, &seen, target, &mut result.warnings),
+        scene: None,
     };
     result.scans = Some(found);
 }

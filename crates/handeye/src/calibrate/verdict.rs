@@ -74,8 +74,9 @@ fn hide_undetermined(result: &mut Calibration) {
     if result.reasons.is_empty() {
         result.reasons.push(format!(
             "the data do not determine {}: tilt the robot by 30 degrees and more about two axes, \
-             or touch corners, or give the position along that direction as `[known_position]`",
-            result.undetermined.join(", ")
+             {}or give the position along that direction as `[known_position]`",
+            result.undetermined.join(", "),
+            if has_corners(result) { "or touch corners, " } else { "" }
         ));
     }
     result.hand_eye = Answer::default();
@@ -86,6 +87,11 @@ fn hide_undetermined(result: &mut Calibration) {
     result.why = String::from("no candidate can make up for what is not determined");
     result.error_budget.iter_mut().for_each(|b| b.at_workpiece_mm = None);
     result.advice.clear();
+}
+
+/// Whether the target has corners that could be touched.
+fn has_corners(result: &Calibration) -> bool {
+    result.captures.iter().any(|c| c.corners + c.corners_3d > 0)
 }
 
 /// What is known of a pose of which something is free.
@@ -113,7 +119,7 @@ pub(super) fn contradictions(result: &Calibration) -> Vec<String> {
     let seen = used + result.rejected.len();
     if seen > 0 && used > 0 && (used as f64) < LEAST_AGREEING * seen as f64 {
         against.push(format!(
-            "only {used} of {seen} captures agree: pictures and robot poses may be out of order, or \
+            "only {used} of {seen} captures agree: captures and robot poses may be out of order, or \
              a pose notation is read wrongly"
         ));
     }
@@ -140,8 +146,10 @@ fn imprecision(config: &Config, result: &Calibration) -> Vec<String> {
         Some(tre) if tre.p95 <= limit => vec![],
         Some(tre) => vec![format!(
             "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm: add captures with \
-             more tilt, or touches",
-            tre.r#where, tre.p95
+             more tilt{}",
+            tre.r#where,
+            tre.p95,
+            if has_corners(result) { ", or touches" } else { "" }
         )],
         None if result.hand_eye.mount_from_camera.is_none() => vec![],
         None => vec!["too little data to predict an error: add captures or touches".into()],
@@ -187,14 +195,22 @@ pub(super) fn judge_scale(
         let declared = t.pitch_m() * 1e3;
         format!(" ({:.2} mm instead of {declared} mm)", declared * value)
     });
-    let message = format!(
-        "the robot's motions say that the target is {:.1} +- {:.1} % {} than declared{size}: \
-         measure the print with a caliper; if it is right, the focal length or the robot's own \
-         scale is wrong",
-        (value - 1.0).abs() * 100.0,
-        sigma * 100.0,
-        if value > 1.0 { "larger" } else { "smaller" },
-    );
+    let percent = (value - 1.0).abs() * 100.0;
+    let message = match &views.session.target {
+        Some(_) => format!(
+            "the robot's motions say that the target is {percent:.1} +- {:.1} % {} than declared{size}: \
+             measure the print with a caliper; if it is right, the focal length or the robot's own \
+             scale is wrong",
+            sigma * 100.0,
+            if value > 1.0 { "larger" } else { "smaller" },
+        ),
+        None => format!(
+            "the robot's motions say that distances to the target are {percent:.1} +- {:.1} % {} than \
+             measured: the unit or the scale of the measurements, or the robot's own scale, is wrong",
+            sigma * 100.0,
+            if value > 1.0 { "longer" } else { "shorter" },
+        ),
+    };
     if beyond_printers && p_value <= IMPROBABLE_SCALE {
         result.reasons.push(message.clone());
         result.verdict = Verdict::Rejected;

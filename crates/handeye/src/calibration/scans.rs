@@ -1,4 +1,4 @@
-//! What the scans say of the board and of themselves.
+//! What the scans say of the board and of themselves, and how they were placed without one.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +14,65 @@ pub struct ScanResult {
     /// Whether pictures and scans put the board at one place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frames: Option<FramesResult>,
+    /// How the scans were placed without a board.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneResult>,
+}
+
+/// What the camera looked at instead of a board.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SceneKind {
+    /// A still scene: its scans were registered with one another.
+    Scene,
+    /// An object of known shape: it was registered with each scan.
+    Object,
+}
+
+/// How scans were placed by the shape that they show.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SceneResult {
+    /// What the camera looked at.
+    pub kind: SceneKind,
+    /// Scans whose place is known: in the scene, or against the object.
+    pub placed: usize,
+    /// All pairs that were registered.
+    pub pairs: Vec<ScenePair>,
+}
+
+/// Two scans that were registered, or the object with a scan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScenePair {
+    /// Capture whose scan was moved; `object` where that was the object.
+    pub source: String,
+    /// Capture onto whose scan.
+    pub target: String,
+    /// Share of the source that lies on the target.
+    pub overlap: f64,
+    /// Of the places where both show something, the share at which it is the same.
+    pub agreement: f64,
+    /// RMS distance of the surfaces; null where hardly anything lies together.
+    pub rms_mm: Option<f64>,
+    /// Whether the pair counts.
+    pub used: bool,
+    /// Why not, if not.
+    pub reason: Option<String>,
+    /// Motions that the common surface leaves free.
+    pub undetermined: Vec<String>,
+}
+
+impl SceneResult {
+    /// How many of so many scans were placed, and by what, for people.
+    pub fn sentence(&self, scans: usize) -> String {
+        let placed = self.placed;
+        match self.kind {
+            SceneKind::Object => format!("the object was found in {placed} of {scans} scans"),
+            SceneKind::Scene => {
+                let (used, all) = (self.pairs.iter().filter(|p| p.used).count(), self.pairs.len());
+                format!("{placed} of {scans} scans were brought together by {used} of {all} pairs")
+            }
+        }
+    }
 }
 
 /// How much farther black is read than white, along the optical axis.

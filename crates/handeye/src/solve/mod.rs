@@ -186,7 +186,7 @@ pub(crate) fn too_few(found: usize) -> Error {
     Error::TooFewPoses {
         found,
         needed: FEWEST_POSES,
-        advice: "take 10 to 15, the board tilted by 30 degrees and more about two axes".into(),
+        advice: "take 10 to 15, the robot tilted by 30 degrees and more about two axes".into(),
     }
 }
 
