@@ -16,6 +16,11 @@ struct Cell {
 
 /// Scans of a cell by a camera on a robot whose poses err by so many metres and radians.
 fn cell(count: usize, seed: u64, robot: (f64, f64)) -> Cell {
+    turned_cell(count, seed, robot, [0.3, 0.3, 0.6])
+}
+
+/// The camera is tilted and turned by angles up to these.
+fn turned_cell(count: usize, seed: u64, robot: (f64, f64), turns: [f64; 3]) -> Cell {
     let mut random = Random::new(seed);
     let room = Room::of_a_cell(&mut random);
     let flange_from_camera = Isometry3::new([0.05, -0.03, 0.08].into(), [0.02, -0.03, 1.5].into());
@@ -27,7 +32,7 @@ fn cell(count: usize, seed: u64, robot: (f64, f64)) -> Cell {
             [some(0.12), some(0.12), 0.75 + some(0.1)].into(),
             [PI, 0.0, 0.0].into(),
         );
-        let turn = Isometry3::new(Vector3::zeros(), [some(0.3), some(0.3), some(0.6)].into());
+        let turn = Isometry3::new(Vector3::zeros(), turns.map(&mut some).into());
         let base_from_camera = down * turn;
         let scan = room.scan(&base_from_camera, &camera, 5e-4, &mut random);
         surfaces.push(Surface::of(&scan, 1).unwrap());
@@ -70,10 +75,8 @@ fn scans_are_placed_as_surely_as_they_say() {
     assert!((0.5..2.5).contains(&mean), "{mean}");
 }
 
-#[test]
-fn a_camera_is_calibrated_without_a_target() {
-    let cell = cell(14, 61, (1e-4, 1e-4));
-    let placed = placed(&cell, None);
+fn calibrated(cell: &Cell) -> crate::Calibration {
+    let placed = placed(cell, None);
     let observe = |(k, pose): (usize, &Option<TargetPose>)| Observation {
         capture: format!("{k}"),
         base_from_flange: Pose::<Base, Flange>::claim(cell.base_from_flange[k]),
@@ -84,13 +87,26 @@ fn a_camera_is_calibrated_without_a_target() {
     };
     let observations = placed.poses.iter().enumerate().map(observe).collect();
     let session = Session::of_captures(Setup::EyeInHand, observations);
-    let found = calibrate(&session, &Config::default()).unwrap();
+    calibrate(&session, &Config::default()).unwrap()
+}
+
+#[test]
+fn a_camera_is_calibrated_without_a_target() {
+    let cell = cell(14, 61, (1e-4, 1e-4));
+    let found = calibrated(&cell);
     assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
     let x = found.hand_eye.mount_from_camera.unwrap();
     let off = lie::log(&cell.flange_from_camera.inv_mul(x.iso()));
     let (deg, mm) = (lie::omega(&off).norm().to_degrees(), 1e3 * lie::nu(&off).norm());
     println!("{deg:.3} deg, {mm:.2} mm");
     assert!(deg < 0.05 && mm < 0.6, "{deg} deg, {mm} mm");
+}
+
+#[test]
+fn turns_about_one_axis_leave_the_camera_undetermined() {
+    let found = calibrated(&turned_cell(10, 62, (1e-4, 1e-4), [0.0, 0.0, 0.6]));
+    assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
+    assert!(!found.undetermined.is_empty());
 }
 
 #[test]
