@@ -5,9 +5,9 @@
 //! ```
 //!
 //! Scans that follow one another are registered without any start. Of their motions, those that turn by
-//! other angles than the robot did are wrong; the others tell about where the camera sits ([`motions`]), and
+//! other angles than the robot did are wrong; the others tell about where the camera sits (`motions`), and
 //! that predicts where every scan lies in every other. All pairs that overlap are registered from there, and
-//! one adjustment over all of them places every scan in the scene ([`graph`]). The scene's frame is that of
+//! one adjustment over all of them places every scan in the scene (`graph`). The scene's frame is that of
 //! the first scan that is placed. What comes out are poses of a target, with their covariances.
 
 mod graph;
