@@ -217,9 +217,9 @@ fn broken_meshes_are_refused() {
             "zero.obj:2: a face with a corner \"0\"; export it as OBJ again",
         ),
         (
-            "back.obj",
+            "before.obj",
             of_text("v 1 2 3\nf -1 -2 1\n"),
-            "back.obj:2: a face with a corner \"-2\"; export it as OBJ again",
+            "before.obj:2: a face with a corner \"-2\"; export it as OBJ again",
         ),
         (
             "beyond.obj",
