@@ -166,7 +166,7 @@ fn registered(
         starts.extend(rivals::around(start, &source.middle, 0.5 * gate));
     }
     let from = (!config.global).then_some(start);
-    let rivals = rivals::answers(&mut descent, &starts, from, gate)?;
+    let rivals = rivals::answers(&descent, &starts, from, gate)?;
     let mut reached = rivals[0].reached.clone();
     let at_best = reached.target_from_source;
     descent.nearby(&mut reached)?;

@@ -95,7 +95,7 @@ pub fn moved(at: &Isometry3<f64>, step: &Vector6<f64>, middle: &Vector3<f64>) ->
 pub struct Descent<'a> {
     pub source: &'a Surface,
     pub target: &'a Surface,
-    config: &'a DenseConfig,
+    pub config: &'a DenseConfig,
     /// Matches farther apart do not count, m.
     gate: f64,
     /// Nor do residuals beyond this, m, where it is more than the limit by their deviations.

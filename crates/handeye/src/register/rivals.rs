@@ -9,10 +9,11 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
+    dense::DenseConfig,
     descent::{Descent, FEWEST, Reached},
     surface::Surface,
 };
-use crate::Error;
+use crate::{Error, parallel};
 
 /// Windows that are looked at first, from every start.
 const TRIED: f64 = 500.0;
@@ -120,7 +121,7 @@ pub struct Rival {
 /// Answers from these starts that lie near a place, the best first: it, and those of which it is not clear that they are worse.
 /// With ever more windows, until it is clear or there are no more.
 pub fn answers(
-    descent: &mut Descent,
+    descent: &Descent,
     starts: &[Isometry3<f64>],
     near: Option<&Isometry3<f64>>,
     gate: f64,
@@ -144,26 +145,35 @@ pub fn answers(
     Ok(all)
 }
 
-fn tried(descent: &mut Descent, starts: &[Isometry3<f64>], gate: f64, count: f64) -> Vec<Rival> {
-    let source = descent.source;
-    let mut all: Vec<Reached> = vec![];
-    let mut sigma = f64::INFINITY;
-    for start in starts {
+fn tried(descent: &Descent, starts: &[Isometry3<f64>], gate: f64, count: f64) -> Vec<Rival> {
+    let (source, config) = (descent.source, descent.config);
+    let alone = DenseConfig { threads: 1, ..*config };
+    // few windows are looked at: threads share the starts, and not each of them
+    let from = |start: &Isometry3<f64>, sigma: f64| {
+        let mut own = Descent::new(source, descent.target, &alone);
+        own.sigma = sigma;
         let mut reached = Reached::start(start);
-        if descent.coarse(&mut reached, gate, source.stride(count)).is_err() {
-            continue;
-        }
-        sigma = sigma.min(descent.sigma);
+        own.coarse(&mut reached, gate, source.stride(count)).ok()?;
+        Some((reached, own.sigma))
+    };
+    // what the first has learned of the noise limits the residuals of the others
+    let [first, others @ ..] = starts else { return vec![] };
+    let first = from(first, f64::INFINITY);
+    let sigma = first.as_ref().map_or(f64::INFINITY, |(_, sigma)| *sigma);
+    let others = parallel::in_order(others.len(), config.threads, |k| from(&others[k], sigma));
+    let mut all: Vec<Reached> = vec![];
+    let mut least = f64::INFINITY;
+    for (reached, sigma) in std::iter::once(first).chain(others).flatten() {
+        least = least.min(sigma);
         let at = reached.target_from_source;
         if all.iter().all(|r| source.moved(&r.target_from_source, &at) >= source.spread) {
             all.push(reached);
         }
     }
-    let rival = |reached: Reached| {
-        let at = &reached.target_from_source;
-        Rival { opinions: Opinions::of(descent, at, JUDGED * count, sigma), reached }
-    };
-    all.into_iter().map(rival).collect()
+    let opinions = parallel::in_order(all.len(), config.threads, |k| {
+        Opinions::of(descent, &all[k].target_from_source, JUDGED * count, least)
+    });
+    all.into_iter().zip(opinions).map(|(reached, opinions)| Rival { reached, opinions }).collect()
 }
 
 /// The best first, and none that is clearly worse.

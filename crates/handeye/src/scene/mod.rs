@@ -68,24 +68,12 @@ pub fn place(
     let mut mount_from_camera = guess.copied();
     if guess.is_none() {
         links = without_start(surfaces, config, progress);
-        let all: Vec<Motion> = links
-            .iter_mut()
-            .filter_map(|link| {
-                let a = motion(link.source, link.target);
-                link.left_out =
-                    why_not(&link.found).or_else(|| motions::contradiction(&a, link.at()));
-                link.left_out.is_none().then(|| Motion { a, b: *link.at() })
-            })
-            .collect();
-        mount_from_camera = motions::camera(&all);
+        mount_from_camera = leave_out_wrong(&mut links, &motion);
     }
     if let Some(x) = mount_from_camera {
         let predicted = |i: usize, j: usize| x.inverse() * motion(i, j) * x;
         links = from_predictions(surfaces, &predicted, config, progress);
-        for link in &mut links {
-            let a = motion(link.source, link.target);
-            link.left_out = why_not(&link.found).or_else(|| motions::contradiction(&a, link.at()));
-        }
+        leave_out_wrong(&mut links, &motion);
     }
     let poses = graph::adjust(surfaces.len(), &mut links);
     let pose = |placed: (Isometry3<f64>, Matrix6<f64>)| TargetPose {
@@ -93,6 +81,30 @@ pub fn place(
         covariance: Some(placed.1),
     };
     Placed { poses: poses.into_iter().map(|placed| placed.map(pose)).collect(), links }
+}
+
+/// Leaves out links that are not accepted, or not the robot's motion; what those that agree tell of where the
+/// camera sits.
+fn leave_out_wrong(
+    links: &mut [Link],
+    motion: &dyn Fn(usize, usize) -> Isometry3<f64>,
+) -> Option<Isometry3<f64>> {
+    let mut all = vec![];
+    for link in links.iter_mut() {
+        let a = motion(link.source, link.target);
+        link.left_out = why_not(&link.found).or_else(|| motions::contradiction(&a, link.at()));
+        if link.left_out.is_none() {
+            all.push(Motion { a, b: *link.at() });
+        }
+    }
+    let x = motions::camera(&all)?;
+    for link in links.iter_mut().filter(|link| link.left_out.is_none()) {
+        let predicted = x.inverse() * motion(link.source, link.target) * x;
+        if !motions::agrees(&predicted.inv_mul(link.at())) {
+            link.left_out = Some("the robot did not move so, as the other pairs have it".into());
+        }
+    }
+    Some(x)
 }
 
 /// Places a rigid object of known shape in scans of it; links have the scan's number as their target.
