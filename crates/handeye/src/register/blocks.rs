@@ -32,6 +32,14 @@ pub fn patches(
     (joined(parts), (columns, rows))
 }
 
+/// A block, and those beside it, among so many along a row and rows.
+pub fn around(k: usize, size: (usize, usize)) -> impl Iterator<Item = usize> {
+    let (columns, rows) = size;
+    let beside = |k: usize, end: usize| k.saturating_sub(1)..(k + 2).min(end);
+    beside(k / columns, rows)
+        .flat_map(move |row| beside(k % columns, columns).map(move |k| row * columns + k))
+}
+
 fn joined<T>(mut parts: Vec<Vec<T>>) -> Vec<T> {
     if parts.len() == 1 { parts.remove(0) } else { parts.into_iter().flatten().collect() }
 }

@@ -110,12 +110,16 @@ pub fn register(
     start: &Isometry3<f64>,
     config: &DenseConfig,
 ) -> Result<Dense, Error> {
-    let surface = |scan: &Scan, name| {
-        Surface::of(scan, config.threads)
-            .ok_or_else(|| Error::Invalid(format!("the {name} scan shows no surface")))
-    };
-    let (source, target) = (surface(source, "source")?, surface(target, "target")?);
-    Ok(register_surfaces(&source, &target, start, config))
+    let names = ["source", "target"];
+    let all: Result<Vec<Surface>, Error> = Surface::of_all(&[source, target], config.threads)
+        .into_iter()
+        .zip(names)
+        .map(|(surface, name)| {
+            surface.ok_or_else(|| Error::Invalid(format!("the {name} scan shows no surface")))
+        })
+        .collect();
+    let all = all?;
+    Ok(register_surfaces(&all[0], &all[1], start, config))
 }
 
 /// Registers the surfaces of two scans; where nothing can be compared, the start is rejected.

@@ -13,10 +13,13 @@
 //! A. Gelfand et al., *Geometrically stable sampling for the ICP algorithm*, 3DIM 2003; P. Huber, *Robust
 //! statistics*, 1981.
 
-use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix3, Matrix6, SymmetricEigen, Vector3, Vector6};
 
 use super::{descent::Descent, pair::Match};
-use crate::lie;
+use crate::{
+    gram::{pairs, place},
+    lie,
+};
 
 /// Directions with less than so many times the information of noise alone are not determined.
 const DETERMINED: f64 = 1.9;
@@ -42,14 +45,101 @@ pub struct Freedom {
     middle: Vector3<f64>,
 }
 
-/// What a window in some tile pulls.
+/// Sums over matches whose windows lie in a tile.
 #[derive(Debug, Clone, Copy)]
-struct Pull {
-    tile: [i32; 3],
-    j: Vector6<f64>,
-    pull: f64,
-    /// By how much less, where it has followed.
-    slope: f64,
+struct Tile {
+    place: [i32; 3],
+    /// `Σ ψ J`.
+    pull: Vector6<f64>,
+    /// `Σ ψ' J Jᵀ`.
+    slopes: Triangle,
+    /// `Σ ψ² J Jᵀ`.
+    squares: Triangle,
+}
+
+impl Tile {
+    fn at(place: [i32; 3]) -> Self {
+        let none = Triangle::default();
+        Self { place, pull: Vector6::zeros(), slopes: none, squares: none }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.pull += other.pull;
+        self.slopes.add(&other.slopes, 1.0);
+        self.squares.add(&other.squares, 1.0);
+    }
+}
+
+/// The upper triangle of a symmetric matrix.
+#[derive(Debug, Clone, Copy, Default)]
+struct Triangle([f64; pairs(6)]);
+
+impl Triangle {
+    /// Of a vector with itself.
+    #[inline(always)]
+    fn of(v: &[f64; 6]) -> Self {
+        let mut all = Self::default();
+        let mut next = 0;
+        for a in 0..6 {
+            for b in a..6 {
+                all.0[next] = v[a] * v[b];
+                next += 1;
+            }
+        }
+        all
+    }
+
+    #[inline(always)]
+    fn add(&mut self, other: &Self, weight: f64) {
+        (0..pairs(6)).for_each(|k| self.0[k] += other.0[k] * weight);
+    }
+
+    fn whole(&self) -> Matrix6<f64> {
+        Matrix6::from_fn(|a, b| self.0[place::<6>(a.min(b), a.max(b))])
+    }
+}
+
+/// What the noise of normals feigns, `Σ w s² (K Kᵀ - J Jᵀ)`: for `K m = J`.
+#[derive(Debug, Clone, Copy, Default)]
+struct Feigned {
+    weight: f64,
+    arms: Vector3<f64>,
+    products: Matrix3<f64>,
+    jacobians: Triangle,
+}
+
+impl Feigned {
+    #[inline(always)]
+    fn add(&mut self, found: &Match, square: &Triangle, weight: f64) {
+        let variance = |p: &super::patch::Patch| p.across / (p.count * p.along);
+        let weight = 0.25 * (variance(found.own) + variance(found.other)) * weight;
+        self.weight += weight;
+        self.arms += found.arm * weight;
+        self.products += found.arm * found.arm.transpose() * weight;
+        self.jacobians.add(square, weight);
+    }
+
+    fn add_all(&mut self, other: &Self) {
+        self.weight += other.weight;
+        self.arms += other.arms;
+        self.products += other.products;
+        self.jacobians.add(&other.jacobians, 1.0);
+    }
+
+    fn whole(&self) -> Matrix6<f64> {
+        let hat = lie::hat(&self.arms);
+        let one = Matrix3::identity();
+        let mut all = -self.jacobians.whole();
+        let mut part = |row, column, block: Matrix3<f64>| {
+            let mut part = all.fixed_view_mut::<3, 3>(row, column);
+            part += block;
+        };
+        part(0, 0, one * self.products.trace() - self.products);
+        part(0, 3, hat);
+        part(3, 0, hat.transpose());
+        part(3, 3, one * self.weight);
+        all
+    }
 }
 
 impl Freedom {
@@ -57,8 +147,7 @@ impl Freedom {
         let middle = descent.middle(at);
         let per_m = 1.0 / (TILE * descent.target.spread);
         let parts = descent.chunks(|range| {
-            let mut sums = [Matrix6::zeros(); 3];
-            let mut pulls = vec![];
+            let (mut runs, mut feigned) = (vec![], Feigned::default());
             descent.each_match(at, range, |found| {
                 let residual = found.residual();
                 let share = residual.abs() / descent.limit(found.variance.sqrt());
@@ -67,24 +156,29 @@ impl Freedom {
                 }
                 // psi and its slope, of Tukey's estimator
                 let left = 1.0 - share * share;
-                let slope = left * (left - 4.0 * share * share);
-                let j = Vector6::from(found.jacobian());
+                let slope = left * (left - 4.0 * share * share) / found.variance;
                 let pull = residual * left * left / found.variance;
-                sums[0] += j * j.transpose() * (slope / found.variance);
-                sums[1] += j * j.transpose() * (pull * pull);
-                sums[2] += of_normals(&found) * (FEIGNED * slope / found.variance);
-                let tile = found.arm.map(|x| (x * per_m).floor() as i32).into();
-                pulls.push(Pull { tile, j, pull, slope: slope / found.variance });
+                let j = found.jacobian();
+                let square = Triangle::of(&j);
+                feigned.add(&found, &square, FEIGNED * slope);
+                let tile = tile_at(&mut runs, found.arm.map(|x| (x * per_m).floor() as i32).into());
+                tile.pull += Vector6::from(j) * pull;
+                tile.slopes.add(&square, slope);
+                tile.squares.add(&square, pull * pull);
             });
-            (sums, pulls)
+            (runs, feigned)
         });
-        let (mut sums, mut pulls) = ([Matrix6::zeros(); 3], vec![]);
+        let (mut runs, mut feigned) = (vec![], Feigned::default());
         for part in parts {
-            (0..3).for_each(|k| sums[k] += part.0[k]);
-            pulls.extend(part.1);
+            runs.extend(part.0);
+            feigned.add_all(&part.1);
         }
-        let inflation = inflation(pulls, &sums[0], &sums[1]).unwrap_or(1.0).max(1.0);
-        Self { information: sums[0], pulls: sums[1], noise: sums[2], inflation, middle }
+        let tiles = joined(&runs);
+        let mut all = Tile::at([0; 3]);
+        tiles.iter().for_each(|tile| all.add(tile));
+        let (information, pulls) = (all.slopes.whole(), all.squares.whole());
+        let inflation = inflation(&tiles, &information, &pulls).unwrap_or(1.0).max(1.0);
+        Self { information, pulls, noise: feigned.whole(), inflation, middle }
     }
 
     /// Directions, of which the first ones are not determined; and how many those are.
@@ -177,36 +271,38 @@ fn direction(v: &Vector3<f64>) -> String {
     format!("({x:.2}, {y:.2}, {z:.2})")
 }
 
-/// Information that the noise of a match's normals feigns, per weight.
-fn of_normals(found: &Match) -> Matrix6<f64> {
-    let variance = |p: &super::patch::Patch| p.across / (p.count * p.along);
-    let s = 0.25 * (variance(found.own) + variance(found.other));
-    let mut k = SMatrix::<f64, 6, 3>::zeros();
-    k.fixed_view_mut::<3, 3>(0, 0).copy_from(&lie::hat(&found.arm));
-    k.fixed_view_mut::<3, 3>(3, 0).copy_from(&Matrix3::identity());
-    k * (Matrix3::identity() - found.m * found.m.transpose()) * k.transpose() * s
+/// The last run of matches in one tile, or the first of another.
+fn tile_at(runs: &mut Vec<Tile>, place: [i32; 3]) -> &mut Tile {
+    if runs.last().is_none_or(|last| last.place != place) {
+        runs.push(Tile::at(place));
+    }
+    let last = runs.len() - 1;
+    &mut runs[last]
+}
+
+/// Runs of the same tile in one.
+fn joined(runs: &[Tile]) -> Vec<Tile> {
+    let mut order: Vec<usize> = (0..runs.len()).collect();
+    order.sort_by_key(|k| runs[*k].place);
+    let mut tiles = vec![];
+    for k in order {
+        tile_at(&mut tiles, runs[k].place).add(&runs[k]);
+    }
+    tiles
 }
 
 /// Squares of what tiles pull, over those expected of windows that err independently; both in all directions
 /// alike. The answer follows each tile, and so leaves it less: `E = B_t - L B_t - B_t Lᵀ + L B Lᵀ`, `L = A_t A⁻¹`.
-fn inflation(mut pulls: Vec<Pull>, a: &Matrix6<f64>, b: &Matrix6<f64>) -> Option<f64> {
+fn inflation(tiles: &[Tile], a: &Matrix6<f64>, b: &Matrix6<f64>) -> Option<f64> {
     let inverse = a.cholesky()?.inverse();
-    pulls.sort_by_key(|pull| pull.tile);
-    let (mut squares, mut expected, mut tiles) = (0.0, 0.0, 0);
-    for tile in pulls.chunk_by(|a, b| a.tile == b.tile) {
-        let (mut sum, mut own) = (Vector6::zeros(), [Matrix6::zeros(); 2]);
-        for p in tile {
-            sum += p.j * p.pull;
-            let square = p.j * p.j.transpose();
-            own[0] += square * p.slope;
-            own[1] += square * (p.pull * p.pull);
-        }
-        let followed = own[0] * inverse;
-        let less = followed * own[1];
-        let left = own[1] - less - less.transpose() + followed * b * followed.transpose();
-        squares += sum.dot(&(inverse * sum));
+    let (mut squares, mut expected) = (0.0, 0.0);
+    for tile in tiles {
+        let followed = tile.slopes.whole() * inverse;
+        let own = tile.squares.whole();
+        let less = followed * own;
+        let left = own - less - less.transpose() + followed * b * followed.transpose();
+        squares += tile.pull.dot(&(inverse * tile.pull));
         expected += (inverse * left).trace();
-        tiles += 1;
     }
-    (tiles >= FEWEST_TILES && expected > 0.0).then_some(squares / expected)
+    (tiles.len() >= FEWEST_TILES && expected > 0.0).then_some(squares / expected)
 }

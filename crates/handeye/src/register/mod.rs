@@ -1,6 +1,7 @@
 //! Registration of point sets.
 
 mod blocks;
+mod creases;
 pub mod dense;
 mod descent;
 mod freedom;

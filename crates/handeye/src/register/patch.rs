@@ -43,7 +43,7 @@ pub struct Patch {
     pub normal: Vector3<f64>,
     /// Variance of its points across the plane, m².
     pub across: f64,
-    /// Of its height, m²: the mean of its points' errors, and what is not plane about it.
+    /// Of its height, m²: of the mean of its points' errors.
     pub variance: f64,
     /// Harmonic mean of both variances along the plane, m².
     pub along: f64,
@@ -68,7 +68,7 @@ const SETTLED: f64 = 1e-5;
 impl Patch {
     /// With the place of its middle, which is the mean of so many points.
     pub fn about(self, middle: &Vector3<f64>, held: f64) -> Self {
-        Self { mean: *middle, held, ..self }
+        Self { mean: *middle, held, variance: self.across / held, ..self }
     }
 
     /// `None` of fewer than three points, and of points on a line.

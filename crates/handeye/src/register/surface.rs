@@ -2,13 +2,15 @@
 //!
 //! An organised scan is cut into blocks of pixels, a cloud in any order into cubes; a window is a block
 //! and its neighbours. The block tells the place and the window the normal: on a curved surface the mean of
-//! a window lies beside it, by nine times as much as that of a block. Windows across an edge in depth or a
-//! crease are no planes, and are left out: their points scatter more than those of most others.
+//! a window lies beside it, by nine times as much as that of a block. Windows across
+//! an edge in depth or a crease are no planes: their points scatter more than those of most others.
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::{blocks, grid_view::GridView, kd_tree::KdTree, patch::Patch, voxels::Voxels};
-use crate::{Scan, linalg};
+use super::{
+    blocks, creases::Scatter, grid_view::GridView, kd_tree::KdTree, patch::Patch, voxels::Voxels,
+};
+use crate::{Scan, linalg, parallel};
 
 /// Side of a block in a scan of 100 000 points, pixels. It grows with the power 0.4 of their number: finer
 /// pixels go into quieter windows more than into smaller ones.
@@ -21,16 +23,6 @@ const FEWEST_PIECES: usize = 20;
 const FEWEST: f64 = 2.0;
 /// A window must have this share of the points of nine blocks.
 const FILLED: f64 = 0.6;
-/// Scatter across a plane above this many times the usual one is no plane's.
-const ROUGH: f64 = 50.0;
-/// The same, seen from a camera, with the usual one at that slant: less separates planes from what reaches from
-/// one surface to another.
-const ROUGH_AT_SLANT: f64 = 300.0;
-/// Above this many times the usual one it is due to the shape, and no mean makes it less.
-const SHAPED: f64 = 2.0;
-/// But where the scatter across is below this share of that along it, nothing is rough.
-const FLAT: f64 = 1e-4;
-
 /// A scan's windows that are planes.
 pub struct Surface {
     /// Of an organised scan row by row, of a cloud one after the other.
@@ -64,6 +56,12 @@ impl Surface {
             .filter(|surface| surface.patches.iter().flatten().count() >= FEWEST_PIECES)
     }
 
+    /// Of several scans, side by side.
+    pub fn of_all(scans: &[&Scan], threads: usize) -> Vec<Option<Self>> {
+        let each = threads.div_ceil(scans.len().max(1));
+        parallel::in_order(scans.len(), threads, |k| Self::of(scans[k], each))
+    }
+
     /// `None` where rows and columns are not those of a camera.
     fn of_grid(scan: &Scan, threads: usize) -> Option<Self> {
         if !scan.is_organised() {
@@ -74,7 +72,9 @@ impl Surface {
         let reach = if side == 1 { 2 } else { 1 };
         let fewest = FILLED * (side * (2 * reach + 1)).pow(2) as f64;
         let (mut patches, size) = blocks::patches(scan, side, reach, fewest, threads);
-        leave_out_rough(&mut patches, true);
+        let scatter = Scatter::of(&patches, true);
+        scatter.mend(&mut patches, |k| blocks::around(k, size));
+        scatter.leave_out_rough(&mut patches);
         let finder = Finder::Camera(GridView::of(&patches, size)?);
         Some(Self::new(patches, finder, Some(size.0)))
     }
@@ -83,7 +83,7 @@ impl Surface {
         let held = (HELD * (points.len() as f64 / 1e5).powf(0.75)).max(FEWEST);
         let voxels = Voxels::of(points, held, threads)?;
         let mut patches = voxels.patches(FILLED * 9.0 * held, threads);
-        leave_out_rough(&mut patches, false);
+        Scatter::of(&patches, false).leave_out_rough(&mut patches);
         patches.retain(Option::is_some);
         let means: Vec<[f32; 3]> =
             patches.iter().flatten().map(|p| p.mean.map(|x| x as f32).into()).collect();
@@ -164,21 +164,6 @@ impl Surface {
             (a.transform_point(&p) - b.transform_point(&p)).norm()
         };
         self.corners.iter().map(between).fold(0.0, f64::max)
-    }
-}
-
-/// Cameras err along their rays, so points scatter less across a surface that is seen at a slant; where they
-/// scatter more, the window reaches from one surface to another behind it.
-fn leave_out_rough(patches: &mut [Option<Patch>], from_camera: bool) {
-    let slant = |p: &Patch| if from_camera { p.slant() } else { 1.0 };
-    let rough = if from_camera { ROUGH_AT_SLANT } else { ROUGH };
-    let usual = linalg::median(patches.iter().flatten().map(|p| p.across / slant(p)));
-    for patch in patches {
-        let limit = |p: &Patch| (rough * usual * slant(p)).max(FLAT * p.along);
-        *patch = patch.filter(|p| p.across <= limit(p)).map(|p| {
-            let shape = (p.across - SHAPED * usual * slant(&p)).max(0.0);
-            Patch { variance: p.across / p.held + shape, ..p }
-        });
     }
 }
 

@@ -158,6 +158,7 @@ impl Voxels {
         Some(Patch {
             mean: self.lattice.metres(own.key, &patch.mean),
             across: patch.across / squared,
+            variance: patch.variance / squared,
             along: patch.along / squared,
             ..patch
         })

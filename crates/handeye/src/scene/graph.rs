@@ -249,7 +249,7 @@ mod tests {
     fn a_wrong_pair_is_left_out_and_moves_nothing() {
         let (truth, mut links) = scene(&RING, 5);
         let wrong = Isometry3::translation(0.05, 0.0, 0.0);
-        links[3].found.target_from_source = links[3].found.target_from_source * wrong;
+        links[3].found.target_from_source *= wrong;
         let found = adjust(5, &mut links);
         let out: Vec<usize> = (0..8).filter(|k| links[*k].left_out.is_some()).collect();
         assert_eq!(out, [3]);
@@ -266,7 +266,7 @@ mod tests {
         let (_, mut links) = scene(&pairs, 6);
         for (k, shift) in [(8, 0.05), (9, -0.05)] {
             let wrong = Isometry3::translation(shift, 0.3 * shift, 0.0);
-            links[k].found.target_from_source = links[k].found.target_from_source * wrong;
+            links[k].found.target_from_source *= wrong;
             links[k].found.covariance = Some(Matrix6::identity() * 1e-10);
         }
         adjust(6, &mut links);
