@@ -32,6 +32,7 @@ const DOUBTED: f64 = 2.0;
 const BESIDE: f64 = 1.0;
 /// Normals on a surface agree within 30 degrees.
 const COSINE: f64 = 0.866;
+
 /// What each window says of an answer: up to 1 for it, -1 against, 0 nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opinions(Vec<f64>);
@@ -118,8 +119,8 @@ pub struct Rival {
     pub opinions: Opinions,
 }
 
-/// Answers from these starts that lie near a place, the best first: it, and those of which it is not clear that they are worse.
-/// With ever more windows, until it is clear or there are no more.
+/// Answers from these starts that lie near a place, the best first: it, and those of which it is not clear that they
+/// are worse. With ever more windows, until it is clear or there are no more.
 pub fn answers(
     descent: &Descent,
     starts: &[Isometry3<f64>],
@@ -128,7 +129,7 @@ pub fn answers(
 ) -> Result<Vec<Rival>, Error> {
     let source = descent.source;
     let mut count = TRIED;
-    let mut all = tried(descent, starts, gate, count);
+    let (mut all, mut sigma) = tried(descent, starts, gate, count, f64::INFINITY);
     let is_far =
         |r: &Rival, near| source.moved(near, &r.reached.target_from_source) > FARTHEST * gate;
     all.retain(|r| near.is_none_or(|near| !is_far(r, near)));
@@ -136,7 +137,7 @@ pub fn answers(
     while all.len() > 1 && source.stride(count) > 1 {
         count *= 4.0;
         let starts: Vec<_> = all.iter().map(|r| r.reached.target_from_source).collect();
-        all = tried(descent, &starts, NEARBY * source.spread, count);
+        (all, sigma) = tried(descent, &starts, NEARBY * source.spread, count, sigma);
         leave_out_worse(&mut all);
     }
     if all.is_empty() {
@@ -145,10 +146,17 @@ pub fn answers(
     Ok(all)
 }
 
-fn tried(descent: &Descent, starts: &[Isometry3<f64>], gate: f64, count: f64) -> Vec<Rival> {
+/// Where these starts lead to, in the order of the starts, and the least noise that was met.
+fn tried(
+    descent: &Descent,
+    starts: &[Isometry3<f64>],
+    gate: f64,
+    count: f64,
+    known: f64,
+) -> (Vec<Rival>, f64) {
     let (source, config) = (descent.source, descent.config);
-    let alone = DenseConfig { threads: 1, ..*config };
     // few windows are looked at: threads share the starts, and not each of them
+    let alone = DenseConfig { threads: 1, ..*config };
     let from = |start: &Isometry3<f64>, sigma: f64| {
         let mut own = Descent::new(source, descent.target, &alone);
         own.sigma = sigma;
@@ -156,24 +164,24 @@ fn tried(descent: &Descent, starts: &[Isometry3<f64>], gate: f64, count: f64) ->
         own.coarse(&mut reached, gate, source.stride(count)).ok()?;
         Some((reached, own.sigma))
     };
-    // what the first has learned of the noise limits the residuals of the others
-    let [first, others @ ..] = starts else { return vec![] };
-    let first = from(first, f64::INFINITY);
-    let sigma = first.as_ref().map_or(f64::INFINITY, |(_, sigma)| *sigma);
-    let others = parallel::in_order(others.len(), config.threads, |k| from(&others[k], sigma));
-    let mut all: Vec<Reached> = vec![];
-    let mut least = f64::INFINITY;
-    for (reached, sigma) in std::iter::once(first).chain(others).flatten() {
-        least = least.min(sigma);
+    // what is known of the noise, if only by the first, limits the residuals of the others
+    let (first, others) = starts.split_at(usize::from(known.is_infinite()).min(starts.len()));
+    let mut all: Vec<_> = first.iter().map(|start| from(start, known)).collect();
+    let sigma = all.iter().flatten().fold(known, |least, (_, sigma)| least.min(*sigma));
+    all.extend(parallel::in_order(others.len(), config.threads, |k| from(&others[k], sigma)));
+    let sigma = all.iter().flatten().fold(sigma, |least, (_, sigma)| least.min(*sigma));
+    let mut places: Vec<Reached> = vec![];
+    for (reached, _) in all.into_iter().flatten() {
         let at = reached.target_from_source;
-        if all.iter().all(|r| source.moved(&r.target_from_source, &at) >= source.spread) {
-            all.push(reached);
+        if places.iter().all(|r| source.moved(&r.target_from_source, &at) >= source.spread) {
+            places.push(reached);
         }
     }
-    let opinions = parallel::in_order(all.len(), config.threads, |k| {
-        Opinions::of(descent, &all[k].target_from_source, JUDGED * count, least)
+    let opinions = parallel::in_order(places.len(), config.threads, |k| {
+        Opinions::of(descent, &places[k].target_from_source, JUDGED * count, sigma)
     });
-    all.into_iter().zip(opinions).map(|(reached, opinions)| Rival { reached, opinions }).collect()
+    let rival = |(reached, opinions)| Rival { reached, opinions };
+    (places.into_iter().zip(opinions).map(rival).collect(), sigma)
 }
 
 /// The best first, and none that is clearly worse.
