@@ -82,40 +82,20 @@ struct Answer {
 }
 
 pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
-    let gate = args.max_distance_mm.unwrap_or(50.0);
-    if !(gate > 0.0 && gate.is_finite()) {
-        return Err(Failure::Usage("--max-distance-mm must be positive".into()));
-    }
-    if args.max_iterations == 0 {
-        return Err(Failure::Usage("--max-iterations must be positive".into()));
-    }
+    let (config, method) = config(args)?;
     let inputs = [Some(&args.source), Some(&args.target), args.initial.as_ref()];
     if let Some(page) = &args.report {
         is_no_input(page, inputs.into_iter().flatten())?;
     }
-    let (method, name) = method(&args.method)?;
     let start = args.initial.as_deref().map_or(Ok(Isometry3::identity()), initial)?;
     let mut warnings = vec![];
     let began = Instant::now();
     let source = read(&args.source, &args.reading, &mut warnings)?;
     let target = read(&args.target, &args.reading, &mut warnings)?;
     let read = began.elapsed();
-    let config = DenseConfig {
-        method,
-        max_correspondence_distance_m: gate * 1e-3,
-        max_iterations: args.max_iterations,
-        global: args.global,
-        threads: thread::available_parallelism().map_or(1, usize::from),
-        ..DenseConfig::default()
-    };
-    let surface = |scan: &Scan, path: &Path| {
-        Surface::of(scan, config.threads).ok_or_else(|| {
-            Failure::input(path, "shows no surface: its points are too few, or lie on a line")
-        })
-    };
-    let surfaces = (surface(&source, &args.source)?, surface(&target, &args.target)?);
+    let surfaces = surfaces([(&source, &args.source), (&target, &args.target)], &config)?;
     let prepared = began.elapsed();
-    let found = register_surfaces(&surfaces.0, &surfaces.1, &start, &config);
+    let found = register_surfaces(&surfaces[0], &surfaces[1], &start, &config);
     if found.verdict == Verdict::Rejected && args.initial.is_none() && !args.global {
         let what = "no start was given, so both scans were taken to lie as they are: --global looks for one";
         warnings.push(Warning::new("no-start", what));
@@ -131,7 +111,7 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
             target: NamedCloud { name: &name_of(&args.target), points: target.points() },
             start,
             found: &found,
-            method: name,
+            method,
             gate_m: config.max_correspondence_distance_m,
             seconds: [seconds.read, seconds.prepare, seconds.iterate],
             warnings: &warnings,
@@ -140,7 +120,7 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         write_atomically(page, html.as_bytes())?;
     }
     let points = [&source, &target].map(|scan| seen(scan.points()).count());
-    let answer = answer(&found, name, points, seconds, warnings);
+    let answer = answer(&found, method, points, seconds, warnings);
     if manners.json {
         output::json(&answer);
     } else {
@@ -151,6 +131,38 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         eprintln!("report: {}", page.display());
     }
     Ok(if answer.verdict == Verdict::Accepted { 0 } else { 3 })
+}
+
+/// How to compare, and the method's name.
+fn config(args: &RegisterArgs) -> Result<(DenseConfig, &'static str), Failure> {
+    let gate = args.max_distance_mm.unwrap_or(50.0);
+    if !(gate > 0.0 && gate.is_finite()) {
+        return Err(Failure::Usage("--max-distance-mm must be positive".into()));
+    }
+    if args.max_iterations == 0 {
+        return Err(Failure::Usage("--max-iterations must be positive".into()));
+    }
+    let (method, name) = method(&args.method)?;
+    let config = DenseConfig {
+        method,
+        max_correspondence_distance_m: gate * 1e-3,
+        max_iterations: args.max_iterations,
+        global: args.global,
+        threads: thread::available_parallelism().map_or(1, usize::from),
+        ..DenseConfig::default()
+    };
+    Ok((config, name))
+}
+
+fn surfaces(scans: [(&Scan, &PathBuf); 2], config: &DenseConfig) -> Result<Vec<Surface>, Failure> {
+    let none = |path: &Path| {
+        Failure::input(path, "shows no surface: its points are too few, or lie on a line")
+    };
+    Surface::of_all(&scans.map(|scan| scan.0), config.threads)
+        .into_iter()
+        .zip(scans)
+        .map(|(surface, (_, path))| surface.ok_or_else(|| none(path)))
+        .collect()
 }
 
 /// A page that would take the place of what it shows is refused.

@@ -222,8 +222,8 @@ fn transform(found: &Dense) -> String {
         let items: String = found.undetermined.iter().map(item).collect();
         let _ = write!(
             content,
-            "<h3>Not determined</h3><ul>{items}</ul><p class=\"note\">Along these motions the start was kept; \
-             they are in the target's axes.</p>"
+            "<h3>Not determined</h3><ul>{items}</ul><p class=\"note\">Along these motions the answer is no \
+             better than its start; they are in the target's axes.</p>"
         );
     }
     content

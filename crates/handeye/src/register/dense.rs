@@ -72,7 +72,8 @@ pub struct Dense {
     pub verdict: Verdict,
     /// Why not.
     pub reasons: Vec<String>,
-    /// Motions that the common surface leaves free, in the target frame; there the start remains.
+    /// Motions that the common surface leaves free, in the target frame; there the start remains, or with
+    /// [`DenseConfig::global`] the place that was found.
     pub undetermined: Vec<String>,
     /// The whole transform, the start included.
     pub target_from_source: Isometry3<f64>,

@@ -40,8 +40,8 @@ const JOINED: f64 = 0.966;
 const FLUSH: f64 = 0.906;
 /// Windows lie on one another within this share of the source's radius.
 const NEAR: f64 = 0.05;
-/// Proposals whose first windows score less than this share of the best are dropped.
-const HOPELESS: f64 = 0.5;
+/// Proposals whose first windows score less than this share of what they could are dropped.
+const HOPELESS: f64 = 0.125;
 /// Proposals that are scored.
 const PROPOSED: usize = 40_000;
 /// Pairs with more counterparts than this say little.
@@ -255,7 +255,7 @@ impl Scorer {
         };
         let first = self.asked.len().min(SCORING.0);
         let score: f64 = self.asked[..first].iter().map(one).sum();
-        if score < 0.25 * HOPELESS * first as f64 {
+        if score < HOPELESS * first as f64 {
             return None;
         }
         Some(score + self.asked[first..].iter().map(one).sum::<f64>())

@@ -113,8 +113,27 @@ fn turns_about_one_axis_leave_the_camera_undetermined() {
 fn a_guess_saves_the_search() {
     let cell = cell(6, 52, (1e-4, 1e-4));
     let off = lie::exp(&Vector6::new(0.01, -0.02, 0.01, 0.004, 0.005, -0.003));
-    let found = placed(&cell, Some(&(cell.flange_from_camera * off)));
+    let guess = cell.flange_from_camera * off;
+    let pairs = std::cell::Cell::new(0);
+    let counted = |guess: Option<&Isometry3<f64>>| {
+        pairs.set(0);
+        let config = DenseConfig::default();
+        let count = |_, _| pairs.set(pairs.get() + 1);
+        (place(&cell.surfaces, &cell.base_from_flange, guess, &config, &count), pairs.get())
+    };
+    let (found, looked_at) = counted(Some(&guess));
+    let (without, looked_at_without) = counted(None);
     assert!(found.poses.iter().flatten().count() >= 5);
+    assert!(looked_at < looked_at_without, "{looked_at} {looked_at_without}");
+    for (k, pose) in found.poses.iter().enumerate() {
+        let Some(pose) = pose else { continue };
+        let Some(other) = &without.poses[k] else { continue };
+        let first = |placed: &Placed| placed.poses[0].unwrap().camera_from_target;
+        let one = pose.camera_from_target * first(&found).inverse();
+        let two = other.camera_from_target * first(&without).inverse();
+        let off = lie::log(&one.iso().inv_mul(two.iso()));
+        assert!(lie::omega(&off).norm() < 2e-3 && lie::nu(&off).norm() < 2e-3, "{off}");
+    }
 }
 
 #[test]
