@@ -7,8 +7,9 @@
 //!
 //! Residuals of neighbours are not independent: depth is wrong over some width, or the scan is bent. So
 //! the surface is cut into tiles, and what each of them pulls, `Σ ψ J`, is compared with what its windows
-//! would pull were they independent: the ratio of the squares scales the covariance `A⁻¹ B A⁻¹`, with
-//! `A = Σ ψ' J Jᵀ` and `B = Σ ψ² J Jᵀ` of Tukey's `ψ`.
+//! would pull were they independent: along each axis of the covariance `A⁻¹ B A⁻¹`, with `A = Σ ψ' J Jᵀ`
+//! and `B = Σ ψ² J Jᵀ` of Tukey's `ψ`, the ratio of the squares scales it, and nowhere less than the ratio
+//! over all axes. A direction that a few edges hold is held by few tiles.
 //!
 //! A. Gelfand et al., *Geometrically stable sampling for the ICP algorithm*, 3DIM 2003; P. Huber, *Robust
 //! statistics*, 1981.
@@ -27,10 +28,12 @@ const DETERMINED: f64 = 1.9;
 const FEIGNED: f64 = 1.4;
 /// Of a motion that is a shift, the turn moves the rim by less than this share, squared.
 const TURNS: f64 = 0.05;
-/// Tiles are so many times as wide as the spread of a window.
+/// The narrowest tiles are so many times as wide as the spread of a window.
 const TILE: f64 = 10.0;
-/// Fewer tiles say nothing of how much neighbours depend on each other.
-const FEWEST_TILES: usize = 8;
+/// They are made twice as wide so often, ...
+const WIDER: usize = 2;
+/// ... while there are so many: fewer say nothing of how much neighbours depend on each other.
+const FEWEST_TILES: usize = 12;
 
 /// Of an answer, in the target frame: a turn about the middle of the source, then a shift.
 #[derive(Debug, Clone)]
@@ -40,8 +43,8 @@ pub struct Freedom {
     pulls: Matrix6<f64>,
     /// Of what would be there without any shape.
     noise: Matrix6<f64>,
-    /// Variance over that of windows which err independently.
-    pub inflation: f64,
+    /// Squares of what tiles pull, and what they would be if windows erred independently.
+    pulled: Option<[Matrix6<f64>; 2]>,
     middle: Vector3<f64>,
 }
 
@@ -173,12 +176,12 @@ impl Freedom {
             runs.extend(part.0);
             feigned.add_all(&part.1);
         }
-        let tiles = joined(&runs);
+        let tiles = tiles(&runs);
         let mut all = Tile::at([0; 3]);
         tiles.iter().for_each(|tile| all.add(tile));
         let (information, pulls) = (all.slopes.whole(), all.squares.whole());
-        let inflation = inflation(&tiles, &information, &pulls).unwrap_or(1.0).max(1.0);
-        Self { information, pulls, noise: feigned.whole(), inflation, middle }
+        let pulled = pulled(&tiles, &information, &pulls);
+        Self { information, pulls, noise: feigned.whole(), pulled, middle }
     }
 
     /// Directions, of which the first ones are not determined; and how many those are.
@@ -231,11 +234,29 @@ impl Freedom {
         format!("a turn about {} through ({x:.0}, {y:.0}, {z:.0}) mm", direction(&turn))
     }
 
+    /// Of the answer whose information has this inverse, in the target frame.
+    fn inflated(&self, inverse: &Matrix6<f64>) -> Matrix6<f64> {
+        let independent = inverse * self.pulls * inverse;
+        let Some([squares, expected]) = &self.pulled else { return independent };
+        let all = (inverse * squares).trace() / (inverse * expected).trace();
+        // turns as shifts at the end of an arm: axes depend on units
+        let of = |k| self.information.fixed_view::<3, 3>(k, k).trace();
+        let arm = (of(0) / of(3)).sqrt();
+        let scaled = |by: f64| Matrix6::from_diagonal(&Vector6::new(by, by, by, 1.0, 1.0, 1.0));
+        let mut axes = SymmetricEigen::new(scaled(arm) * independent * scaled(arm));
+        for k in 0..6 {
+            let v = inverse * scaled(arm) * axes.eigenvectors.column(k);
+            let own = v.dot(&(squares * v)) / v.dot(&(expected * v));
+            axes.eigenvalues[k] *= own.max(all).max(1.0);
+        }
+        scaled(1.0 / arm) * axes.recompose() * scaled(1.0 / arm)
+    }
+
     /// 6 x 6, rotation first, perturbed on the right (in the source frame).
     pub fn covariance(&self, at: &Isometry3<f64>) -> Option<Matrix6<f64>> {
         // what the noise of normals feigns is no information
         let inverse = (self.information - self.noise).cholesky()?.inverse();
-        let covariance = inverse * self.pulls * inverse * self.inflation;
+        let covariance = self.inflated(&inverse);
         let back = at.rotation.to_rotation_matrix().into_inner().transpose();
         let mut a = Matrix6::zeros();
         a.fixed_view_mut::<3, 3>(0, 0).copy_from(&back);
@@ -280,6 +301,20 @@ fn tile_at(runs: &mut Vec<Tile>, place: [i32; 3]) -> &mut Tile {
     &mut runs[last]
 }
 
+/// As wide as they may be.
+fn tiles(runs: &[Tile]) -> Vec<Tile> {
+    let mut tiles = joined(runs);
+    for _ in 0..WIDER {
+        let halved = |tile: &Tile| Tile { place: tile.place.map(|k| k.div_euclid(2)), ..*tile };
+        let wider = joined(&tiles.iter().map(halved).collect::<Vec<_>>());
+        if wider.len() < FEWEST_TILES {
+            break;
+        }
+        tiles = wider;
+    }
+    tiles
+}
+
 /// Runs of the same tile in one.
 fn joined(runs: &[Tile]) -> Vec<Tile> {
     let mut order: Vec<usize> = (0..runs.len()).collect();
@@ -291,18 +326,17 @@ fn joined(runs: &[Tile]) -> Vec<Tile> {
     tiles
 }
 
-/// Squares of what tiles pull, over those expected of windows that err independently; both in all directions
-/// alike. The answer follows each tile, and so leaves it less: `E = B_t - L B_t - B_t Lᵀ + L B Lᵀ`, `L = A_t A⁻¹`.
-fn inflation(tiles: &[Tile], a: &Matrix6<f64>, b: &Matrix6<f64>) -> Option<f64> {
+/// Squares of what tiles pull, and those expected of windows that err independently. The answer follows each tile,
+/// and so leaves it less: `E = B_t - L B_t - B_t Lᵀ + L B Lᵀ`, `L = A_t A⁻¹`.
+fn pulled(tiles: &[Tile], a: &Matrix6<f64>, b: &Matrix6<f64>) -> Option<[Matrix6<f64>; 2]> {
     let inverse = a.cholesky()?.inverse();
-    let (mut squares, mut expected) = (0.0, 0.0);
+    let (mut squares, mut expected) = (Matrix6::zeros(), Matrix6::zeros());
     for tile in tiles {
         let followed = tile.slopes.whole() * inverse;
         let own = tile.squares.whole();
         let less = followed * own;
-        let left = own - less - less.transpose() + followed * b * followed.transpose();
-        squares += tile.pull.dot(&(inverse * tile.pull));
-        expected += (inverse * left).trace();
+        expected += own - less - less.transpose() + followed * b * followed.transpose();
+        squares += tile.pull * tile.pull.transpose();
     }
-    (tiles.len() >= FEWEST_TILES && expected > 0.0).then_some(squares / expected)
+    (tiles.len() >= FEWEST_TILES).then_some([squares, expected])
 }
