@@ -296,26 +296,35 @@ fn captures(c: &Calibration) -> String {
         })
         .collect();
     let px = |v: Option<f64>| v.map_or("&ndash;".into(), |v| format!("{v:.3}"));
+    let has_pictures = c.captures.iter().any(|k| k.corners > 0);
+    let seen = |k: &CaptureResult| {
+        format!(
+            "<td>{}</td><td>{}</td><td>{}</td>",
+            k.corners,
+            px(k.residual_px),
+            px(k.reprojection_px)
+        )
+    };
     let row = |k: &CaptureResult| {
         let class = if k.used { "" } else { "out" };
         let reason = k.reason.as_deref().map_or(String::new(), escape);
         format!(
-            "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"words\">{reason}</td></tr>",
+            "<tr class=\"{class}\"><td>{}</td>{}<td>{}</td><td>{}</td><td>{}</td><td class=\"words\">{reason}</td></tr>",
             escape(&k.id),
-            k.corners,
-            px(k.residual_px),
-            px(k.reprojection_px),
+            if has_pictures { seen(k) } else { String::new() },
             mm(k.residual_mm),
             deg(k.residual_deg),
             mm(k.held_out_mm)
         )
     };
     let rows: String = c.captures.iter().map(row).collect();
+    let of_pictures = "<th>corners</th><th>own pose,<br>px</th><th>through the<br>robot, px</th>";
     let content = format!(
-        "{}<div class=\"scroll\"><table><tr><th>capture</th><th>corners</th><th>own pose,<br>px</th><th>through the<br>robot, px</th><th>misfit,<br>mm</th><th>misfit,<br>degrees</th><th>left out,<br>mm</th><th class=\"words\">why not used</th></tr>{rows}</table></div>\
+        "{}<div class=\"scroll\"><table><tr><th>capture</th>{}<th>misfit,<br>mm</th><th>misfit,<br>degrees</th><th>left out,<br>mm</th><th class=\"words\">why not used</th></tr>{rows}</table></div>\
          <p class=\"note\">Misfit: by how much robot and camera disagree on where the target's {} is. Left out: the \
          same with an answer that has not seen the capture.</p>",
         plot::bars(&bars, "mm", ("misfit", "left out")),
+        if has_pictures { of_pictures } else { "" },
         if has_board(c) { "first corner" } else { "origin" }
     );
     section("Captures", "long", &content)
