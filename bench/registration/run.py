@@ -1,12 +1,14 @@
-"""Registration of scans: handeye beside small_gicp and Open3D, its k-d tree beside theirs and SciPy's.
+"""Registration of scans: handeye beside small_gicp, Open3D and PCL, its k-d tree beside small_gicp's, SciPy's, kiddo.
 
     pip install -r bench/registration/requirements.txt
+    apt-get install --no-install-recommends g++ pkg-config libpcl-dev     without them, PCL is not measured
     python bench/registration/run.py                  writes its sections of BENCHMARK.md
     python bench/registration/run.py --only basin     or others, threads: writes that section alone
     python bench/registration/run.py --dry            prints only
     python bench/registration/run.py --folder DIR     keeps the scans there
 
-Cargo builds handeye. The run takes a quarter of an hour and a gigabyte of disk.
+Cargo builds handeye and, from its registry, kiddo; g++ builds what runs PCL. The run takes twenty minutes and a
+gigabyte of disk.
 """
 
 import os
@@ -23,6 +25,7 @@ import statistics
 import subprocess
 import tempfile
 import time
+import tomllib
 
 import numpy as np
 import open3d
@@ -58,9 +61,17 @@ over all scenes: the angle, and the distance at the middle of the source's point
 (which try other starts, and come with a covariance and a verdict); the others get a gate of 10 mm, and come as
 their packages are built."""
 PEERS_TOLD = """GICP, VGICP and point-to-plane of small_gicp on the voxels named; *tight*: ended at 0.00001 rad and 0.001
-mm instead of its 0.1 degrees and 1 mm. Open3D point-to-plane with normals of 30 neighbours. PCL is not measured.
+mm instead of its 0.1 degrees and 1 mm. Open3D point-to-plane with normals of 30 neighbours. {pcl}
 *Share*: of this program's time, handeye takes that much on organised scans, on clouds, on shuffled clouds. Answers
 that handeye refused count in its errors like the others."""
+
+PCL_MEASURED = """PCL {version}
+from C++, with the library as its package is built: point-to-plane with normals of 30 neighbours, point-to-point, and
+GICP (whose solver stops early, where it sees no progress), in double precision where it has that, ended as *tight*
+or after 50 rounds. On all points of the larger scans, Open3D and PCL are not measured: that would take minutes."""
+PCL_MISSING = """PCL is not
+measured: it could not be compiled. On all points of the larger scans, Open3D is not either: that would take minutes."""
+PCL_MODULES = ["registration", "features", "filters", "search", "kdtree", "common"]
 
 # --- scans --------------------------------------------------------------------------------------
 
@@ -69,7 +80,8 @@ class Scene:
     def __init__(self, folder, name):
         known = json.loads((folder / f"{name}.json").read_text())
         self.truth, self.start = (np.array(known[key]).reshape(4, 4) for key in ("truth", "start"))
-        self.source, self.target = (seen(folder / f"{name}_{role}.f32") for role in ("source", "target"))
+        self.files = [folder / f"{name}_{role}.f32" for role in ("source", "target")]
+        self.source, self.target = map(seen, self.files)
         self.middle = self.source.mean(0)
 
     def errors(self, answer):
@@ -96,17 +108,17 @@ def handeye(*arguments):
 
 def gicp(kind, voxel, wide=None, **stop):
     """small_gicp on voxels of `voxel`; of VGICP, the target's are `wide`."""
-    def prepare(scene):
-        return lambda: small_gicp.align(
+    def measure(scene, timed):
+        return milliseconds(lambda: small_gicp.align(
             scene.target, scene.source, scene.start, registration_type=kind, voxel_resolution=wide or voxel,
             downsampling_resolution=voxel, max_correspondence_distance=GATE, num_threads=1, **stop,
-        ).T_target_source
-    return prepare
+        ).T_target_source, timed)
+    return measure
 
 
 def point_to_plane(voxel=None):
     """Open3D."""
-    def prepare(scene):
+    def measure(scene, timed):
         vectors = open3d.utility.Vector3dVector
         source, target = (open3d.geometry.PointCloud(vectors(p)) for p in (scene.source, scene.target))
         registration = open3d.pipelines.registration
@@ -116,8 +128,49 @@ def point_to_plane(voxel=None):
             others.estimate_normals(open3d.geometry.KDTreeSearchParamKNN(NEIGHBOURS))
             estimation = registration.TransformationEstimationPointToPlane()
             return registration.registration_icp(some, others, GATE, scene.start, estimation).transformation
-        return call
-    return prepare
+        return milliseconds(call, timed)
+    return measure
+
+
+def pcl_program(folder):
+    """Compiled; none where the library is not."""
+    program = folder / "pcl"
+    try:
+        wanted = ["pkg-config", "--cflags", "--libs", *(f"pcl_{module}" for module in PCL_MODULES)]
+        flags = subprocess.run(wanted, check=True, text=True, stdout=subprocess.PIPE).stdout.split()
+        # as Debian builds the library: not for this processor alone
+        subprocess.run(["g++", "-O3", "-DNDEBUG", HERE / "pcl.cpp", "-o", program, *flags], check=True)
+    except (FileNotFoundError, subprocess.CalledProcessError) as missing:
+        print(f"PCL is not measured (is libpcl-dev there?): {missing}")
+        return None
+    return program
+
+
+def pcl_told(program):
+    if not program:
+        return PCL_MISSING
+    asked = ["pkg-config", "--modversion", "pcl_common"]
+    done = subprocess.run(asked, check=True, text=True, stdout=subprocess.PIPE)
+    return PCL_MEASURED.format(version=done.stdout.strip())
+
+
+def pcl(program, method, voxel=0):
+    def measure(scene, timed):
+        numbers = [GATE, NEIGHBOURS, LONG_ENOUGH if timed else 0, *scene.start.ravel()]
+        command = [*map(str, [program, method, voxel, *scene.files, *numbers])]
+        done = subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE)
+        row = json.loads(done.stdout)
+        return row["ms"] if timed else np.nan, np.array(row["transform"]).reshape(4, 4)
+    return measure
+
+
+def pcl_peers(program):
+    return {
+        "PCL point-to-plane, 5 mm": pcl(program, "plane", 0.005),
+        "PCL point-to-plane, all points": pcl(program, "plane"),
+        "PCL point-to-point, 5 mm": pcl(program, "point", 0.005),
+        "PCL GICP, 5 mm": pcl(program, "gicp", 0.005),
+    } if program else {}
 
 
 PEERS = {
@@ -134,7 +187,7 @@ PEERS = {
     "Open3D, all points": point_to_plane(),
 }
 # these would take minutes
-TOO_LARGE = {("Open3D, all points", LARGE)}
+TOO_LARGE = {("Open3D, all points", LARGE), ("PCL point-to-plane, all points", LARGE)}
 
 
 def milliseconds(call, timed=True):
@@ -152,7 +205,7 @@ def milliseconds(call, timed=True):
 # --- registration -------------------------------------------------------------------------------
 
 
-def measured(folder, size, options):
+def measured(folder, size, others, options):
     """Per program: medians of ms, degrees and mm; how many points there are, and refused answers."""
     rows, points, refused = {}, [], 0
     for seed in range(options.scenes):
@@ -163,16 +216,16 @@ def measured(folder, size, options):
             answer = np.array(own["transform"]).reshape(4, 4)
             rows.setdefault(order, []).append((own["ms"] if timed else np.nan, *scene.errors(answer)))
             refused += own["verdict"] != "accepted"
-        for peer, prepare in PEERS.items():
+        for peer, measure in others.items():
             if (peer, size) not in TOO_LARGE:
-                ms, answer = milliseconds(prepare(scene), timed)
+                ms, answer = measure(scene, timed)
                 rows.setdefault(peer, []).append((ms, *scene.errors(answer)))
     medians = {program: np.nanmedian(values, axis=0) for program, values in rows.items()}
     return medians, statistics.median(points), refused
 
 
 def registration_lines(size, medians, points, refused):
-    peers = {program: row for program, row in medians.items() if program in PEERS}
+    peers = {program: row for program, row in medians.items() if program not in ORDERS}
     own = {order: medians[order] for order in ORDERS}
     lines = [[f"**handeye**, {told}", *figures(own[order]), ""] for order, told in ORDERS.items()]
     for program, row in peers.items():
@@ -264,6 +317,22 @@ def basin_lines(scenes):
             f"Refused because, in the first words of the first reason: {told}.", ""]
 
 
+def kiddo(*arguments):
+    """What it measured; none where cargo cannot build it."""
+    places = {"CARGO_TARGET_DIR": str(ROOT / "target"), **os.environ}
+
+    def cargo(command, *more):
+        whole = ["cargo", command, "--release", "-q", "--locked", *map(str, more)]
+        return subprocess.run(whole, cwd=HERE / "kiddo", env=places, text=True, stdout=subprocess.PIPE)
+
+    if cargo("build").returncode:
+        print("kiddo is not measured: cargo could not build it")
+        return None
+    done = cargo("run", "--", *arguments)
+    done.check_returncode()
+    return json.loads(done.stdout)
+
+
 def tree_rows(folder, size):
     own = handeye("trees", folder, f"{size[0]}_0")
     scene = Scene(folder, f"{size[0]}_0")
@@ -283,7 +352,10 @@ def tree_rows(folder, size):
     def ask_gicp(tree, points):
         return np.sqrt(tree.batch_nearest_neighbor_search(points, num_threads=1)[1]).mean()
 
-    rows = [("**handeye**", own["build_ms"], own["near_ms"], own["all_ms"], own["mean_distance"])]
+    def told_by(program, measured):
+        return (program, *(measured[key] for key in ("build_ms", "near_ms", "all_ms", "mean_distance")))
+
+    rows = [told_by("**handeye**", own)]
     quick = of_scipy(balanced_tree=False, compact_nodes=False)
     for program, build, ask in [("small_gicp KdTree", of_gicp, ask_gicp), ("SciPy cKDTree", of_scipy(), ask_scipy),
                                 ("SciPy cKDTree, not balanced", quick, ask_scipy)]:
@@ -291,6 +363,8 @@ def tree_rows(folder, size):
         some, _ = milliseconds(lambda: ask(tree, near))
         everything, distance = milliseconds(lambda: ask(tree, asked))
         rows.append((program, built, some, everything, distance))
+    if beside := kiddo(folder, f"{size[0]}_0"):
+        rows.append(told_by("kiddo", beside))
     assert all(abs(row[-1] / rows[0][-1] - 1) < 1e-3 for row in rows), rows
     best = [min(row[k] for row in rows[1:]) for k in (1, 2, 3)]
     told = f"{own['points'] / 1e3:.0f} k; {own['near'] / 1e3:.0f} k of {own['questions'] / 1e3:.0f} k"
@@ -299,12 +373,16 @@ def tree_rows(folder, size):
 
 def tree_lines(folder):
     rows = [row for size in (SMALL, LARGE) for row in tree_rows(folder, size)]
+    with_kiddo = any(row[1] == "kiddo" for row in rows)
+    locked = tomllib.loads((HERE / "kiddo" / "Cargo.lock").read_text())["package"]
+    version = next(package["version"] for package in locked if package["name"] == "kiddo")
+    single = f"handeye and kiddo ({version}, without threads) compute" if with_kiddo else "handeye computes"
     return ["### Nearest neighbours", "",
             "A k-d tree of the target's points, asked for the nearest of points of the source in their true place, row by",
             "row: of those that have one within 10 mm, as registration asks, and of all, also those that lie where the",
             "target shows nothing. Processor time, ms, and in brackets the multiple of the best of the others. The mean",
-            "distances agree to a thousandth. handeye computes in f32, the others in f64; small_gicp's answers become",
-            "Python lists, which is part of its time.", "",
+            f"distances agree to a thousandth. {single} in f32, the others in f64;",
+            "small_gicp's answers become Python lists, which is part of its time.", "",
             *table(["points; questions near of all", "program", "build", "ask, near", "ask, all"], rows)]
 
 
@@ -351,8 +429,10 @@ def comparison(folder, options):
     for size, count in [(SMALL, options.scenes), (LARGE, options.scenes), (LARGEST, 1)]:
         handeye("render", folder, *size, count)
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("small_gicp", "open3d", "scipy"))
-    registrations = [registration_lines(size, *measured(folder, size, options)) for size in (SMALL, LARGE)]
-    return ["## Registration", "", *SETTING.splitlines(), "", *PEERS_TOLD.splitlines(), "",
+    program = pcl_program(folder)
+    others = {**PEERS, **pcl_peers(program)}
+    registrations = [registration_lines(size, *measured(folder, size, others, options)) for size in (SMALL, LARGE)]
+    return ["## Registration", "", *SETTING.splitlines(), "", *PEERS_TOLD.format(pcl=pcl_told(program)).splitlines(), "",
             f"Written by `bench/registration/run.py` with {versions}; {options.scenes} scenes of each size,",
             f"{options.timed} of them timed; {machine()}.", "",
             *(line for lines in registrations for line in lines), *tree_lines(folder), *pair_lines(),
