@@ -256,8 +256,10 @@ fn widest<'a>(points: impl Iterator<Item = &'a [f32; 3]>) -> usize {
 fn partition(entries: &mut [Entry], axis: usize, split: f32) -> usize {
     let mut below = 0;
     for k in 0..entries.len() {
+        // known before anything moves: no entry has to wait for the one before
+        let is_below = entries[k].at[axis] < split;
         entries.swap(k, below);
-        below += usize::from(entries[below].at[axis] < split);
+        below += usize::from(is_below);
     }
     below
 }
