@@ -9,7 +9,7 @@
 //! Points are `f32`, as cameras have them; the distances say which one is nearest, to rounding.
 
 /// Points of a leaf.
-const LEAF: usize = 16;
+const LEAF: usize = 32;
 /// Of more points than this, a sample tells axis and median.
 const MANY: usize = 400;
 /// Points of the sample.
