@@ -34,6 +34,8 @@ const COSINE: f64 = 0.866;
 const TUKEY: f64 = 4.685;
 /// Standard deviations in a median absolute deviation.
 const MAD: f64 = 1.4826;
+/// Residuals that are less, over what their scatter promises, are not of two scans, but of one and its copy.
+const LEAST_SIGMA: f64 = 0.1;
 /// A round narrows the limit of residuals to this share.
 const NARROWER: f64 = 0.6;
 /// A round that moves by less than this share of the answer's standard deviation is the last.
@@ -192,7 +194,8 @@ impl<'a> Descent<'a> {
                     needed: FEWEST as usize,
                 });
             }
-            self.sigma = MAD * linalg::median(sums.residuals.iter().map(|r| f64::from(*r)));
+            let usual = linalg::median(sums.residuals.iter().map(|r| f64::from(*r)));
+            self.sigma = (MAD * usual).max(LEAST_SIGMA);
             let step = self.step(&sums)?;
             let (before, rms) = (reached.target_from_source, reached.rms_m);
             let middle = self.middle(&before);
@@ -370,7 +373,7 @@ impl<'a> Descent<'a> {
                 };
                 let variance = own.variance + other.variance + LEAST;
                 let arm = p - apart * 0.5 - middle;
-                with(Match { own, other, arm, apart, m, variance });
+                with(Match { own, other, arm, apart, turned: n, m, variance });
             }
         }
         range.len() as f64

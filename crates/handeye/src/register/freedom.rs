@@ -3,7 +3,8 @@
 //! The normal equations of a plane determine all six directions, or seem to: noisy normals lean to all
 //! sides, and a plane that slides on itself meets them all. What they would promise by their noise alone is
 //! known, `N = Σ w s² K (I - m mᵀ) Kᵀ` with `K = [[p]ₓ; I]` and the variance `s²` of the normal `m`; a
-//! direction in which the information `H` is not several times `N` is not determined.
+//! direction in which the information `H` is not several times `N` is not determined. Where depth is wrong over
+//! some width, normals lean more than the scatter of points promises: by how much, those that match tell.
 //!
 //! Residuals of neighbours are not independent: depth is wrong over some width, or the scan is bent. So
 //! the surface is cut into tiles, and what each of them pulls, `Σ ψ J`, is compared with what its windows
@@ -16,16 +17,16 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, SymmetricEigen, Vector3, Vector6};
 
-use super::{descent::Descent, pair::Match};
+use super::{dense::DenseMethod, descent::Descent, pair::Match, patch::Patch};
 use crate::{
     gram::{pairs, place},
-    lie,
+    lie, linalg,
 };
 
 /// Directions with less than so many times the information of noise alone are not determined.
 const DETERMINED: f64 = 1.9;
 /// Planes and creases feign so many times the information that planes alone would.
-const FEIGNED: f64 = 1.4;
+const FEIGNED: f64 = 1.2;
 /// Of a motion that is a shift, the turn moves the rim by less than this share, squared.
 const TURNS: f64 = 0.05;
 /// The narrowest tiles are so many times as wide as the spread of a window.
@@ -34,6 +35,10 @@ const TILE: f64 = 10.0;
 const WIDER: usize = 2;
 /// ... while there are so many: fewer say nothing of how much neighbours depend on each other.
 const FEWEST_TILES: usize = 12;
+/// Normals of exact surfaces differ by rounding, squared.
+const LEAST_LEANING: f64 = 1e-10;
+/// Share of the tiles' squares that an answer must leave for them to be compared along an axis.
+const LEFT: f64 = 0.2;
 
 /// Of an answer, in the target frame: a turn about the middle of the source, then a shift.
 #[derive(Debug, Clone)]
@@ -113,9 +118,9 @@ struct Feigned {
 
 impl Feigned {
     #[inline(always)]
-    fn add(&mut self, found: &Match, square: &Triangle, weight: f64) {
-        let variance = |p: &super::patch::Patch| p.across / (p.count * p.along);
-        let weight = 0.25 * (variance(found.own) + variance(found.other)) * weight;
+    fn add(&mut self, found: &Match, square: &Triangle, weight: f64, is_mean: bool) {
+        let of_mean = || 0.25 * (of_normal(found.own) + of_normal(found.other));
+        let weight = weight * if is_mean { of_mean() } else { of_normal(found.other) };
         self.weight += weight;
         self.arms += found.arm * weight;
         self.products += found.arm * found.arm.transpose() * weight;
@@ -145,16 +150,30 @@ impl Feigned {
     }
 }
 
+/// Variance of a window's normal, in each direction across it.
+#[inline(always)]
+fn of_normal(patch: &Patch) -> f64 {
+    patch.across / (patch.count * patch.along)
+}
+
+/// Squared difference of two normals, over what their scatter promises of it.
+#[inline(always)]
+fn leaning(found: &Match) -> f32 {
+    let promised = 2.0 * (of_normal(found.own) + of_normal(found.other)) + LEAST_LEANING;
+    ((found.turned - found.other.normal).norm_squared() / promised) as f32
+}
+
 impl Freedom {
     pub fn of(descent: &Descent, at: &Isometry3<f64>) -> Self {
         let middle = descent.middle(at);
         let per_m = 1.0 / (TILE * descent.target.spread);
+        let is_mean = descent.config.method != DenseMethod::PointToPlane;
         let parts = descent.chunks(|range| {
-            let (mut runs, mut feigned) = (vec![], Feigned::default());
+            let (mut runs, mut feigned, mut leanings) = (vec![], Feigned::default(), vec![]);
             descent.each_match(at, range, |found| {
                 let residual = found.residual();
                 let share = residual.abs() / descent.limit(found.variance.sqrt());
-                if share >= 1.0 {
+                if !(share < 1.0) {
                     return;
                 }
                 // psi and its slope, of Tukey's estimator
@@ -163,25 +182,29 @@ impl Freedom {
                 let pull = residual * left * left / found.variance;
                 let j = found.jacobian();
                 let square = Triangle::of(&j);
-                feigned.add(&found, &square, FEIGNED * slope);
+                feigned.add(&found, &square, FEIGNED * slope, is_mean);
+                leanings.push(leaning(&found));
                 let tile = tile_at(&mut runs, found.arm.map(|x| (x * per_m).floor() as i32).into());
                 tile.pull += Vector6::from(j) * pull;
                 tile.slopes.add(&square, slope);
                 tile.squares.add(&square, pull * pull);
             });
-            (runs, feigned)
+            (runs, feigned, leanings)
         });
-        let (mut runs, mut feigned) = (vec![], Feigned::default());
+        let (mut runs, mut feigned, mut leanings) = (vec![], Feigned::default(), vec![]);
         for part in parts {
             runs.extend(part.0);
             feigned.add_all(&part.1);
+            leanings.extend(part.2.into_iter().map(f64::from));
         }
         let tiles = tiles(&runs);
         let mut all = Tile::at([0; 3]);
         tiles.iter().for_each(|tile| all.add(tile));
         let (information, pulls) = (all.slopes.whole(), all.squares.whole());
         let pulled = pulled(&tiles, &information, &pulls);
-        Self { information, pulls, noise: feigned.whole(), pulled, middle }
+        // of noise alone they are distributed exponentially; creases are few
+        let leaning = linalg::median(leanings) / std::f64::consts::LN_2;
+        Self { information, pulls, noise: feigned.whole() * leaning.max(1.0), pulled, middle }
     }
 
     /// Directions, of which the first ones are not determined; and how many those are.
@@ -193,7 +216,7 @@ impl Freedom {
         let ratio = inverse * self.information * inverse.transpose();
         let eigen = SymmetricEigen::new((ratio + ratio.transpose()) * 0.5);
         let columns = inverse.transpose() * eigen.eigenvectors;
-        let is_free = |k: usize| eigen.eigenvalues[k] < DETERMINED;
+        let is_free = |k: usize| !(eigen.eigenvalues[k] >= DETERMINED);
         let mut order: Vec<(bool, usize)> = (0..6).map(|k| (!is_free(k), k)).collect();
         order.sort_unstable();
         let free = order.iter().filter(|(is_fixed, _)| !is_fixed).count();
@@ -246,7 +269,10 @@ impl Freedom {
         let mut axes = SymmetricEigen::new(scaled(arm) * independent * scaled(arm));
         for k in 0..6 {
             let v = inverse * scaled(arm) * axes.eigenvectors.column(k);
-            let own = v.dot(&(squares * v)) / v.dot(&(expected * v));
+            let (square, left) = (v.dot(&(squares * v)), v.dot(&(expected * v)));
+            // what holds on to one tile leaves it nothing that could be compared
+            let is_held_by_many = left > LEFT * v.dot(&(self.pulls * v));
+            let own = if is_held_by_many { square / left } else { 1.0 };
             axes.eigenvalues[k] *= own.max(all).max(1.0);
         }
         scaled(1.0 / arm) * axes.recompose() * scaled(1.0 / arm)

@@ -15,7 +15,9 @@ pub struct Match<'a> {
     pub arm: Vector3<f64>,
     /// From the other's mean to the moved one.
     pub apart: Vector3<f64>,
-    /// Mean of both normals.
+    /// The own normal, turned to the other's side.
+    pub turned: Vector3<f64>,
+    /// Mean of both normals, or the other's alone.
     pub m: Vector3<f64>,
     /// Of their distance along it, m².
     pub variance: f64,

@@ -11,6 +11,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use super::{
     dense::DenseConfig,
     descent::{Descent, FEWEST, Reached},
+    pair::LEAST,
     surface::Surface,
 };
 use crate::{Error, parallel};
@@ -82,7 +83,7 @@ fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64, scale:
         };
         let (off, cosine) = (other.normal.dot(&(p - other.mean)), n.dot(&other.normal));
         let alike = if from.is_facing && to.is_facing { cosine } else { cosine.abs() };
-        let variance = scale * (own.variance + other.variance);
+        let variance = scale * (own.variance + other.variance + LEAST);
         let opinion = 1.0 - ((off * off / variance).sqrt() - DOUBTED).clamp(0.0, 2.0);
         // a camera sees nothing through what is in front
         let hidden = to.is_facing && off < 0.0;
