@@ -156,7 +156,10 @@ fn config(args: &RegisterArgs) -> Result<(DenseConfig, &'static str), Failure> {
 
 fn surfaces(scans: [(&Scan, &PathBuf); 2], config: &DenseConfig) -> Result<Vec<Surface>, Failure> {
     let none = |path: &Path| {
-        Failure::input(path, "shows no surface: its points are too few, or lie on a line")
+        Failure::input(
+            path,
+            "shows no surface: its points are too few, lie on a line, or lie far from all others",
+        )
     };
     Surface::of_all(&scans.map(|scan| scan.0), config.threads)
         .into_iter()

@@ -35,23 +35,23 @@ pub struct Scatter {
 impl Scatter {
     pub fn of(patches: &[Option<Patch>], from_camera: bool) -> Self {
         let own = Self { from_camera, usual: 0.0 };
-        let usual = linalg::median(patches.iter().flatten().map(|p| p.across / own.slant(p)));
+        let usual = linalg::median(patches.iter().flatten().map(|p| p.across / own.facing(p)));
         Self { usual, ..own }
     }
 
-    fn slant(&self, patch: &Patch) -> f64 {
-        if self.from_camera { patch.slant() } else { 1.0 }
+    fn facing(&self, patch: &Patch) -> f64 {
+        if self.from_camera { patch.facing() } else { 1.0 }
     }
 
     /// Whether it scatters more than so many times the usual.
     fn is_beyond(&self, patch: &Patch, times: f64) -> bool {
-        patch.across > (times * self.usual * self.slant(patch)).max(FLAT * patch.along)
+        patch.across > (times * self.usual * self.facing(patch)).max(FLAT * patch.along)
     }
 
     /// Whether a window's middle lies on the plane of another.
     fn is_on(&self, own: &Patch, plane: &Patch) -> bool {
         let off = plane.normal.dot(&(own.mean - plane.mean));
-        let variance = self.usual * self.slant(plane) * (1.0 / own.held + 1.0 / plane.held);
+        let variance = self.usual * self.facing(plane) * (1.0 / own.held + 1.0 / plane.held);
         off * off <= ON * ON * (variance + LEAST)
     }
 
@@ -64,7 +64,7 @@ impl Scatter {
         let flattest = |own: &Patch, k: usize| {
             let beside = around(k).into_iter().filter_map(|k| patches[k].as_ref());
             let planes = beside.filter(|p| !self.is_beyond(p, CREASED) && self.is_on(own, p));
-            let rough = |p: &&Patch| p.across / self.slant(p);
+            let rough = |p: &&Patch| p.across / self.facing(p);
             planes.min_by(|a, b| rough(a).total_cmp(&rough(b)))
         };
         let mended: Vec<(usize, Patch)> = patches

@@ -130,9 +130,12 @@ pub fn register_surfaces(
     start: &Isometry3<f64>,
     config: &DenseConfig,
 ) -> Dense {
-    registered(source, target, start, config).unwrap_or_else(|_| Dense {
+    registered(source, target, start, config).unwrap_or_else(|error| Dense {
         verdict: Verdict::Rejected,
-        reasons: vec![nothing_near(config)],
+        reasons: vec![match error {
+            Error::TooFewPoints { .. } => nothing_near(config),
+            other => other.to_string(),
+        }],
         undetermined: vec![],
         target_from_source: *start,
         covariance: None,
@@ -175,7 +178,7 @@ fn registered(
     let mut reached = rivals[0].reached.clone();
     let at_best = reached.target_from_source;
     descent.nearby(&mut reached)?;
-    descent.fine(&mut reached, gate)?;
+    descent.fine(&mut reached)?;
     let sigma = descent.sigma;
     let freedom = Freedom::of(&descent, &reached.target_from_source);
     let (directions, free) = freedom.directions();
@@ -189,7 +192,7 @@ fn registered(
         descent.along = Some(rest);
         reached.target_from_source = if config.global { at_best } else { *start };
         descent.afar(&mut reached, gate)?;
-        descent.fine(&mut reached, gate)?;
+        descent.fine(&mut reached)?;
     }
     let at = reached.target_from_source;
     let mut found = Dense {
@@ -227,7 +230,10 @@ fn judge(found: &mut Dense, source: &Surface, rivals: &[Rival]) {
         ));
     }
     if found.stop == Stop::MaxIterations {
-        found.reasons.push(format!("the rounds were used up ({})", found.iterations));
+        found.reasons.push(format!(
+            "the rounds were used up, and it still moved ({} in all)",
+            found.iterations
+        ));
     }
     if found.agreement < AGREEING {
         found.reasons.push(format!(

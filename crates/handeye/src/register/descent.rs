@@ -50,6 +50,8 @@ pub const FEWEST: f64 = 20.0;
 const CHUNK: usize = 4096;
 /// Windows stay matched while none moves by more than this share of the spread of one.
 const MATCHED: f64 = 0.15;
+/// Share of the information in all directions that single precision may feign in one.
+const ROUNDED: f64 = 1e-9;
 /// Windows that are looked at before all are.
 const COARSE: f64 = 1500.0;
 /// From nearby, windows are matched within so many times the spread of one.
@@ -91,6 +93,18 @@ pub fn moved(at: &Isometry3<f64>, step: &Vector6<f64>, middle: &Vector3<f64>) ->
     let shift = Vector3::new(step[3], step[4], step[5]);
     let t = turn * (at.translation.vector - middle) + middle + shift;
     Isometry3::from_parts(Translation3::from(t), turn * at.rotation)
+}
+
+/// Exact planes say nothing at all of some directions: there a step is short.
+fn held(information: &Matrix6<f64>) -> Matrix6<f64> {
+    information + Matrix6::from_diagonal(&nothing(information))
+}
+
+/// Information, of turns and of shifts, that is rounding.
+pub fn nothing(information: &Matrix6<f64>) -> Vector6<f64> {
+    let of = |k| information.fixed_view::<3, 3>(k, k).trace() * ROUNDED + f64::MIN_POSITIVE;
+    let (turn, shift) = (of(0), of(3));
+    Vector6::new(turn, turn, turn, shift, shift, shift)
 }
 
 /// Two surfaces, and the state of the rounds between them.
@@ -152,7 +166,8 @@ impl<'a> Descent<'a> {
     /// # Errors
     /// [`Error::TooFewPoints`], [`Error::NotDetermined`].
     pub fn coarse(&mut self, reached: &mut Reached, gate: f64, stride: usize) -> Result<(), Error> {
-        (self.gate, self.width) = (gate, gate);
+        // means of windows lie apart along the surface, however near both are to each other
+        (self.gate, self.width) = (gate.max(FINE * self.target.spread), gate);
         self.look_at(stride);
         self.descend(reached, SETTLED_SOME)
     }
@@ -168,8 +183,8 @@ impl<'a> Descent<'a> {
     }
 
     /// Over all windows, from nearby.
-    pub fn fine(&mut self, reached: &mut Reached, gate: f64) -> Result<(), Error> {
-        (self.gate, self.width) = (gate.min(FINE * self.target.spread), 0.0);
+    pub fn fine(&mut self, reached: &mut Reached) -> Result<(), Error> {
+        (self.gate, self.width) = (FINE * self.target.spread, 0.0);
         self.look_at(1);
         self.descend(reached, SETTLED)
     }
@@ -234,12 +249,12 @@ impl<'a> Descent<'a> {
             || Error::NotDetermined { what: "the common surface can slide on itself".into() };
         match &self.along {
             None => {
-                let inverse = linalg::invert_spd(&sums.information).ok_or_else(free)?;
+                let inverse = linalg::invert_spd(&held(&sums.information)).ok_or_else(free)?;
                 Ok(-inverse * sums.gradient)
             }
             Some(along) => {
                 // within the directions that are left, the others stay
-                let mut within = along.transpose() * sums.information * along;
+                let mut within = along.transpose() * held(&sums.information) * along;
                 for k in 0..6 {
                     if along.column(k).norm_squared() == 0.0 {
                         within[(k, k)] = 1.0;

@@ -17,7 +17,12 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, SymmetricEigen, Vector3, Vector6};
 
-use super::{dense::DenseMethod, descent::Descent, pair::Match, patch::Patch};
+use super::{
+    dense::DenseMethod,
+    descent::{Descent, nothing},
+    pair::Match,
+    patch::Patch,
+};
 use crate::{
     gram::{pairs, place},
     lie, linalg,
@@ -210,7 +215,7 @@ impl Freedom {
     /// Directions, of which the first ones are not determined; and how many those are.
     pub fn directions(&self) -> (Matrix6<f64>, usize) {
         // without any noise, that of rounding
-        let least = Matrix6::from_diagonal(&self.information.diagonal().map(|x| 1e-12 * x + 1e-30));
+        let least = Matrix6::from_diagonal(&nothing(&self.information));
         let root = (self.noise + least).cholesky().and_then(|c| c.l().try_inverse());
         let Some(inverse) = root else { return (Matrix6::identity(), 6) };
         let ratio = inverse * self.information * inverse.transpose();
@@ -253,7 +258,7 @@ impl Freedom {
             return format!("a shift along {}", direction(&shift));
         }
         let axis = self.middle + turn.cross(&shift) / turn.norm_squared();
-        let [x, y, z] = (axis * 1e3).into();
+        let [x, y, z] = (axis * 1e3).map(|x| if x.abs() < 0.5 { 0.0 } else { x }).into();
         format!("a turn about {} through ({x:.0}, {y:.0}, {z:.0}) mm", direction(&turn))
     }
 

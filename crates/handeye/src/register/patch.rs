@@ -54,8 +54,8 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Square of the cosine between its normal and the ray from the origin.
-    pub fn slant(&self) -> f64 {
+    /// Square of the cosine between its normal and the ray from the origin: 1 where it is seen from the front.
+    pub fn facing(&self) -> f64 {
         self.normal.dot(&self.mean).powi(2) / self.mean.norm_squared().max(f64::MIN_POSITIVE)
     }
 }

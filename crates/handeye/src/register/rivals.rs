@@ -133,7 +133,15 @@ pub fn answers(
     let (mut all, mut sigma) = tried(descent, starts, gate, count, f64::INFINITY);
     let is_far =
         |r: &Rival, near| source.moved(near, &r.reached.target_from_source) > FARTHEST * gate;
+    let found = all.len();
     all.retain(|r| near.is_none_or(|near| !is_far(r, near)));
+    if all.is_empty() && found > 0 {
+        let what = format!(
+            "the scans fit only more than {:.0} mm away from the start: give a better one, or a larger distance",
+            1e3 * FARTHEST * gate
+        );
+        return Err(Error::NotDetermined { what });
+    }
     leave_out_worse(&mut all);
     while all.len() > 1 && source.stride(count) > 1 {
         count *= 4.0;

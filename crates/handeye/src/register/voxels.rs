@@ -19,6 +19,8 @@ const CUBE_BITS: u32 = 21;
 const SAMPLE: usize = 1 << 14;
 /// Points of the sample in a cube in which they are counted.
 const COUNTED: f64 = 8.0;
+/// Rounds in which their size is found.
+const ROUNDS: usize = 4;
 /// Share of the points beyond each end of an axis that do not count for its length.
 const BEYOND: usize = 500;
 /// Cubes that a thread works on at once.
@@ -344,7 +346,7 @@ fn lattice(points: &[[f32; 3]], held: f64) -> Option<Lattice> {
     if !(edge > 0.0) {
         return None;
     }
-    for _ in 0..2 {
+    for _ in 0..ROUNDS {
         let cubes = occupied(&sample, &Lattice { origin, per_m: STEPS as f64 / edge });
         edge *= (COUNTED * cubes / sample.len() as f64).sqrt();
     }
@@ -368,6 +370,6 @@ fn extent(points: &[[f32; 3]]) -> ([f64; 3], f64) {
 fn occupied(points: &[[f32; 3]], lattice: &Lattice) -> f64 {
     let mut keys: Vec<u64> = points.iter().filter_map(|p| Some(lattice.place(p)?.0)).collect();
     keys.sort_unstable();
-    keys.dedup();
-    keys.len() as f64
+    // what is alone is no surface
+    keys.chunk_by(|a, b| a == b).filter(|cube| cube.len() > 1).count().max(1) as f64
 }

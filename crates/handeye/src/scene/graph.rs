@@ -20,6 +20,8 @@ const SETTLED: f64 = 1e-10;
 const HALF: f64 = 6.0;
 /// The pair that errs most is out beyond so many times the usual error.
 const OUT: f64 = 40.0;
+/// Why a link is left out.
+const CONTRADICTS: &str = "contradicts the other pairs";
 /// Median of squares of six standard normal deviates.
 const MEDIAN: f64 = 5.348;
 /// A registration is no surer than this, rad and m: what its covariance does not know of.
@@ -28,24 +30,51 @@ const LEAST: f64 = 1e-6;
 /// Where each scan lies: `camera_from_scene`, and its covariance (perturbed on the right), of those that hang
 /// together; links that contradict the others are left out.
 pub fn adjust(count: usize, links: &mut [Link]) -> Vec<Option<(Isometry3<f64>, Matrix6<f64>)>> {
+    for link in links.iter_mut().filter(|link| link.left_out.is_none()) {
+        if information(link).is_none() {
+            link.left_out = Some("its covariance cannot be inverted".into());
+        }
+    }
     // what was left out may have held scans in their places: all is laid out anew
     while let Some(adjusted) = adjusted(count, links) {
-        let worst = links
-            .iter_mut()
-            .filter(|link| link.left_out.is_none())
-            .filter_map(|link| Some((squared(&adjusted.placed, link)?, link)))
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        match worst {
-            Some((error, link)) if error > OUT * adjusted.usual.max(MEDIAN) => {
-                link.left_out = Some("contradicts the other pairs".into());
-            }
-            _ => {
-                leave_out_others(&adjusted.placed, links);
-                return adjusted.poses();
-            }
+        let limit = OUT * adjusted.usual.max(MEDIAN);
+        if let Some(k) = worst(&adjusted.placed, links, limit) {
+            links[k].left_out = Some(CONTRADICTS.into());
+        } else if let Some(k) = left_alone(links) {
+            let why = "of two pairs that contradict each other it cannot be told which is right";
+            links[k].left_out = Some(why.into());
+        } else {
+            leave_out_others(&adjusted.placed, links);
+            return adjusted.poses();
         }
     }
     vec![None; count]
+}
+
+/// The link that errs most, if beyond a limit.
+fn worst(placed: &[Option<Isometry3<f64>>], links: &[Link], limit: f64) -> Option<usize> {
+    let counting = links.iter().enumerate().filter(|(_, link)| link.left_out.is_none());
+    let errors = counting.filter_map(|(k, link)| Some((squared(placed, link)?, k)));
+    let worst = errors.max_by(|a, b| a.0.total_cmp(&b.0));
+    worst.filter(|(error, _)| *error > limit).map(|(_, k)| k)
+}
+
+/// A link that alone is left to hold a scan, of which another contradicted it.
+fn left_alone(links: &[Link]) -> Option<usize> {
+    let counts = |scan: usize| {
+        links
+            .iter()
+            .filter(|l| l.left_out.is_none() && (l.source == scan || l.target == scan))
+            .count()
+    };
+    let is_contradicted = |scan: usize| {
+        let by = |l: &Link| l.left_out.as_deref() == Some(CONTRADICTS);
+        links.iter().any(|l| by(l) && (l.source == scan || l.target == scan))
+    };
+    links.iter().position(|link| {
+        let is_alone = |scan: usize| is_contradicted(scan) && counts(scan) == 1;
+        link.left_out.is_none() && (is_alone(link.source) || is_alone(link.target))
+    })
 }
 
 /// Links among scans that do not hang together with most.
@@ -269,7 +298,8 @@ mod tests {
             links[k].found.target_from_source *= wrong;
             links[k].found.covariance = Some(Matrix6::identity() * 1e-10);
         }
-        adjust(6, &mut links);
-        assert!(links[8].left_out.is_some() || links[9].left_out.is_some());
+        let found = adjust(6, &mut links);
+        assert!(links[8].left_out.is_some() && links[9].left_out.is_some());
+        assert!(found[5].is_none() && found[..5].iter().all(Option::is_some));
     }
 }

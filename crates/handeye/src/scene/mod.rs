@@ -136,6 +136,11 @@ pub fn place_object(
             let off = link.at().inv_mul(&predicted);
             if link.left_out.is_some() || !motions::agrees(&off) {
                 *link = found(link.source, &predicted, config);
+                let is_there = motions::agrees(&link.at().inv_mul(&predicted));
+                if link.left_out.is_none() && !is_there {
+                    link.left_out =
+                        Some("it lies elsewhere than robot and other scans have it".into());
+                }
             }
         }
     }

@@ -33,6 +33,8 @@ const CROSSED: f64 = 0.25;
 const AGREES_RAD: f64 = 0.02;
 /// ... and distance, m.
 const AGREES_M: f64 = 0.015;
+/// Pairs of motions that are tried.
+const MOST_TRIED: usize = 2000;
 /// Fewer motions that agree are chance.
 const FEWEST: usize = 3;
 
@@ -65,13 +67,13 @@ pub fn contradiction(a: &Isometry3<f64>, b: &Isometry3<f64>) -> Option<String> {
 /// About where the camera sits on its mount; `None` where the motions do not tell.
 pub fn camera(all: &[Motion]) -> Option<Isometry3<f64>> {
     let mut best: Vec<Motion> = vec![];
-    for (i, first) in all.iter().enumerate() {
-        for second in &all[..i] {
-            let Some(x) = fitted(&[*first, *second]) else { continue };
-            let agreeing = agreeing(all, &x);
-            if agreeing.len() > best.len() {
-                best = agreeing;
-            }
+    let pairs = all.len() * all.len().saturating_sub(1) / 2;
+    for k in (0..pairs).step_by(pairs.div_ceil(MOST_TRIED).max(1)) {
+        let (i, j) = pair(k);
+        let Some(x) = fitted(&[all[i], all[j]]) else { continue };
+        let agreeing = agreeing(all, &x);
+        if agreeing.len() > best.len() {
+            best = agreeing;
         }
     }
     if best.len() < FEWEST {
@@ -79,6 +81,19 @@ pub fn camera(all: &[Motion]) -> Option<Isometry3<f64>> {
     }
     let x = fitted(&best)?;
     fitted(&agreeing(all, &x)).or(Some(x))
+}
+
+/// The pair with this number, of (1, 0), (2, 0), (2, 1), (3, 0) ...
+fn pair(k: usize) -> (usize, usize) {
+    let mut i = ((1.0 + (1.0 + 8.0 * k as f64).sqrt()) / 2.0) as usize;
+    // the root is rounded
+    while i * (i - 1) / 2 > k {
+        i -= 1;
+    }
+    while i * (i + 1) / 2 <= k {
+        i += 1;
+    }
+    (i, k - i * (i - 1) / 2)
 }
 
 fn agreeing(all: &[Motion], x: &Isometry3<f64>) -> Vec<Motion> {

@@ -195,6 +195,10 @@ fn no_answer_is_silently_wrong() {
         let to = Isometry3::translation(0.0, 0.0, 0.8);
         let away = Isometry3::new(random.normal3().normalize() * 0.03, turn);
         let start = truth * to * away * to.inverse();
+        let (source, target) = match seed % 3 {
+            0 => (shuffled(&source, seed), shuffled(&target, seed + 1)),
+            _ => (source, target),
+        };
         let found = register(&source, &target, &start, &DenseConfig::default()).unwrap();
         runs += 1;
         if found.verdict != Verdict::Accepted {
@@ -208,7 +212,7 @@ fn no_answer_is_silently_wrong() {
         error += off.dot(&(found.covariance.unwrap().try_inverse().unwrap() * off)) / 6.0;
     }
     println!("{right} of {runs}, normalised error {}", error / f64::from(right));
-    assert!(right >= 18, "{right}");
+    assert!(right >= 15, "{right}");
     assert!((0.6..1.8).contains(&(error / f64::from(right))), "{}", error / f64::from(right));
 }
 
@@ -248,6 +252,52 @@ fn what_slides_on_itself_is_named() {
     assert!(bar[0].starts_with("a shift along (1.00, 0.00"), "{bar:?}");
     let block = undetermined(Solid::Block { half: [0.15, 0.15, 0.15] }, [0.7, 0.6, 0.0]);
     assert!(block.is_empty(), "{block:?}");
+}
+
+/// A table of 0.6 m, 0.8 m away, of which depth is wrong by noise, and by as much that changes slowly.
+fn wavy_table(noise_m: f64, random: &mut Random) -> Scan {
+    let waves: Vec<[f64; 3]> = (0..40)
+        .map(|_| [random.normal() * 44.0, random.normal() * 44.0, random.between(0.0, 2.0 * PI)])
+        .collect();
+    let point = |_| {
+        let (x, y) = (random.between(-0.3, 0.3), random.between(-0.3, 0.3));
+        let slow: f64 = waves.iter().map(|[a, b, c]| (a * x + b * y + c).cos()).sum();
+        let z = 0.8 + noise_m * (random.normal() + slow * (2.0 / waves.len() as f64).sqrt());
+        [x, y, z].map(|x| x as f32)
+    };
+    let points: Vec<[f32; 3]> = (0..60_000).map(point).collect();
+    Scan::new(points.len(), 1, points).unwrap()
+}
+
+#[test]
+fn slow_errors_of_depth_are_no_shape() {
+    let mut random = Random::new(12);
+    for noise in [0.0, 1e-4, 3e-4] {
+        let (source, target) = (wavy_table(noise, &mut random), wavy_table(noise, &mut random));
+        for method in [DenseMethod::Auto, DenseMethod::PointToPlane] {
+            let config = DenseConfig { method, ..DenseConfig::default() };
+            let found = register(&source, &target, &Isometry3::identity(), &config).unwrap();
+            assert_eq!(found.verdict, Verdict::Undetermined, "{noise} {method:?} {found:?}");
+            assert_eq!(shifts_and_turns(&found.undetermined), (2, 1), "{:?}", found.undetermined);
+        }
+    }
+}
+
+#[test]
+fn a_scan_lies_on_itself() {
+    let (source, _, _) = scans(4, |camera| camera);
+    let cloud = shuffled(&source, 5);
+    for scan in [&source, &cloud] {
+        for gate in [0.05, 0.002] {
+            let config =
+                DenseConfig { max_correspondence_distance_m: gate, ..DenseConfig::default() };
+            let found = register(scan, scan, &Isometry3::identity(), &config).unwrap();
+            assert_eq!(found.verdict, Verdict::Accepted, "{gate} {:?}", found.reasons);
+            let (turn, shift) = errors(&Isometry3::identity(), &found.target_from_source);
+            assert!(turn < 1e-6 && shift < 1e-6, "{turn} deg, {shift} mm");
+            assert!(found.inlier_fraction > 0.95 && found.agreement > 0.99, "{found:?}");
+        }
+    }
 }
 
 /// Two scans of a cell from sides that have nothing to do with one another.
