@@ -27,7 +27,8 @@ const OBJECT: &str = "object";
 /// a part a few centimetres thick, which no camera sees, would be drawn to its near side.
 const OBJECT_GATE_M: f64 = 0.02;
 /// A scan, or an object, that cannot be compared.
-const NO_SURFACE: &str = "shows no surface: its points are too few, lie on a line, or lie far from all others";
+const NO_SURFACE: &str =
+    "shows no surface: its points are too few, lie on a line, or lie far from all others";
 
 /// Places every scan; `progress` is told how many of how many are read, then how many pairs are registered.
 pub(crate) fn measure(
