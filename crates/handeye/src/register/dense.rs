@@ -134,6 +134,7 @@ pub fn register_surfaces(
         verdict: Verdict::Rejected,
         reasons: vec![match error {
             Error::TooFewPoints { .. } => nothing_near(config),
+            Error::NotDetermined { what } => what,
             other => other.to_string(),
         }],
         undetermined: vec![],
