@@ -10,7 +10,8 @@
 //! the surface is cut into tiles, and what each of them pulls, `Σ ψ J`, is compared with what its windows
 //! would pull were they independent: along each axis of the covariance `A⁻¹ B A⁻¹`, with `A = Σ ψ' J Jᵀ`
 //! and `B = Σ ψ² J Jᵀ` of Tukey's `ψ`, the ratio of the squares scales it, and nowhere less than the ratio
-//! over all axes. A direction that a few edges hold is held by few tiles.
+//! over all axes. A direction that a few edges hold is held by few tiles. Of the covariance that is told, `A` is
+//! less what the noise of normals feigns.
 //!
 //! A. Gelfand et al., *Geometrically stable sampling for the ICP algorithm*, 3DIM 2003; P. Huber, *Robust
 //! statistics*, 1981.

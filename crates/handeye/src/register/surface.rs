@@ -23,6 +23,7 @@ const FEWEST_PIECES: usize = 20;
 const FEWEST: f64 = 2.0;
 /// A window must have this share of the points of nine blocks.
 const FILLED: f64 = 0.6;
+
 /// A scan's windows that are planes.
 pub struct Surface {
     /// Of an organised scan row by row, of a cloud one after the other.

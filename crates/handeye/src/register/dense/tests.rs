@@ -161,21 +161,28 @@ fn clouds_are_brought_together_whatever_the_order_of_their_points() {
 }
 
 #[test]
-fn every_method_comes_to_the_same_place() {
+fn every_method_comes_to_the_same_place_or_does_not_claim_it() {
     let (source, target, truth) = scans(1, |k| k);
     let start = off(&truth, &mut Random::new(8));
     let methods = [
         (DenseMethod::Auto, 0.4),
         (DenseMethod::PointToPlane, 0.5),
         (DenseMethod::PlaneToPlane, 1.5),
-        (DenseMethod::PointToPoint, 20.0),
     ];
-    for (method, mm) in methods {
+    let by = |method| {
         let config = DenseConfig { method, restarts: false, ..DenseConfig::default() };
         let found = register(&source, &target, &start, &config).unwrap();
         let (turn, shift) = errors(&truth, &found.target_from_source);
+        (found.verdict, turn, shift)
+    };
+    for (method, mm) in methods {
+        let (verdict, turn, shift) = by(method);
+        assert_eq!(verdict, Verdict::Accepted, "{method:?}");
         assert!(turn < 0.5 * mm && shift < mm, "{method:?}: {turn} deg, {shift} mm");
     }
+    // places of windows say little along a surface: it turns the right way, and does not claim the rest
+    let (verdict, turn, _) = by(DenseMethod::PointToPoint);
+    assert!(verdict != Verdict::Accepted && turn < 0.3, "{verdict:?} {turn} deg");
 }
 
 /// Starts up to 30 mm and 10 degrees off, from random sides: right or refused.
