@@ -103,7 +103,7 @@ fn reasons(found: &Dense) -> Vec<String> {
     if !found.reasons.is_empty() {
         return found.reasons.clone();
     }
-    vec!["no other place near the start fits as well, and the common surface leaves no direction free".into()]
+    vec!["no other place that was tried fits as well, and the common surface leaves no direction free".into()]
 }
 
 fn facts(found: &Dense) -> Vec<(String, String)> {
@@ -115,6 +115,10 @@ fn facts(found: &Dense) -> Vec<(String, String)> {
     say(format!("{:.0} %", 100.0 * found.inlier_fraction), "of the source on the target");
     if found.rms_m.is_finite() {
         say(format!("{:.1} %", 100.0 * found.agreement), "agree where both see");
+    }
+    if let Some(size) = &found.size {
+        let (percent, sigma) = (100.0 * (size.ratio - 1.0), 100.0 * size.sigma);
+        say(format!("{percent:+.2} &plusmn; {sigma:.2} %"), "size in the target, over the source");
     }
     if let Some(c) = &found.covariance {
         let largest =
@@ -274,6 +278,7 @@ mod tests {
             stop: Stop::Converged,
             inlier_fraction: 0.9,
             agreement: 0.99,
+            size: None,
             rms_m: 1e-4,
             sigma: 1.0,
         }

@@ -11,6 +11,7 @@ use super::{
     global,
     icp::Stop,
     rivals::{self, Opinions, Rival},
+    size::Size,
     surface::Surface,
 };
 use crate::{Error, Scan, Verdict};
@@ -21,7 +22,8 @@ pub enum DenseMethod {
     /// Distances along the mean of both normals (symmetric).
     #[default]
     Auto,
-    /// Distances between places.
+    /// Distances between places. Where surfaces are flat this creeps, and holds on to places that are centimetres
+    /// off; what it reaches is then undetermined or rejected, as by any other method.
     PointToPoint,
     /// Distances along the target's normal.
     PointToPlane,
@@ -88,6 +90,8 @@ pub struct Dense {
     pub inlier_fraction: f64,
     /// Of the windows where both scans show something, the share at which it is the same.
     pub agreement: f64,
+    /// How much larger or smaller the target shows what both show; `None` where the surfaces do not tell.
+    pub size: Option<Size>,
     /// RMS distance across the surface, of the matches, m.
     pub rms_m: f64,
     /// Deviation of the matches over that which the scatter of their points promises.
@@ -144,6 +148,7 @@ pub fn register_surfaces(
         stop: Stop::NoMatches,
         inlier_fraction: 0.0,
         agreement: 0.0,
+        size: None,
         rms_m: f64::NAN,
         sigma: f64::NAN,
     })
@@ -205,10 +210,14 @@ fn registered(
         iterations: reached.iterations,
         stop: reached.stop,
         inlier_fraction: reached.inliers / reached.all,
+        size: None,
         agreement: Opinions::of(&descent, &at, ASKED, sigma).agreeing(),
         rms_m: reached.rms_m,
         sigma,
     };
+    if free == 0 {
+        found.size = Size::of(&mut descent, &at);
+    }
     judge(&mut found, source, &rivals);
     Ok(found)
 }
@@ -241,6 +250,15 @@ fn judge(found: &mut Dense, source: &Surface, rivals: &[Rival]) {
             "of the places where both scans show something, it differs at {:.0} %: the start may be too far \
              off, or things were moved between the scans",
             100.0 * (1.0 - found.agreement)
+        ));
+    }
+    if let Some(size) = found.size.filter(Size::differs) {
+        found.reasons.push(format!(
+            "the target shows things {:.2} % {} than the source (+/- {:.2} %): see to the unit, to the scale of the \
+             depth, and that both show the same thing",
+            100.0 * (size.ratio - 1.0).abs(),
+            if size.ratio > 1.0 { "larger" } else { "smaller" },
+            100.0 * size.sigma
         ));
     }
     if found.inlier_fraction < OVERLAPPING {

@@ -189,6 +189,14 @@ impl<'a> Descent<'a> {
         self.descend(reached, SETTLED)
     }
 
+    /// Matches among about so many windows, at a place that is nearly right.
+    pub fn each_nearby(&mut self, at: &Isometry3<f64>, count: f64, with: impl FnMut(Match)) {
+        self.gate = NEARBY * self.source.spread;
+        self.look_at(self.source.stride(count));
+        self.match_all(at);
+        self.each_match(at, 0..self.looked_at.len(), with);
+    }
+
     /// At windows in every so manieth row and column.
     fn look_at(&mut self, stride: usize) {
         self.looked_at = self.source.every(stride);

@@ -19,6 +19,7 @@ mod rivals;
 pub mod robust_fit;
 mod rotation;
 pub mod similarity_fit;
+mod size;
 mod surface;
 mod voxels;
 
@@ -30,4 +31,5 @@ pub use measured_fit::{MeasuredFit, MeasuredPoint, measured_fit};
 pub use rigid_fit::{RigidFit, rigid_fit, weighted_rigid_fit};
 pub use robust_fit::{RobustFit, robust_fit};
 pub use similarity_fit::{SimilarityFit, similarity_fit};
+pub use size::Size;
 pub use surface::Surface;

@@ -261,6 +261,7 @@ mod tests {
                 iterations: 1,
                 stop: Stop::Converged,
                 inlier_fraction: 1.0,
+                size: None,
                 agreement: 1.0,
                 rms_m: 1e-4,
                 sigma: 1.0,

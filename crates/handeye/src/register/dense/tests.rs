@@ -345,3 +345,28 @@ fn a_start_that_is_found_does_not_depend_on_the_number_of_threads() {
     };
     assert_eq!(with(1), with(3));
 }
+
+/// A source that is a percent too large lies where as much of it is too high as too low; it is measured.
+#[test]
+fn scans_of_another_size_are_refused() {
+    let (source, target, truth) = scans(3, |k| k);
+    let start = off(&truth, &mut Random::new(9));
+    for (source, target) in
+        [(source.clone(), target.clone()), (shuffled(&source, 1), shuffled(&target, 2))]
+    {
+        let by = |scale: f32| {
+            let points = source.points().iter().map(|p| p.map(|x| x * scale)).collect();
+            let grown = Scan::new(source.width(), source.height(), points).unwrap();
+            register(&grown, &target, &start, &DenseConfig::default()).unwrap()
+        };
+        let same = by(1.0);
+        let size = same.size.unwrap();
+        assert_eq!(same.verdict, Verdict::Accepted);
+        assert!((size.ratio - 1.0).abs() < 4.0 * size.sigma, "{size:?}");
+        let other = by(1.01);
+        let size = other.size.unwrap();
+        assert_eq!(other.verdict, Verdict::Rejected, "{size:?}");
+        assert!((size.ratio - 1.0 / 1.01).abs() < 4.0 * size.sigma, "{size:?}");
+        assert!(other.reasons.iter().any(|r| r.contains("% smaller")), "{:?}", other.reasons);
+    }
+}
