@@ -101,7 +101,7 @@ pub struct Dense {
 /// Windows that are asked for their opinion of the answer.
 const ASKED: f64 = 5000.0;
 /// With less agreement, something is wrong.
-const AGREEING: f64 = 0.8;
+const AGREEING: f64 = 0.9;
 /// With fewer matches, nothing is sure.
 const OVERLAPPING: f64 = 0.05;
 

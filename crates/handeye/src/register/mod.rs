@@ -12,6 +12,7 @@ pub mod icp;
 pub mod kd_tree;
 pub mod measured_fit;
 mod moments;
+mod outlook;
 mod pair;
 mod patch;
 pub mod rigid_fit;

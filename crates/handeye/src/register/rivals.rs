@@ -77,10 +77,8 @@ fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64, scale:
     let opinion = |k: u32| {
         let own = from.patches[k as usize].as_ref()?;
         let (p, n) = (r * own.mean + t, r * own.normal);
-        let Some(other) = to.find(&p, BESIDE * to.spread).and_then(|k| to.patches[k].as_ref())
-        else {
-            return Some(0.0);
-        };
+        let found = to.find_or_see(&p, BESIDE * to.spread);
+        let Some(other) = found.and_then(|k| to.patches[k].as_ref()) else { return Some(0.0) };
         let (off, cosine) = (other.normal.dot(&(p - other.mean)), n.dot(&other.normal));
         let alike = if from.is_facing && to.is_facing { cosine } else { cosine.abs() };
         let variance = scale * (own.variance + other.variance + LEAST);

@@ -8,7 +8,8 @@
 use nalgebra::{Isometry3, Vector3};
 
 use super::{
-    blocks, creases::Scatter, grid_view::GridView, kd_tree::KdTree, patch::Patch, voxels::Voxels,
+    blocks, creases::Scatter, grid_view::GridView, kd_tree::KdTree, outlook::Outlook, patch::Patch,
+    voxels::Voxels,
 };
 use crate::{Scan, linalg, parallel};
 
@@ -39,6 +40,8 @@ pub struct Surface {
     /// Windows along a row, of an organised scan.
     columns: Option<usize>,
     finder: Finder,
+    /// Of a cloud that was seen from its origin.
+    outlook: Option<Outlook>,
 }
 
 /// How windows near a place are found.
@@ -89,7 +92,7 @@ impl Surface {
         let means: Vec<[f32; 3]> =
             patches.iter().flatten().map(|p| p.mean.map(|x| x as f32).into()).collect();
         let finder = Finder::Nearest(KdTree::new(&means));
-        Some(Self::new(patches, finder, None))
+        Some(Self::new(patches, finder, None).seen_from_its_origin())
     }
 
     fn new(patches: Vec<Option<Patch>>, finder: Finder, columns: Option<usize>) -> Self {
@@ -98,7 +101,20 @@ impl Surface {
         let spread = linalg::median(patches.iter().flatten().map(|p| p.along)).sqrt();
         let middle = sum / count.max(1.0);
         let corners = corners(&patches);
-        Self { patches, middle, spread, corners, is_facing: columns.is_some(), columns, finder }
+        let is_facing = columns.is_some();
+        Self { patches, middle, spread, corners, is_facing, columns, finder, outlook: None }
+    }
+
+    /// Normals to the side of the origin, where all was seen from there.
+    fn seen_from_its_origin(mut self) -> Self {
+        self.outlook = Outlook::of(&self.patches, self.spread);
+        self.is_facing = self.outlook.is_some();
+        if self.is_facing {
+            for patch in self.patches.iter_mut().flatten() {
+                patch.normal *= -patch.normal.dot(&patch.mean).signum();
+            }
+        }
+        self
     }
 
     /// A window near a place, the nearest or that in the same direction.
@@ -111,6 +127,11 @@ impl Surface {
                 Some(found.index as usize)
             }
         }
+    }
+
+    /// A window near a place, or that which would hide it or be hidden by it, where that is known.
+    pub(super) fn find_or_see(&self, p: &Vector3<f64>, within: f64) -> Option<usize> {
+        self.find(p, within).or_else(|| self.outlook.as_ref()?.find(p))
     }
 
     /// Share of its windows, moved by `other_from_self`, that have one of the other's within a distance (m); of
