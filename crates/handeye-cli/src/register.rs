@@ -30,6 +30,8 @@ use crate::{
 
 /// A scan that is wider than this, in its own unit, is taken to be in millimetres.
 const WIDEST_M: f64 = 20.0;
+/// One in so many points, at each end of an axis, may be nowhere near the others.
+const TRIMMED: usize = 10;
 /// Rotations may be off by so much from one of length one.
 const ROUNDED: f64 = 1e-3;
 
@@ -329,9 +331,9 @@ fn width(points: &[[f32; 3]]) -> f64 {
     let count = seen(points).count();
     (0..3).fold(0.0, |widest, axis| {
         let mut values: Vec<f32> = seen(points).map(|p| p[axis]).collect();
-        let high = values.len() - 1 - count / 100;
+        let high = values.len() - 1 - count / TRIMMED;
         let high = *values.select_nth_unstable_by(high, f32::total_cmp).1;
-        let low = *values.select_nth_unstable_by(count / 100, f32::total_cmp).1;
+        let low = *values.select_nth_unstable_by(count / TRIMMED, f32::total_cmp).1;
         f64::max(widest, f64::from(high) - f64::from(low))
     })
 }

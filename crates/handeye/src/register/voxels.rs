@@ -22,7 +22,7 @@ const COUNTED: f64 = 8.0;
 /// Rounds in which their size is found.
 const ROUNDS: usize = 4;
 /// Share of the points beyond each end of an axis that do not count for its length.
-const BEYOND: usize = 500;
+const BEYOND: usize = 20;
 /// Cubes that a thread works on at once.
 const CHUNK: usize = 4096;
 /// Cubes that are no neighbours.
