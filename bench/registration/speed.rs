@@ -59,8 +59,9 @@ pub fn threads(folder: &Path, name: &str) -> Value {
 fn bits(found: &Dense) -> Vec<u64> {
     let covariance = found.covariance.iter().flat_map(|c| c.iter().copied());
     let rest = [found.inlier_fraction, found.agreement, found.rms_m, found.sigma];
+    let size = found.size.map_or([0.0; 2], |size| [size.ratio, size.sigma]);
     let pose = scenes::rows(&found.target_from_source);
-    pose.into_iter().chain(covariance).chain(rest).map(f64::to_bits).collect()
+    pose.into_iter().chain(covariance).chain(rest).chain(size).map(f64::to_bits).collect()
 }
 
 /// A pair of clouds, once: the answer, and the most memory that the process held.

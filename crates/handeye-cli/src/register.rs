@@ -30,8 +30,10 @@ use crate::{
 
 /// A scan that is wider than this, in its own unit, is taken to be in millimetres.
 const WIDEST_M: f64 = 20.0;
-/// One in so many points, at each end of an axis, may be nowhere near the others.
-const TRIMMED: usize = 10;
+/// The inner part of such a scan is wider than this: else a few points lie far from all others.
+const INNER_M: f64 = 4.0;
+/// One in so many points, at each end of an axis, is not asked how wide a scan is, and how wide its inner part is.
+const BEYOND: (usize, usize) = (100, 10);
 /// Rotations may be off by so much from one of length one.
 const ROUNDED: f64 = 1e-3;
 
@@ -280,28 +282,35 @@ pub fn read_triangles(
 ) -> Result<TriangleMesh, Failure> {
     let unit = args.length_unit.map(LengthUnit::from);
     let mesh = read_mesh(path, Some(unit.unwrap_or(LengthUnit::Metre)))?;
-    if unit.is_some() || !is_in_millimetres(mesh.vertices(), path, warnings) {
+    // most vertices may be those of one hole
+    let width = width(mesh.vertices(), usize::MAX);
+    if unit.is_some() || width <= WIDEST_M {
         return Ok(mesh);
     }
+    assume_millimetres(width, path, warnings);
     TriangleMesh::new(from_millimetres(mesh.vertices()), mesh.triangles().to_vec())
         .map_err(|error| Failure::input(path, error.to_string()))
 }
 
 /// Points too far apart for metres are in millimetres, and that is said.
 fn is_in_millimetres(points: &[[f32; 3]], path: &Path, warnings: &mut Vec<Warning>) -> bool {
-    let width = width(points);
-    if width <= WIDEST_M {
+    let width = width(points, BEYOND.0);
+    if width <= WIDEST_M || self::width(points, BEYOND.1) <= INNER_M {
         return false;
     }
+    assume_millimetres(width, path, warnings);
+    true
+}
+
+fn assume_millimetres(width: f64, path: &Path, warnings: &mut Vec<Warning>) {
     warnings.push(Warning::new(
         "unit-assumed",
         format!(
-            "{}: the points are {width:.0} units apart, which is taken for millimetres: say --length-unit \
-             m if they are metres",
+            "{}: it is {width:.0} units wide, which is taken for millimetres: say --length-unit m if they \
+             are metres",
             path.display()
         ),
     ));
-    true
 }
 
 fn from_millimetres(points: &[[f32; 3]]) -> Vec<[f32; 3]> {
@@ -326,14 +335,14 @@ fn seen(points: &[[f32; 3]]) -> impl Iterator<Item = &[f32; 3]> {
     points.iter().filter(|p| p[0].is_finite())
 }
 
-/// The longest side of a box around most points.
-fn width(points: &[[f32; 3]]) -> f64 {
-    let count = seen(points).count();
+/// The longest side of a box without one in so many points beyond each side.
+fn width(points: &[[f32; 3]], one_in: usize) -> f64 {
+    let beyond = seen(points).count() / one_in;
     (0..3).fold(0.0, |widest, axis| {
         let mut values: Vec<f32> = seen(points).map(|p| p[axis]).collect();
-        let high = values.len() - 1 - count / TRIMMED;
-        let high = *values.select_nth_unstable_by(high, f32::total_cmp).1;
-        let low = *values.select_nth_unstable_by(count / TRIMMED, f32::total_cmp).1;
+        let Some(last) = values.len().checked_sub(1 + beyond) else { return widest };
+        let high = *values.select_nth_unstable_by(last, f32::total_cmp).1;
+        let low = *values.select_nth_unstable_by(beyond, f32::total_cmp).1;
         f64::max(widest, f64::from(high) - f64::from(low))
     })
 }
@@ -398,6 +407,12 @@ fn text(a: &Answer) -> String {
         );
     }
     let Some(rms) = a.rms_mm else { return text };
+    if let (Some(ratio), Some(sigma)) = (a.size_ratio, a.size_sigma) {
+        let (percent, sigma) = (100.0 * (ratio - 1.0), 100.0 * sigma);
+        text += &format!(
+            "  size         {percent:+12.3} %  (one sigma {sigma:.3} %) in the target, over the source\n"
+        );
+    }
     text += "\n";
     text + &output::wrapped(
         "",
@@ -414,4 +429,30 @@ fn text(a: &Answer) -> String {
             a.seconds.iterate,
         ),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points on a square of this side, at this height.
+    fn square(count: usize, side: f32, z: f32) -> impl Iterator<Item = [f32; 3]> {
+        let at = move |k: usize| (k as f32 * 0.754_877_7) % 1.0 * side;
+        (0..count).map(move |k| [at(k), at(3 * k), z])
+    }
+
+    fn in_millimetres(points: &[[f32; 3]]) -> bool {
+        is_in_millimetres(points, Path::new("scan.ply"), &mut vec![])
+    }
+
+    #[test]
+    fn the_unit_is_that_of_most_points() {
+        let part: Vec<_> = square(9000, 18.0, 600.0).chain(square(1000, 600.0, 640.0)).collect();
+        assert!(in_millimetres(&part), "a small part on a wide floor");
+        assert!(in_millimetres(&square(9000, 22.0, 300.0).collect::<Vec<_>>()), "a small part");
+        let strays = || square(300, 60.0, 65.535);
+        let scan: Vec<_> = square(9000, 0.8, 0.6).chain(strays()).collect();
+        assert!(!in_millimetres(&scan), "a scan in metres with pixels at the end of their range");
+        assert!(!in_millimetres(&[]), "nothing");
+    }
 }

@@ -23,7 +23,7 @@ pub enum DenseMethod {
     #[default]
     Auto,
     /// Distances between places. Where surfaces are flat this creeps, and holds on to places that are centimetres
-    /// off; what it reaches is then undetermined or rejected, as by any other method.
+    /// off; what it reaches then is usually undetermined or rejected.
     PointToPoint,
     /// Distances along the target's normal.
     PointToPlane,
@@ -254,8 +254,8 @@ fn judge(found: &mut Dense, source: &Surface, rivals: &[Rival]) {
     }
     if let Some(size) = found.size.filter(Size::differs) {
         found.reasons.push(format!(
-            "the target shows things {:.2} % {} than the source (+/- {:.2} %): see to the unit, to the scale of the \
-             depth, and that both show the same thing",
+            "the target shows things {:.2} % {} than the source (+/- {:.2} %): see to the scale of the depth, to the \
+             unit, and that both show the same thing in the same version",
             100.0 * (size.ratio - 1.0).abs(),
             if size.ratio > 1.0 { "larger" } else { "smaller" },
             100.0 * size.sigma

@@ -35,7 +35,7 @@ const TUKEY: f64 = 4.685;
 /// Standard deviations in a median absolute deviation.
 const MAD: f64 = 1.4826;
 /// Residuals that are less, over what their scatter promises, are not of two scans, but of one and its copy.
-const LEAST_SIGMA: f64 = 0.1;
+pub const LEAST_SIGMA: f64 = 0.1;
 /// A round narrows the limit of residuals to this share.
 const NARROWER: f64 = 0.6;
 /// A round that moves by less than this share of the answer's standard deviation is the last.
@@ -189,7 +189,7 @@ impl<'a> Descent<'a> {
         self.descend(reached, SETTLED)
     }
 
-    /// Matches among about so many windows, at a place that is nearly right.
+    /// Matches among about so many windows, at a place that is nearly right; they are matched anew.
     pub fn each_nearby(&mut self, at: &Isometry3<f64>, count: f64, with: impl FnMut(Match)) {
         self.gate = NEARBY * self.source.spread;
         self.look_at(self.source.stride(count));

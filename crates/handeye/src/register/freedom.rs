@@ -30,9 +30,9 @@ use crate::{
 };
 
 /// Directions with less than so many times the information of noise alone are not determined.
-const DETERMINED: f64 = 1.9;
+pub const DETERMINED: f64 = 1.9;
 /// Planes and creases feign so many times the information that planes alone would.
-const FEIGNED: f64 = 1.2;
+pub const FEIGNED: f64 = 1.2;
 /// Of a motion that is a shift, the turn moves the rim by less than this share, squared.
 const TURNS: f64 = 0.05;
 /// The narrowest tiles are so many times as wide as the spread of a window.
@@ -158,15 +158,21 @@ impl Feigned {
 
 /// Variance of a window's normal, in each direction across it.
 #[inline(always)]
-fn of_normal(patch: &Patch) -> f64 {
+pub fn of_normal(patch: &Patch) -> f64 {
     patch.across / (patch.count * patch.along)
 }
 
 /// Squared difference of two normals, over what their scatter promises of it.
 #[inline(always)]
-fn leaning(found: &Match) -> f32 {
+pub fn leaning(found: &Match) -> f32 {
     let promised = 2.0 * (of_normal(found.own) + of_normal(found.other)) + LEAST_LEANING;
     ((found.turned - found.other.normal).norm_squared() / promised) as f32
+}
+
+/// Of what scatter promises, the multiple that is usual, and at least all.
+pub fn usual(leanings: Vec<f64>) -> f64 {
+    // of noise alone they are distributed exponentially; creases are few
+    (linalg::median(leanings) / std::f64::consts::LN_2).max(1.0)
 }
 
 impl Freedom {
@@ -208,9 +214,8 @@ impl Freedom {
         tiles.iter().for_each(|tile| all.add(tile));
         let (information, pulls) = (all.slopes.whole(), all.squares.whole());
         let pulled = pulled(&tiles, &information, &pulls);
-        // of noise alone they are distributed exponentially; creases are few
-        let leaning = linalg::median(leanings) / std::f64::consts::LN_2;
-        Self { information, pulls, noise: feigned.whole() * leaning.max(1.0), pulled, middle }
+        let noise = feigned.whole() * usual(leanings);
+        Self { information, pulls, noise, pulled, middle }
     }
 
     /// Directions, of which the first ones are not determined; and how many those are.

@@ -1,14 +1,15 @@
 //! What a cloud shows in which direction from its origin.
 //!
 //! A cloud that a camera saw, as it saw it, shows one thing in each direction: what is behind was hidden, and where
-//! something else would be in front, it would have been seen. Clouds of several scans, moved clouds and drawings
-//! have things behind others, or to all sides.
+//! something else would be in front, it would have been seen. Most clouds of several scans, moved clouds and drawings
+//! have things behind others, or to all sides. Not all: a sheet looks alike from above and from below, so that the
+//! side from which it was seen is believed only where another scan shows the same.
 
 use nalgebra::{Vector2, Vector3};
 
 use super::patch::Patch;
 
-/// Directions are farther than this from the middle one, in multiples of the distance, in no camera's scan.
+/// No camera's directions are farther from the z axis than this, in multiples of the depth.
 const WIDEST: f64 = 3.0;
 /// Share of the windows that may be to other sides.
 const STRAY: f64 = 0.005;
@@ -18,7 +19,7 @@ const BEHIND: f64 = 0.015;
 const BELOW: f64 = 4.0;
 /// Share of the windows that may be seen edge on.
 const EDGE_ON: f64 = 0.1;
-/// The square of the cosine that is less of a window seen edge on.
+/// Below this square of the cosine a window is seen edge on.
 const EDGE: f64 = 0.005;
 /// No window.
 const NOWHERE: u32 = u32::MAX;
@@ -33,7 +34,7 @@ pub struct Outlook {
 }
 
 impl Outlook {
-    /// `None` of a cloud that no camera at the origin can have seen.
+    /// `None` of a cloud of which a camera at the origin would have seen less, or from other sides.
     pub fn of(patches: &[Option<Patch>], spread: f64) -> Option<Self> {
         let all = || patches.iter().flatten();
         let count = all().count() as f64;
@@ -43,12 +44,17 @@ impl Outlook {
         if edge_on > EDGE_ON * count || (in_view().count() as f64) < (1.0 - STRAY) * count {
             return None;
         }
-        let directions = || in_view().map(|p| direction(&p.mean));
-        let low = directions().reduce(|a, b| a.inf(&b))?;
-        let size = directions().reduce(|a, b| a.sup(&b))? - low;
-        let per_unit = (count / (size.x * size.y)).sqrt();
-        let [columns, rows] = [size.x, size.y].map(|s| (s * per_unit) as usize + 1);
-        if !per_unit.is_finite() || columns * rows > 4 * patches.len() + 4 {
+        let [(left, width), (top, height)] = [0, 1].map(|axis| {
+            let along = in_view().map(|p| direction(&p.mean)[axis]).collect();
+            inner(along)
+        });
+        let low = Vector2::new(left, top);
+        let per_unit = (count / (width * height)).sqrt();
+        if !per_unit.is_finite() || count < 1.0 {
+            return None;
+        }
+        let [columns, rows] = [width, height].map(|s| (s * per_unit) as usize + 1);
+        if columns.checked_mul(rows).is_none_or(|cells| cells > 4 * patches.len() + 4) {
             return None;
         }
         let mut outlook = Self { cells: vec![NOWHERE; columns * rows], low, per_unit, columns };
@@ -87,6 +93,18 @@ impl Outlook {
     }
 }
 
+/// Where almost all of some numbers begin, and how far they reach.
+fn inner(mut all: Vec<f64>) -> (f64, f64) {
+    if all.is_empty() {
+        return (0.0, 0.0);
+    }
+    let beyond = (all.len() as f64 * STRAY) as usize;
+    let last = all.len() - 1 - beyond;
+    let low = *all.select_nth_unstable_by(beyond, f64::total_cmp).1;
+    let high = *all.select_nth_unstable_by(last, f64::total_cmp).1;
+    (low, high - low)
+}
+
 fn direction(p: &Vector3<f64>) -> Vector2<f64> {
     p.xy() / p.z
 }
@@ -116,15 +134,14 @@ mod tests {
         let seen: Vec<[f32; 3]> =
             scan.points().iter().filter(|p| p[2].is_finite()).copied().collect();
         let surface = cloud(seen.iter().copied());
-        assert!(surface.is_facing);
-        assert!(surface.patches.iter().flatten().all(|p| p.normal.dot(&p.mean) < 0.0));
+        assert!(surface.has_a_front());
         let beside = |p: &[f32; 3]| [p[0] + 1.0, p[1], p[2]];
-        assert!(!cloud(seen.iter().map(beside)).is_facing);
+        assert!(!cloud(seen.iter().map(beside)).has_a_front());
         let ball = |k: i32| {
             let (z, turn) = (f64::from(k) / 10_000.0 - 1.0, 2.4 * f64::from(k));
             let r = (1.0 - z * z).sqrt();
             [r * turn.cos(), r * turn.sin(), z + 8.0].map(|x| (0.1 * x) as f32)
         };
-        assert!(!cloud((0..20_000).map(ball)).is_facing);
+        assert!(!cloud((0..20_000).map(ball)).has_a_front());
     }
 }

@@ -6,12 +6,13 @@
 //! scans say: a window that lies on the other surface speaks for it, one that would have hidden what the
 //! other camera saw, or lies close beside a surface but not on it, against.
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
     dense::DenseConfig,
     descent::{Descent, FEWEST, Reached},
     pair::LEAST,
+    patch::Patch,
     surface::Surface,
 };
 use crate::{Error, parallel};
@@ -31,6 +32,8 @@ const NEARBY: f64 = 3.0;
 const DOUBTED: f64 = 2.0;
 /// Beside a cloud's surface is within so many times the spread of a window.
 const BESIDE: f64 = 1.0;
+/// Fronts are the same where at least this share of the windows says so.
+const ALIKE: f64 = 0.9;
 /// Normals on a surface agree within 30 degrees.
 const COSINE: f64 = 0.866;
 
@@ -43,9 +46,13 @@ impl Opinions {
     pub fn of(descent: &Descent, at: &Isometry3<f64>, count: f64, sigma: f64) -> Self {
         let (source, target) = (descent.source, descent.target);
         let scale = sigma.max(1.0).powi(2);
-        let mut all = one_way(source, target, at, count, scale);
-        all.extend(one_way(target, source, &at.inverse(), count, scale));
-        Self(all)
+        let fronts = Fronts::of(source, target, at, scale);
+        let there = Sight::new(source, target, at, fronts);
+        let back = Sight::new(target, source, &at.inverse(), fronts);
+        let opinions = |sight: &Sight| -> Vec<f64> {
+            sight.windows(count).map(|own| sight.opinion(own, scale)).collect()
+        };
+        Self([opinions(&there), opinions(&back)].concat())
     }
 
     pub fn sum(&self) -> f64 {
@@ -72,23 +79,116 @@ fn deviations(differences: impl Iterator<Item = f64>) -> f64 {
     if squares > 0.0 { sum / squares.sqrt() } else { 0.0 }
 }
 
-fn one_way(from: &Surface, to: &Surface, at: &Isometry3<f64>, count: f64, scale: f64) -> Vec<f64> {
-    let (r, t) = (at.rotation.to_rotation_matrix().into_inner(), at.translation.vector);
-    let opinion = |k: u32| {
-        let own = from.patches[k as usize].as_ref()?;
-        let (p, n) = (r * own.mean + t, r * own.normal);
-        let found = to.find_or_see(&p, BESIDE * to.spread);
-        let Some(other) = found.and_then(|k| to.patches[k].as_ref()) else { return Some(0.0) };
-        let (off, cosine) = (other.normal.dot(&(p - other.mean)), n.dot(&other.normal));
-        let alike = if from.is_facing && to.is_facing { cosine } else { cosine.abs() };
-        let variance = scale * (own.variance + other.variance + LEAST);
-        let opinion = 1.0 - ((off * off / variance).sqrt() - DOUBTED).clamp(0.0, 2.0);
+/// What is known of the sides from which both surfaces were seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Fronts {
+    /// Nothing.
+    Unknown,
+    /// Both grids have a camera.
+    OfCameras,
+    /// A cloud may have been seen from its origin, and where both lie on each other their fronts are the same.
+    Alike,
+}
+
+impl Fronts {
+    fn of(source: &Surface, target: &Surface, at: &Isometry3<f64>, scale: f64) -> Self {
+        if source.is_facing && target.is_facing {
+            return Fronts::OfCameras;
+        }
+        if !source.has_a_front() || !target.has_a_front() {
+            return Fronts::Unknown;
+        }
+        let sight = Sight::new(source, target, at, Fronts::Unknown);
+        let (mut alike, mut all) = (0.0, 0.0);
+        for found in sight.windows(TRIED).filter_map(|own| sight.beside(own)) {
+            if found.deviations(scale) < DOUBTED {
+                all += 1.0;
+                alike += f64::from(u8::from(found.cosine(Fronts::Alike) > 0.0));
+            }
+        }
+        if all >= FEWEST && alike >= ALIKE * all { Fronts::Alike } else { Fronts::Unknown }
+    }
+}
+
+/// A window, moved, and that of the other surface which is there.
+struct Beside<'a> {
+    own: &'a Patch,
+    other: &'a Patch,
+    /// From the other's mean to the moved one.
+    apart: Vector3<f64>,
+    /// The own normal, moved.
+    n: Vector3<f64>,
+}
+
+impl Beside<'_> {
+    /// Distance across the other, over the deviation of both.
+    fn deviations(&self, scale: f64) -> f64 {
+        let variance = scale * (self.own.variance + self.other.variance + LEAST);
+        self.other.normal.dot(&self.apart).abs() / variance.sqrt()
+    }
+
+    /// Between both normals, each to its front.
+    fn cosine(&self, fronts: Fronts) -> f64 {
+        let cosine = self.n.dot(&self.other.normal);
+        match fronts {
+            Fronts::Unknown => cosine.abs(),
+            Fronts::OfCameras => cosine,
+            Fronts::Alike => cosine * front(self.own) * front(self.other),
+        }
+    }
+}
+
+/// 1 where a normal points towards the origin, -1 where it points away.
+fn front(patch: &Patch) -> f64 {
+    -patch.normal.dot(&patch.mean).signum()
+}
+
+/// The windows of a surface, moved, and those of the other that are beside them, or in front or behind.
+struct Sight<'a> {
+    from: &'a Surface,
+    to: &'a Surface,
+    r: Matrix3<f64>,
+    t: Vector3<f64>,
+    fronts: Fronts,
+}
+
+impl<'a> Sight<'a> {
+    fn new(from: &'a Surface, to: &'a Surface, at: &Isometry3<f64>, fronts: Fronts) -> Self {
+        let r = at.rotation.to_rotation_matrix().into_inner();
+        Self { from, to, r, t: at.translation.vector, fronts }
+    }
+
+    fn beside(&self, own: &'a Patch) -> Option<Beside<'a>> {
+        let (p, n) = (self.r * own.mean + self.t, self.r * own.normal);
+        let mut found = self.to.find(&p, BESIDE * self.to.spread);
+        if self.fronts == Fronts::Alike {
+            found = found.or_else(|| self.to.see(&p));
+        }
+        let other = self.to.patches[found?].as_ref()?;
+        Some(Beside { own, other, apart: p - other.mean, n })
+    }
+
+    /// About so many windows.
+    fn windows(&self, count: f64) -> impl Iterator<Item = &'a Patch> {
+        let from = self.from;
+        let chosen = from.every(from.stride(count)).into_iter();
+        chosen.filter_map(|k| from.patches[k as usize].as_ref())
+    }
+
+    fn opinion(&self, own: &'a Patch, scale: f64) -> f64 {
+        let Some(found) = self.beside(own) else { return 0.0 };
+        let opinion = 1.0 - (found.deviations(scale) - DOUBTED).clamp(0.0, 2.0);
         // a camera sees nothing through what is in front
-        let hidden = to.is_facing && off < 0.0;
-        let says_something = if opinion > 0.0 { alike >= COSINE } else { !hidden };
-        Some(if says_something { opinion } else { 0.0 })
-    };
-    from.every(from.stride(count)).into_iter().filter_map(opinion).collect()
+        let off = found.other.normal.dot(&found.apart);
+        let hidden = match self.fronts {
+            Fronts::Unknown => self.to.is_facing && off < 0.0,
+            Fronts::OfCameras => off < 0.0,
+            Fronts::Alike => off * front(found.other) < 0.0,
+        };
+        let says_something =
+            if opinion > 0.0 { found.cosine(self.fronts) >= COSINE } else { !hidden };
+        if says_something { opinion } else { 0.0 }
+    }
 }
 
 /// Around a start: turned and shifted in twelve directions, about the middle of the source.

@@ -22,6 +22,8 @@ const HELD: f64 = 5.0;
 const FEWEST_PIECES: usize = 20;
 /// Points in a cube of the smallest clouds.
 const FEWEST: f64 = 2.0;
+/// A window covers directions that pass its mean within so many times its spread.
+const BESIDE: f64 = 2.5;
 /// A window must have this share of the points of nine blocks.
 const FILLED: f64 = 0.6;
 
@@ -40,7 +42,7 @@ pub struct Surface {
     /// Windows along a row, of an organised scan.
     columns: Option<usize>,
     finder: Finder,
-    /// Of a cloud that was seen from its origin.
+    /// Of a cloud that may have been seen from its origin.
     outlook: Option<Outlook>,
 }
 
@@ -92,7 +94,8 @@ impl Surface {
         let means: Vec<[f32; 3]> =
             patches.iter().flatten().map(|p| p.mean.map(|x| x as f32).into()).collect();
         let finder = Finder::Nearest(KdTree::new(&means));
-        Some(Self::new(patches, finder, None).seen_from_its_origin())
+        let surface = Self::new(patches, finder, None);
+        Some(Self { outlook: Outlook::of(&surface.patches, surface.spread), ..surface })
     }
 
     fn new(patches: Vec<Option<Patch>>, finder: Finder, columns: Option<usize>) -> Self {
@@ -103,18 +106,6 @@ impl Surface {
         let corners = corners(&patches);
         let is_facing = columns.is_some();
         Self { patches, middle, spread, corners, is_facing, columns, finder, outlook: None }
-    }
-
-    /// Normals to the side of the origin, where all was seen from there.
-    fn seen_from_its_origin(mut self) -> Self {
-        self.outlook = Outlook::of(&self.patches, self.spread);
-        self.is_facing = self.outlook.is_some();
-        if self.is_facing {
-            for patch in self.patches.iter_mut().flatten() {
-                patch.normal *= -patch.normal.dot(&patch.mean).signum();
-            }
-        }
-        self
     }
 
     /// A window near a place, the nearest or that in the same direction.
@@ -129,9 +120,18 @@ impl Surface {
         }
     }
 
-    /// A window near a place, or that which would hide it or be hidden by it, where that is known.
-    pub(super) fn find_or_see(&self, p: &Vector3<f64>, within: f64) -> Option<usize> {
-        self.find(p, within).or_else(|| self.outlook.as_ref()?.find(p))
+    /// Whether there is a side from which all of it was seen, or may have been.
+    pub(super) fn has_a_front(&self) -> bool {
+        self.is_facing || self.outlook.is_some()
+    }
+
+    /// The window that would hide what is at a place, or be hidden by it.
+    pub(super) fn see(&self, p: &Vector3<f64>) -> Option<usize> {
+        let found = self.outlook.as_ref()?.find(p)?;
+        let mean = self.patches[found].as_ref()?.mean;
+        // a window tells nothing of directions beside it
+        let beside = (p * (mean.z / p.z) - mean).norm();
+        (beside <= BESIDE * self.spread).then_some(found)
     }
 
     /// Share of its windows, moved by `other_from_self`, that have one of the other's within a distance (m); of

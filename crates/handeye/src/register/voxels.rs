@@ -21,8 +21,9 @@ const SAMPLE: usize = 1 << 14;
 const COUNTED: f64 = 8.0;
 /// Rounds in which their size is found.
 const ROUNDS: usize = 4;
-/// Share of the points beyond each end of an axis that do not count for its length.
-const BEYOND: usize = 20;
+/// One in so many points, beyond each end of an axis, does not count for its length; fewer, and none, where the others
+/// lie at one place.
+const BEYOND: [usize; 3] = [20, 500, usize::MAX];
 /// Cubes that a thread works on at once.
 const CHUNK: usize = 4096;
 /// Cubes that are no neighbours.
@@ -341,11 +342,9 @@ fn lattice(points: &[[f32; 3]], held: f64) -> Option<Lattice> {
     if sample.len() < 3 {
         return None;
     }
-    let (origin, longest) = extent(&sample);
+    let extents = BEYOND.map(|beyond| extent(&sample, beyond));
+    let (origin, longest) = extents.into_iter().find(|(_, longest)| *longest > 0.0)?;
     let mut edge = longest / 64.0;
-    if !(edge > 0.0) {
-        return None;
-    }
     for _ in 0..ROUNDS {
         let cubes = occupied(&sample, &Lattice { origin, per_m: STEPS as f64 / edge });
         edge *= (COUNTED * cubes / sample.len() as f64).sqrt();
@@ -354,9 +353,9 @@ fn lattice(points: &[[f32; 3]], held: f64) -> Option<Lattice> {
     Some(Lattice { origin, per_m: STEPS as f64 / edge })
 }
 
-/// Middle and longest side of a box that holds almost all points.
-fn extent(points: &[[f32; 3]]) -> ([f64; 3], f64) {
-    let beyond = points.len() / BEYOND;
+/// Middle and longest side of a box without one in so many points beyond each side.
+fn extent(points: &[[f32; 3]], one_in: usize) -> ([f64; 3], f64) {
+    let beyond = points.len() / one_in;
     let sides: [(f64, f64); 3] = std::array::from_fn(|axis| {
         let mut values: Vec<f32> = points.iter().map(|p| p[axis]).collect();
         let high = values.len() - 1 - beyond;
@@ -372,4 +371,17 @@ fn occupied(points: &[[f32; 3]], lattice: &Lattice) -> f64 {
     keys.sort_unstable();
     // what is alone is no surface
     keys.chunk_by(|a, b| a == b).filter(|cube| cube.len() > 1).count().max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_written_as_zeros_do_not_hide_the_others() {
+        let at = |k: usize| [(k % 100) as f32 * 1e-3, (k / 100) as f32 * 1e-3, 0.5];
+        let points: Vec<[f32; 3]> = (0..10_000).map(at).chain(vec![[0.0; 3]; 300_000]).collect();
+        let voxels = Voxels::of(&points, 5.0, 1).unwrap();
+        assert!(voxels.cubes.len() > 500, "{}", voxels.cubes.len());
+    }
 }

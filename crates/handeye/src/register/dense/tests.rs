@@ -370,3 +370,80 @@ fn scans_of_another_size_are_refused() {
         assert!(other.reasons.iter().any(|r| r.contains("% smaller")), "{:?}", other.reasons);
     }
 }
+
+/// Uneven ground of 0.6 m, as seen from above, 1 m below the camera or wherever it is shifted.
+fn ground(seed: u64, up: f64) -> Scan {
+    let mut random = Random::new(seed);
+    let height = |x: f64, y: f64| {
+        0.03 * (9.0 * x + 1.0).sin() * (7.0 * y).cos() + 0.02 * (17.0 * y + 5.0 * x * x).sin()
+    };
+    let points: Vec<[f32; 3]> = (0..40_000)
+        .map(|_| {
+            let (x, y) = (random.between(-0.3, 0.3), random.between(-0.3, 0.3));
+            [x, y, up + height(x, y) + 3e-4 * random.normal()].map(|v| v as f32)
+        })
+        .collect();
+    Scan::new(points.len(), 1, points).unwrap()
+}
+
+/// From below it would look alike: the side on which it is seen must not be guessed.
+#[test]
+fn ground_over_the_origin_is_found_like_ground_below_it() {
+    let down = Isometry3::new([0.0, 0.0, 1.0].into(), [PI, 0.0, 0.0].into());
+    let seen: Vec<[f32; 3]> = ground(1, 0.0)
+        .points()
+        .iter()
+        .map(|p| (down * nalgebra::Point3::from(p.map(f64::from))).coords.map(|x| x as f32).into())
+        .collect();
+    let source = Scan::new(seen.len(), 1, seen).unwrap();
+    for up in [-1.0, 0.0, 0.8, 1.5] {
+        let truth = Isometry3::translation(0.0, 0.0, up) * down.inverse();
+        let start = off(&truth, &mut Random::new(3));
+        let found = register(&source, &ground(2, up), &start, &DenseConfig::default()).unwrap();
+        let (turn, shift) = errors(&truth, &found.target_from_source);
+        assert_eq!(found.verdict, Verdict::Accepted, "{up}: {:?}", found.reasons);
+        assert!(turn < 0.02 && shift < 0.1, "{up}: {turn} deg, {shift} mm");
+    }
+}
+
+/// Part of what both see was moved between the scans.
+#[test]
+fn scans_that_differ_at_many_places_are_refused() {
+    let (source, target, truth) = scans(2, |k| k);
+    let start = off(&truth, &mut Random::new(4));
+    let by = |share: f32| {
+        let (width, height) = (target.width(), target.height());
+        let last = width - (share * width as f32) as usize;
+        let nearer = |(k, p): (usize, &[f32; 3])| {
+            if k % width >= last { p.map(|x| 0.97 * x) } else { *p }
+        };
+        let points = target.points().iter().enumerate().map(nearer).collect();
+        let changed = Scan::new(width, height, points).unwrap();
+        register(&source, &changed, &start, &DenseConfig::default()).unwrap()
+    };
+    let (few, many) = (by(0.05), by(0.3));
+    assert_eq!(few.verdict, Verdict::Accepted, "{:?}", few.reasons);
+    assert!(few.agreement < 0.995, "{}", few.agreement);
+    assert_eq!(many.verdict, Verdict::Rejected);
+    assert!(many.reasons[0].contains("it differs at"), "{:?}", many.reasons);
+}
+
+/// Three planes are the same in every size, and noise of their normals tells nothing.
+#[test]
+fn the_size_of_a_corner_is_not_told() {
+    let mut random = Random::new(6);
+    let mut corner = || {
+        let points: Vec<[f32; 3]> = (0..30_000)
+            .map(|k| {
+                let mut p = [0.0, random.between(0.0, 0.3), random.between(0.0, 0.3)];
+                p.rotate_right(k % 3);
+                p.map(|x| (x + 1e-3 * random.normal()) as f32)
+            })
+            .collect();
+        Scan::new(points.len(), 1, points).unwrap()
+    };
+    let (source, target) = (corner(), corner());
+    let start = Isometry3::new([0.003, -0.002, 0.001].into(), [0.005, 0.004, -0.006].into());
+    let found = register(&source, &target, &start, &DenseConfig::default()).unwrap();
+    assert_eq!((found.verdict, found.size), (Verdict::Accepted, None), "{:?}", found.reasons);
+}
