@@ -111,7 +111,6 @@ fn direction(p: &Vector3<f64>) -> Vector2<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::{
         Intrinsics, Scan,
         register::Surface,

@@ -21,9 +21,9 @@ const SAMPLE: usize = 1 << 14;
 const COUNTED: f64 = 8.0;
 /// Rounds in which their size is found.
 const ROUNDS: usize = 4;
-/// One in so many points, beyond each end of an axis, does not count for its length; fewer, and none, where the others
-/// lie at one place.
-const BEYOND: [usize; 3] = [20, 500, usize::MAX];
+/// One in so many points, beyond each end of an axis, does not count for its length; none where the others lie at one
+/// place.
+const BEYOND: [usize; 2] = [20, usize::MAX];
 /// Cubes that a thread works on at once.
 const CHUNK: usize = 4096;
 /// Cubes that are no neighbours.
@@ -333,9 +333,11 @@ fn lattice(points: &[[f32; 3]], held: f64) -> Option<Lattice> {
         let [x, y, z] = point.map(f32::to_bits);
         // not finite either where one of the three is not
         let is_finite = (point[0] + point[1] + point[2]).is_finite();
-        finite += f64::from(u8::from(is_finite));
+        // nor is a pixel without depth, which some write as zeros
+        let is_point = is_finite && *point != [0.0; 3];
+        finite += f64::from(u8::from(is_point));
         let mixed = (x ^ y.rotate_left(11) ^ z.rotate_left(21)).wrapping_mul(0x9e37_79b9);
-        if is_finite && mixed.unbounded_shr(32 - bits) == 0 {
+        if is_point && mixed.unbounded_shr(32 - bits) == 0 {
             sample.push(*point);
         }
     }
