@@ -410,7 +410,7 @@ fn text(a: &Answer) -> String {
     if let (Some(ratio), Some(sigma)) = (a.size_ratio, a.size_sigma) {
         let (percent, sigma) = (100.0 * (ratio - 1.0), 100.0 * sigma);
         text += &format!(
-            "  size         {percent:+12.3} %  (one sigma {sigma:.3} %) in the target, over the source\n"
+            "  size         {percent:+12.3} %, one sigma {sigma:.3} %; target over source\n"
         );
     }
     text += "\n";
