@@ -68,7 +68,7 @@ pub fn run(args: &DemoArgs, manners: &Manners) -> Result<u8, Failure> {
     let folder = out.join("dataset");
     unpack(&folder)?;
     let dataset = Dataset::open(&folder)?;
-    let (calibration, session) = calibrate::run_on(&dataset, Config::default(), manners)?;
+    let (calibration, session) = calibrate::run_on(&dataset, &Config::default(), manners)?;
     let still = Manners { quiet: true, ..manners.clone() };
     let report = calibrate::write(&out, &dataset, &calibration, &session, &still)?;
     tell(

@@ -96,22 +96,6 @@ impl Failure {
         self
     }
 
-    /// The same, in this capture.
-    pub fn with_capture(mut self, id: &str) -> Self {
-        if let Failure::Input(problem) = &mut self {
-            problem.capture = Some(id.into());
-        }
-        self
-    }
-
-    /// The same, with what to do about it.
-    pub fn advised(mut self, advice: &str) -> Self {
-        if let Failure::Input(problem) = &mut self {
-            problem.message += &format!(": {advice}");
-        }
-        self
-    }
-
     /// For programs: `{"code": ..., "message": ...}` with the place.
     pub fn json(&self) -> serde_json::Value {
         match self {

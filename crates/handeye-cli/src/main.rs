@@ -12,7 +12,6 @@ mod output;
 mod progress;
 mod register;
 mod repeat;
-mod report;
 mod simulate;
 mod solve;
 mod target;

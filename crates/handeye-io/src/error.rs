@@ -74,6 +74,22 @@ pub enum Error {
         /// What to do.
         advice: String,
     },
+    /// JSON that is not what it should be.
+    #[error("{place}: {what}")]
+    Json {
+        /// The file and line.
+        place: Place,
+        /// What was wrong, in which part, and what to do.
+        what: String,
+    },
+    /// The content is understood, and of no use.
+    #[error("{place}: {what}")]
+    Unusable {
+        /// Where.
+        place: Place,
+        /// Why, and what to do.
+        what: String,
+    },
     /// Something that decides the numbers was not declared and cannot be proven.
     #[error("{place}: {key} is missing; {question}")]
     Undeclared {
@@ -154,12 +170,12 @@ impl Error {
         match self {
             Error::Read { .. } => "cannot-read",
             Error::Write { .. } => "cannot-write",
-            Error::Malformed { .. } => "malformed",
+            Error::Malformed { .. } | Error::Json { .. } => "malformed",
             Error::Undeclared { .. } => "undeclared",
             Error::TooLarge { .. } => "too-large",
             Error::CountMismatch { .. } => "count-mismatch",
             Error::NoFiles { .. } => "no-files",
-            Error::Values { .. } => "unusable",
+            Error::Values { .. } | Error::Unusable { .. } => "unusable",
             Error::NothingFound { .. } => "nothing-found",
             Error::Capture { source, .. } => source.code(),
         }
@@ -170,6 +186,8 @@ impl Error {
         match self {
             Error::Read { path, .. } | Error::Write { path, .. } => Place::file(path),
             Error::Malformed { place, .. }
+            | Error::Json { place, .. }
+            | Error::Unusable { place, .. }
             | Error::Undeclared { place, .. }
             | Error::TooLarge { place, .. }
             | Error::CountMismatch { place, .. }
@@ -178,6 +196,11 @@ impl Error {
             Error::NothingFound { folder } => Place::file(folder),
             Error::Capture { source, .. } => source.place(),
         }
+    }
+
+    /// The same, in this capture.
+    pub(crate) fn in_capture(self, id: &str) -> Self {
+        Error::Capture { id: id.into(), source: Box::new(self) }
     }
 
     /// The capture it belongs to, where it belongs to one.
@@ -200,6 +223,19 @@ fn reading(source: &io::Error) -> String {
 /// Shorthand for [`Error::Malformed`].
 pub(crate) fn malformed(place: Place, what: impl Into<String>, advice: impl Into<String>) -> Error {
     Error::Malformed { place, what: what.into(), advice: advice.into() }
+}
+
+/// Shorthand for [`Error::Json`]; `named` says what the part is called.
+pub(crate) fn in_json(path: &Path, error: &serde_json::Error, named: &str) -> Error {
+    let what = error.to_string();
+    let what = what.split(" at line ").next().unwrap_or(&what);
+    let what = format!("{named}{what} (column {})", error.column());
+    Error::Json { place: Place::line(path, error.line()), what }
+}
+
+/// Shorthand for [`Error::Unusable`].
+pub(crate) fn unusable(path: &Path, what: impl Into<String>) -> Error {
+    Error::Unusable { place: Place::file(path), what: what.into() }
 }
 
 /// Shorthand for [`Error::Undeclared`] of a file.

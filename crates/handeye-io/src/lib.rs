@@ -5,6 +5,7 @@
 
 #![allow(clippy::result_large_err, reason = "an error ends the reading: its size costs nothing")]
 
+pub mod calibrate;
 mod camera;
 pub mod checkup;
 mod dataset;
@@ -17,6 +18,7 @@ mod init;
 pub mod measure;
 mod mesh;
 mod npy;
+mod pairs_file;
 pub mod parallel;
 mod pixel_origin;
 mod ply;
@@ -43,6 +45,7 @@ pub use files::write_atomically;
 pub use image::{image_size, read_image};
 pub use init::{FirstManifest, Question, first_manifest};
 pub use mesh::{is_mesh, points_on, read_mesh};
+pub use pairs_file::{MeasuredPoses, PosesFile, poses_from_json, read_poses};
 pub use scan::{ScanOptions, read_scan, scan_size, scan_unit};
 pub use target_file::{NamedTarget, Targets, read_target, read_targets, target_toml};
 pub use touch_file::{TouchedPoint, read_touched_points};

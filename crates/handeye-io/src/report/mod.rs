@@ -8,6 +8,7 @@ mod arm;
 mod base64;
 mod cell;
 mod colours;
+mod dataset;
 mod map;
 mod picture;
 mod plot;
@@ -24,6 +25,7 @@ use handeye::{
     calibration::{Candidate, CaptureResult},
 };
 
+pub use dataset::{calibration_html, dataset_html};
 pub use picture::{MarkedCorner, Picture};
 pub use registration::{NamedCloud, Registration, registration_html};
 pub use shown::{Shown, Thing, ThingCount, shown_html};

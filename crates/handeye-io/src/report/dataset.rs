@@ -1,34 +1,48 @@
-//! Gathers what the report shows.
+//! Gathers what the report of a dataset shows.
 
 use handeye::{
     Calibration, Observation, Session,
     calibrate::{natural, relabelling},
     calibration::CaptureResult,
 };
-use handeye_io::{
+
+use super::{MarkedCorner, Picture, Report, html};
+use crate::{
     CaptureSource, Dataset,
     export::{self, CameraPose, Format},
-    report::{MarkedCorner, Picture, Report, html},
 };
 
 /// Most pictures in a report; of more captures, those left out come first, then the others evenly.
 const MOST_PICTURES: usize = 36;
 
-/// The whole page.
-pub fn page(dataset: &Dataset, calibration: &Calibration, session: &Session) -> String {
+/// The whole page of a calibrated dataset.
+pub fn dataset_html(dataset: &Dataset, calibration: &Calibration, session: &Session) -> String {
     html(&Report {
         title: title(dataset),
         calibration,
         target: session.target.as_ref(),
         camera: session.camera.as_ref(),
         touched: session.touches.iter().map(|t| t.in_base).collect(),
-        notations: notations(dataset, calibration),
+        notations: notations(dataset.notation.as_deref(), calibration),
         pictures: pictures(dataset, calibration, session),
     })
 }
 
+/// The page of a result without its dataset: no pictures, no touched places.
+pub fn calibration_html(title: &str, calibration: &Calibration) -> String {
+    html(&Report {
+        title: title.into(),
+        calibration,
+        target: None,
+        camera: None,
+        touched: vec![],
+        notations: notations(None, calibration),
+        pictures: vec![],
+    })
+}
+
 /// The transform in the dataset's own notation and in those most programs read.
-fn notations(dataset: &Dataset, calibration: &Calibration) -> Vec<(String, String)> {
+fn notations(own: Option<&str>, calibration: &Calibration) -> Vec<(String, String)> {
     let Some(pose) = &calibration.hand_eye.mount_from_camera else { return vec![] };
     let camera = CameraPose {
         name: &calibration.name,
@@ -37,7 +51,7 @@ fn notations(dataset: &Dataset, calibration: &Calibration) -> Vec<(String, Strin
         child: "camera",
         setup: calibration.setup,
     };
-    let own = dataset.notation.as_deref().filter(|n| !["joints", "matrix4x4"].contains(n));
+    let own = own.filter(|n| !["joints", "matrix4x4"].contains(n));
     let mut names: Vec<&str> = own.into_iter().chain(["quaternion-xyzw", "urdf"]).collect();
     names.dedup();
     names

@@ -1,24 +1,22 @@
 //! `handeye solve`: poses in, answer out.
 
-mod input;
-
 use std::collections::BTreeMap;
 
 use handeye::{
     Calibration, Config, Method, Warning, calibrate_sequence, calibrate_streams,
     calibrate_unscaled, certify::certify_result,
 };
+use handeye_io::{MeasuredPoses, PosesFile, read_poses};
 
 use crate::{
     args::{Manners, SolveArgs},
     failure::Failure,
     output,
 };
-use input::{Input, Measured};
 
 pub fn run(args: &SolveArgs, manners: &Manners) -> Result<u8, Failure> {
     let method = args.method.as_deref().map(method).transpose()?;
-    let input = input::read(&args.pairs)?;
+    let input = read_poses(&args.pairs)?;
     let config = Config { method, known: input.noise, ..Config::default() };
     let mut calibration = solved(&input, &config)?;
     if args.certify {
@@ -41,11 +39,13 @@ fn certify(calibration: &mut Calibration) {
     calibration.warnings.push(Warning::new("not-certified", message));
 }
 
-fn solved(input: &Input, config: &Config) -> Result<Calibration, Failure> {
+fn solved(input: &PosesFile, config: &Config) -> Result<Calibration, Failure> {
     Ok(match &input.measured {
-        Measured::Streams(streams) => calibrate_streams(streams, config)?,
-        Measured::Pairs(session) if input.unknown_scale => calibrate_unscaled(session, config)?,
-        Measured::Pairs(session) => calibrate_sequence(session, &BTreeMap::new(), config)?,
+        MeasuredPoses::Streams(streams) => calibrate_streams(streams, config)?,
+        MeasuredPoses::Pairs(session) if input.unknown_scale => {
+            calibrate_unscaled(session, config)?
+        }
+        MeasuredPoses::Pairs(session) => calibrate_sequence(session, &BTreeMap::new(), config)?,
     })
 }
 

@@ -1,6 +1,6 @@
-//! The file that `handeye solve` reads: pairs, or two streams.
+//! Poses of robot and target as JSON: pairs, or two streams.
 
-use std::{collections::HashSet, fs, path::Path};
+use std::{collections::HashSet, path::Path};
 
 use handeye::{
     Base, Camera, Flange, Frame, Observation, Pose, Session, Setup, Stamped, Streams, Target,
@@ -12,10 +12,14 @@ use serde::{
 };
 use serde_json::Value;
 
-use crate::failure::Failure;
+use crate::{
+    error::{Error, in_json, unusable},
+    files,
+};
 
 /// What was measured.
-pub enum Measured {
+#[derive(Debug, Clone, PartialEq)]
+pub enum MeasuredPoses {
     /// Both at the same moments.
     Pairs(Box<Session>),
     /// Each by its own clock.
@@ -23,10 +27,13 @@ pub enum Measured {
 }
 
 /// The whole file.
-pub struct Input {
-    pub measured: Measured,
+#[derive(Debug, Clone, PartialEq)]
+pub struct PosesFile {
+    /// Its poses.
+    pub measured: MeasuredPoses,
     /// Target distances are known up to one factor.
     pub unknown_scale: bool,
+    /// What it says of the robot's noise.
     pub noise: KnownNoise,
 }
 
@@ -113,47 +120,54 @@ struct Noise {
 ///
 /// # Errors
 /// Files that cannot be read or used, with the line and the pair or sample.
-pub fn read(path: &Path) -> Result<Input, Failure> {
-    let text = fs::read_to_string(path).map_err(|e| Failure::unreadable(path, &e))?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text); // a byte order mark
+pub fn read_poses(path: &Path) -> Result<PosesFile, Error> {
+    let text = files::text(path)?;
+    poses_from_json(text.strip_prefix('\u{feff}').unwrap_or(&text), path) // a byte order mark
+}
+
+/// The same of its text; errors call it by this name.
+///
+/// # Errors
+/// As [`read_poses`].
+pub fn poses_from_json(text: &str, path: &Path) -> Result<PosesFile, Error> {
     let document: Document = serde_json::from_str(text).map_err(|e| broken(path, text, &e))?;
     let noise = noise(document.noise, path)?;
     let (unknown_scale, setup) = (document.unknown_scale, document.setup);
     let measured = match (document.pairs, document.robot, document.camera) {
         (Some(pairs), None, None) if pairs.is_empty() => {
             let what = format!("`pairs` is empty: at least {FEWEST_POSES} are needed, {MORE}");
-            return Err(Failure::input(path, what));
+            return Err(unusable(path, what));
         }
-        (Some(pairs), None, None) => Measured::Pairs(Box::new(session(setup, pairs, path)?)),
+        (Some(pairs), None, None) => MeasuredPoses::Pairs(Box::new(session(setup, pairs, path)?)),
         (None, Some(robot), Some(camera)) => {
             if let Some(empty) = empty_stream(&robot, &camera) {
                 let what = format!(
                     "the stream `{empty}` is empty: record both while the robot moves and turns \
                      about two axes"
                 );
-                return Err(Failure::input(path, what));
+                return Err(unusable(path, what));
             }
-            Measured::Streams(streams(setup, robot, camera, unknown_scale))
+            MeasuredPoses::Streams(streams(setup, robot, camera, unknown_scale))
         }
         (None, None, None) => {
             let what = "neither `pairs` nor the streams `robot` and `camera`: give one or the other; \
                         `handeye solve --help` shows both";
-            return Err(Failure::input(path, what));
+            return Err(unusable(path, what));
         }
         (Some(_), ..) => {
             let what = "`pairs` and streams: give `pairs` for poses of the same moments, or `robot` \
                         and `camera` for poses by two clocks, not both";
-            return Err(Failure::input(path, what));
+            return Err(unusable(path, what));
         }
         (None, robot, _) => {
             let missing = if robot.is_some() { "camera" } else { "robot" };
-            return Err(Failure::input(
+            return Err(unusable(
                 path,
                 format!("the stream `{missing}` is missing beside the other"),
             ));
         }
     };
-    Ok(Input { measured, unknown_scale, noise })
+    Ok(PosesFile { measured, unknown_scale, noise })
 }
 
 /// What to take beyond the fewest.
@@ -167,14 +181,14 @@ fn empty_stream(robot: &[RobotSample], camera: &[CameraSample]) -> Option<&'stat
     }
 }
 
-fn noise(noise: Noise, path: &Path) -> Result<KnownNoise, Failure> {
+fn noise(noise: Noise, path: &Path) -> Result<KnownNoise, Error> {
     for (key, value) in [
         ("robot_rotation_deg", noise.robot_rotation_deg),
         ("robot_position_mm", noise.robot_position_mm),
     ] {
         if value.is_some_and(|v| !(v > 0.0)) {
             let what = format!("noise.{key} must be positive; leave it out where it is not known");
-            return Err(Failure::input(path, what));
+            return Err(unusable(path, what));
         }
     }
     Ok(KnownNoise {
@@ -186,20 +200,25 @@ fn noise(noise: Noise, path: &Path) -> Result<KnownNoise, Failure> {
 }
 
 /// The failure of a file, with the pair or sample that it comes from.
-fn broken(path: &Path, text: &str, error: &serde_json::Error) -> Failure {
+fn broken(path: &Path, text: &str, error: &serde_json::Error) -> Error {
     let Ok(whole) = serde_json::from_str::<Value>(text) else {
-        return Failure::in_json(path, error, "").advised(advice(error));
+        return match in_json(path, error, "") {
+            Error::Json { place, what } => {
+                Error::Json { place, what: format!("{what}: {}", advice(error)) }
+            }
+            other => other,
+        };
     };
     if !whole.is_object() {
-        return Failure::input(path, NO_OBJECT);
+        return unusable(path, NO_OBJECT);
     }
     let Some(element) = broken_element(&whole, error) else {
-        return Failure::in_json(path, error, "");
+        return in_json(path, error, "");
     };
     let named = element.id.as_ref().map_or(String::new(), |id| format!(" ({id})"));
     let called = format!("{} {}", element.kind, element.number);
     let capture = element.id.map_or(element.number.to_string(), |id| id.replace('"', ""));
-    Failure::in_json(path, error, &format!("{called}{named}: ")).with_capture(&capture)
+    in_json(path, error, &format!("{called}{named}: ")).in_capture(&capture)
 }
 
 /// What is wrong with a file that holds a list, a number or the like.
@@ -244,14 +263,14 @@ fn broken_element(whole: &Value, error: &serde_json::Error) -> Option<Element> {
     })
 }
 
-fn session(setup: Setup, pairs: Vec<Pair>, path: &Path) -> Result<Session, Failure> {
+fn session(setup: Setup, pairs: Vec<Pair>, path: &Path) -> Result<Session, Error> {
     let mut seen = HashSet::new();
     let mut observations = Vec::new();
     for (k, pair) in pairs.into_iter().enumerate() {
         let capture = pair.id.unwrap_or_else(|| (k + 1).to_string());
         if !seen.insert(capture.clone()) {
             let what = format!("pair {}: the id {capture:?} is there twice", k + 1);
-            return Err(Failure::input(path, what).with_capture(&capture));
+            return Err(unusable(path, what).in_capture(&capture));
         }
         observations.push(Observation::bare(
             capture,
