@@ -281,7 +281,12 @@ impl<'de, A: Frame, B: Frame> Deserialize<'de> for Pose<A, B> {
         if stored.translation_m.iter().any(|x| !x.is_finite()) {
             return Err(de::Error::custom("translation_m is not finite"));
         }
-        let rotation = UnitQuaternion::from_quaternion(quaternion);
+        // what was written is read again bit for bit
+        let rotation = if (quaternion.norm_squared() - 1.0).abs() < 8.0 * f64::EPSILON {
+            UnitQuaternion::new_unchecked(quaternion)
+        } else {
+            UnitQuaternion::from_quaternion(quaternion)
+        };
         let translation = Translation3::from(Vector3::from(stored.translation_m));
         Ok(Self::claim(Isometry3::from_parts(translation, rotation)))
     }
@@ -313,6 +318,17 @@ mod tests {
         );
         let err = serde_json::from_str::<Pose<Flange, Camera>>(&json).err().unwrap();
         assert!(err.to_string().starts_with("expected flange_from_camera, found base_from_flange"));
+    }
+
+    #[test]
+    fn what_was_written_is_read_again_bit_for_bit() {
+        for k in 0..1000 {
+            let k = f64::from(k);
+            let turn = Vector3::new(k.sin(), (2.0 * k).cos(), (3.0 * k).sin());
+            let pose = Pose::<Base, Flange>::claim(Isometry3::new(turn * 0.1, turn));
+            let json = serde_json::to_string(&pose).unwrap();
+            assert_eq!(serde_json::from_str::<Pose<Base, Flange>>(&json).unwrap(), pose);
+        }
     }
 
     #[test]

@@ -29,8 +29,8 @@ use crate::{Error, HandEye, PosePair};
 const LENGTHS: [f64; 2] = [0.3, 1.7];
 /// Up to this many captures every motion is looked at.
 const SELECT_UP_TO: usize = 256;
-/// Length of `P'` above which the camera frame is turned first: `X` is rotated by 170 degrees.
-const LONG: f64 = 11.43;
+/// Length of `P'` above which the camera frame is turned first: `X` is rotated by 179 degrees.
+const LONG: f64 = 114.6;
 
 /// Least over largest eigenvalue of `Σ [s]ₓᵀ [s]ₓ` below which `P'` is not determined.
 const NO_TURN: f64 = 1e-11;
