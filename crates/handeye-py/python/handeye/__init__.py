@@ -1,0 +1,40 @@
+"""Hand-eye calibration: where the camera sits on the robot, and how sure that is.
+
+Lengths are metres and angles radians, but where a name ends in ``_mm`` or ``_deg``. Every transform is called
+``a_from_b`` and takes points of ``b`` into ``a``; as an array it is a homogeneous 4 x 4 matrix.
+
+>>> import handeye
+>>> sorted(handeye.METHODS)[:3]
+['andreff', 'andreff-scaled', 'chou-kamel']
+"""
+
+from ._calibration import Calibration, Candidate
+from ._core import (
+    METHODS,
+    HandEyeError,
+    InputError,
+    NotDetermined,
+    Rejected,
+    __version__,
+)
+from ._functions import Corners, Registration, calibrate, closed_form, detect, register, solve
+from ._pose import Pose
+
+__all__ = [
+    "METHODS",
+    "Calibration",
+    "Candidate",
+    "Corners",
+    "HandEyeError",
+    "InputError",
+    "NotDetermined",
+    "Pose",
+    "Registration",
+    "Rejected",
+    "__version__",
+    "calibrate",
+    "closed_form",
+    "detect",
+    "register",
+    "solve",
+]

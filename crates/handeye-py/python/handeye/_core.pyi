@@ -1,0 +1,123 @@
+"""Compiled functions of handeye; users take those of the package, which know their types."""
+
+from os import PathLike
+from typing import Any, Callable, Optional, Sequence, Tuple, TypedDict, Union, final
+
+import numpy as np
+import numpy.typing as npt
+
+_Array = npt.NDArray[np.float64]
+_Path = Union[str, PathLike[str]]
+
+__all__ = [
+    "METHODS",
+    "Calibrated",
+    "HandEyeError",
+    "InputError",
+    "NotDetermined",
+    "Rejected",
+    "__version__",
+    "calibrate",
+    "closed_form",
+    "detect",
+    "hand_eye",
+    "register",
+    "robot_world_hand_eye",
+    "solve",
+    "solve_streams",
+]
+
+__version__: str
+METHODS: list[str]
+
+class HandEyeError(ValueError): ...
+
+class InputError(HandEyeError):
+    code: str
+    file: str
+    line: Optional[int]
+    capture: Optional[str]
+
+class NotDetermined(HandEyeError): ...
+class Rejected(HandEyeError): ...
+
+class _Corners(TypedDict):
+    reason: Optional[str]
+    ids: npt.NDArray[np.uint32]
+    pixels: _Array
+    covariances: _Array
+
+class _Registration(TypedDict):
+    target_from_source: _Array
+    covariance: Optional[_Array]
+    verdict: str
+    reasons: list[str]
+    undetermined: list[str]
+    iterations: int
+    stop: str
+    inlier_fraction: float
+    agreement: float
+    rms_m: float
+    residual_sigma: float
+    size_ratio: Optional[float]
+    size_sigma: Optional[float]
+
+@final
+class Calibrated:
+    @staticmethod
+    def from_json(text: str) -> Calibrated: ...
+    def json(self) -> str: ...
+    def report(self, title: str) -> str: ...
+    def write(self, out: _Path, title: str) -> str: ...
+    def export(self, format: str, child: str) -> Tuple[str, bytes]: ...
+
+def calibrate(
+    dataset: _Path,
+    *,
+    root: Optional[_Path] = None,
+    method_name: Optional[str] = None,
+    progress: Optional[Callable[[int, int], object]] = None,
+) -> Calibrated: ...
+def solve(
+    setup_name: str,
+    base_from_flange: Any,
+    camera_from_target: Any,
+    *,
+    ids: Sequence[str],
+    method_name: Optional[str] = None,
+    robot_rotation_deg: Optional[float] = None,
+    robot_position_mm: Optional[float] = None,
+    unknown_scale: bool = False,
+) -> Calibrated: ...
+def solve_streams(
+    setup_name: str,
+    robot_times: Sequence[float],
+    base_from_flange: Any,
+    camera_times: Sequence[float],
+    camera_from_target: Any,
+    *,
+    unknown_scale: bool = False,
+) -> Calibrated: ...
+def closed_form(
+    setup: str, base_from_flange: Any, camera_from_target: Any, method: str
+) -> Tuple[_Array, _Array]: ...
+def detect(
+    image: Any, *, target_json: Optional[str] = None, target_file: Optional[_Path] = None
+) -> _Corners: ...
+def register(
+    source: Any,
+    target: Any,
+    *,
+    initial: Any = None,
+    method: str = "auto",
+    max_distance_m: float = 0.05,
+    max_iterations: int = 60,
+    is_global: bool = False,
+    threads: int = 1,
+) -> _Registration: ...
+def hand_eye(
+    r_gripper2base: Any, t_gripper2base: Any, r_target2cam: Any, t_target2cam: Any, method: int
+) -> Tuple[_Array, _Array, list[str]]: ...
+def robot_world_hand_eye(
+    r_world2cam: Any, t_world2cam: Any, r_base2gripper: Any, t_base2gripper: Any, method: int
+) -> Tuple[_Array, _Array, _Array, _Array, list[str]]: ...

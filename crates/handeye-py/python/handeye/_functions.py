@@ -1,0 +1,253 @@
+"""The functions of the package."""
+
+from __future__ import annotations
+
+import json
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any, Callable, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+
+from . import _core
+from ._calibration import Calibration
+from ._core import InputError
+from ._pose import Pose
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Array = npt.NDArray[np.float64]
+    Path = Union[str, PathLike[str]]
+
+
+class Corners(NamedTuple):
+    """A target's corners in a picture."""
+
+    ids: npt.NDArray[np.uint32]
+    """N: ``row * columns + column`` of a checkerboard, OpenCV's ids of a ChArUco board."""
+    pixels: Array
+    """N x 2: right and down from the centre of the top left pixel."""
+    covariances: Array
+    """N x 2 x 2, px²."""
+    reason: Optional[str]
+    """Why the picture shows no target, where it shows none."""
+
+    @property
+    def found(self) -> bool:
+        """Whether there is a target."""
+        return self.reason is None
+
+
+class Registration(NamedTuple):
+    """Where one scan lies in another."""
+
+    verdict: str
+    """``accepted``, ``rejected`` or ``undetermined``."""
+    reasons: List[str]
+    target_from_source: Pose
+    covariance: Optional[Array]
+    """6 x 6, rotation (rad) first, then translation (m), in the source frame; None where something is free."""
+    undetermined: List[str]
+    """Motions that the common surface leaves free."""
+    iterations: int
+    stop: str
+    """``converged``, ``fitness``, ``no-matches`` or ``max-iterations``."""
+    inlier_fraction: float
+    """Share of the source that lies on the target."""
+    agreement: float
+    """Of the places where both scans show something, the share at which it is the same."""
+    rms_m: float
+    residual_sigma: float
+    size_ratio: Optional[float]
+    """Size of what the target shows over that of what the source shows."""
+    size_sigma: Optional[float]
+
+    @property
+    def accepted(self) -> bool:
+        """Whether to use it."""
+        return self.verdict == "accepted"
+
+
+def calibrate(
+    dataset: Path,
+    *,
+    out: Optional[Path] = None,
+    root: Optional[Path] = None,
+    method: Optional[str] = None,
+    progress: Optional[Callable[[int, int], object]] = None,
+) -> Calibration:
+    """Calibrates a folder of captures.
+
+    :param dataset: the folder, or its manifest ``handeye.toml``.
+    :param out: where ``calibration.json`` and ``report.html`` are written, if anywhere.
+    :param root: where the captures lie, if not beside the manifest.
+    :param method: a published method to run as published; see ``METHODS``.
+    :param progress: called with the number of captures that are read, and of all.
+    :raises InputError: files that cannot be used; ``file``, ``line`` and ``capture`` say where.
+
+    Bad data end in a verdict, not in an exception.
+    """
+    calibration = Calibration(
+        _core.calibrate(
+            fspath(dataset),
+            root=None if root is None else fspath(root),
+            method_name=method,
+            progress=progress,
+        )
+    )
+    if out is not None:
+        calibration.save(out)
+    return calibration
+
+
+def solve(
+    base_from_flange: Any,
+    camera_from_target: Any,
+    *,
+    setup: str,
+    ids: Optional[Sequence[str]] = None,
+    method: Optional[str] = None,
+    robot_rotation_deg: Optional[float] = None,
+    robot_position_mm: Optional[float] = None,
+    unknown_scale: bool = False,
+    robot_times_s: Optional[Sequence[float]] = None,
+    camera_times_s: Optional[Sequence[float]] = None,
+) -> Calibration:
+    """Calibrates from poses of the robot and of the target.
+
+    :param base_from_flange: what the robot reported: N x 4 x 4 (m), or a list of :class:`Pose`.
+    :param camera_from_target: where the camera saw the target: N x 4 x 4 (m), or a list of :class:`Pose`.
+    :param setup: ``"eye-in-hand"``: the camera is on the flange; ``"eye-to-hand"``: beside the robot.
+    :param ids: names of the captures; their order is the order in which they were taken. Else ``0``, ``1`` ...
+    :param method: a published method to run as published; see ``METHODS``.
+    :param robot_rotation_deg: standard deviation of the robot's rotation, per axis, where it is known.
+    :param robot_position_mm: of its position.
+    :param unknown_scale: the target's distances are known up to one factor.
+    :param robot_times_s: stamps of the robot's poses (s), where both lists have clocks of their own.
+    :param camera_times_s: stamps of the target's poses; both lists may then differ in length.
+    """
+    robot = _poses(base_from_flange, "base", "flange")
+    camera = _poses(camera_from_target, "camera", "target")
+    if (robot_times_s is None) != (camera_times_s is None):
+        raise InputError("give the times of both streams, or of none")
+    if robot_times_s is not None and camera_times_s is not None:
+        if ids is not None or method is not None:
+            raise InputError("streams take neither ids nor a method")
+        robot_times = [float(time) for time in robot_times_s]
+        camera_times = [float(time) for time in camera_times_s]
+        return Calibration(
+            _core.solve_streams(
+                setup, robot_times, robot, camera_times, camera, unknown_scale=unknown_scale
+            )
+        )
+    names = [str(k) for k in range(len(robot))] if ids is None else [str(name) for name in ids]
+    return Calibration(
+        _core.solve(
+            setup,
+            robot,
+            camera,
+            ids=names,
+            method_name=method,
+            robot_rotation_deg=robot_rotation_deg,
+            robot_position_mm=robot_position_mm,
+            unknown_scale=unknown_scale,
+        )
+    )
+
+
+def closed_form(
+    base_from_flange: Any, camera_from_target: Any, *, setup: str, method: str = "shah"
+) -> Tuple[Pose, Pose]:
+    """``mount_from_camera`` and ``anchor_from_target`` by one published method, and nothing else.
+
+    Arguments are those of :func:`solve`. Takes microseconds, and says nothing of how sure it is.
+
+    :raises NotDetermined: all rotations are about one axis, or the method has no single answer.
+    """
+    x, y = _core.closed_form(
+        setup,
+        _poses(base_from_flange, "base", "flange"),
+        _poses(camera_from_target, "camera", "target"),
+        method,
+    )
+    mount, anchor = ("flange", "base") if setup == "eye-in-hand" else ("base", "flange")
+    return Pose(mount, "camera", x), Pose(anchor, "target", y)
+
+
+def detect(image: Any, target: Union[Mapping[str, Any], Path]) -> Corners:
+    """The corners of a calibration target in a picture, to about a hundredth of a pixel.
+
+    :param image: H x W or H x W x 3; uint8, uint16, or float32 from 0 to 255.
+    :param target: ``{"kind": "checkerboard", "columns": 11, "rows": 8, "square_mm": 30.0}`` and the like, as under
+        ``[target]`` of a manifest, or a TOML file with these keys.
+    """
+    if isinstance(target, (str, PathLike)):
+        found = _core.detect(image, target_file=fspath(target))
+    else:
+        found = _core.detect(image, target_json=json.dumps(dict(target)))
+    return Corners(found["ids"], found["pixels"], found["covariances"], found["reason"])
+
+
+def register(
+    source: Any,
+    target: Any,
+    *,
+    initial: Union[Pose, Any, None] = None,
+    method: str = "auto",
+    max_distance_m: float = 0.05,
+    max_iterations: int = 60,
+    search: bool = False,
+    threads: int = 1,
+) -> Registration:
+    """Where the source lies in the target.
+
+    :param source: points, N x 3, or H x W x 3 as the camera has them (faster, and judged better); m.
+    :param target: likewise.
+    :param initial: ``target_from_source`` to begin from, a :class:`Pose` or 4 x 4; right to some centimetres and
+        10 degrees. Without it both are taken to lie as they are.
+    :param method: ``auto``, ``point-to-point``, ``point-to-plane`` or ``gicp``.
+    :param max_distance_m: what is farther apart does not belong together.
+    :param max_iterations: most rounds.
+    :param search: look for a beginning everywhere, and take no ``initial``.
+    :param threads: the answer is the same with any number.
+    """
+    found = _core.register(
+        source,
+        target,
+        initial=initial.matrix if isinstance(initial, Pose) else initial,
+        method=method,
+        max_distance_m=max_distance_m,
+        max_iterations=max_iterations,
+        is_global=search,
+        threads=threads,
+    )
+    return Registration(
+        found["verdict"],
+        found["reasons"],
+        Pose("target", "source", found["target_from_source"]),
+        found["covariance"],
+        found["undetermined"],
+        found["iterations"],
+        found["stop"],
+        found["inlier_fraction"],
+        found["agreement"],
+        found["rms_m"],
+        found["residual_sigma"],
+        found["size_ratio"],
+        found["size_sigma"],
+    )
+
+
+def _poses(poses: Any, to: str, from_frame: str) -> Any:
+    """As N x 4 x 4; frames of poses are checked."""
+    import numpy as np
+
+    if isinstance(poses, np.ndarray):
+        return poses
+    matrices = []
+    for k, pose in enumerate(poses):
+        if isinstance(pose, Pose):
+            if (pose.to, pose.from_frame) != (to, from_frame):
+                raise InputError(f"pose {k} is {pose.name}: {to}_from_{from_frame} is needed")
+            pose = pose.matrix
+        matrices.append(pose)
+    return np.array(matrices, dtype=np.float64).reshape(-1, 4, 4) if matrices else np.zeros((0, 4, 4))

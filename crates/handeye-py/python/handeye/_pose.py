@@ -1,0 +1,254 @@
+"""Rigid transforms that know their frames."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Union, overload
+
+from ._core import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Array = npt.NDArray[np.float64]
+
+# entries of a rotation may be off by so much
+_ROUNDED = 1e-3
+
+
+class Pose:
+    """``to_from_frame``: takes points of ``from_frame`` into ``to``; metres.
+
+    ``a @ b`` is checked: the inner frames must be the same.
+
+    >>> base_from_flange = Pose("base", "flange", translation=[0.5, 0.0, 0.3])
+    >>> flange_from_camera = Pose("flange", "camera", translation=[0.0, 0.1, 0.0])
+    >>> (base_from_flange @ flange_from_camera).name
+    'base_from_camera'
+    >>> flange_from_camera @ base_from_flange
+    Traceback (most recent call last):
+    ...
+    handeye.InputError: flange_from_camera @ base_from_flange: camera is not base
+    """
+
+    __slots__ = ("_from", "_matrix", "_to")
+
+    def __init__(
+        self,
+        to: str,
+        from_frame: str,
+        matrix: Any = None,
+        *,
+        rotation: Any = None,
+        translation: Any = None,
+    ) -> None:
+        """From a 4 x 4 ``matrix``, or a ``rotation`` and a ``translation`` (m).
+
+        A rotation is a 3 x 3 matrix, a quaternion ``x y z w`` or a rotation vector (rad).
+
+        Raises InputError where that is no rigid transform.
+        """
+        import numpy as np
+
+        if matrix is None:
+            matrix = np.eye(4)
+            if rotation is not None:
+                matrix[:3, :3] = _rotation(rotation)
+            if translation is not None:
+                matrix[:3, 3] = np.asarray(translation, dtype=np.float64).reshape(3)
+        elif rotation is not None or translation is not None:
+            raise InputError("give either a matrix, or a rotation and a translation")
+        else:
+            matrix = np.array(matrix, dtype=np.float64)
+        _check(matrix)
+        matrix.setflags(write=False)
+        self._to, self._from = str(to), str(from_frame)
+        self._matrix: Array = matrix
+
+    @classmethod
+    def from_dict(cls, pose: Mapping[str, Any]) -> Pose:
+        """From ``{"to": ..., "from": ..., "translation_m": [...], "rotation_xyzw": [...]}``."""
+        return cls(
+            pose["to"],
+            pose["from"],
+            rotation=pose["rotation_xyzw"],
+            translation=pose["translation_m"],
+        )
+
+    @property
+    def to(self) -> str:
+        """Frame that points are taken into."""
+        return self._to
+
+    @property
+    def from_frame(self) -> str:
+        """Frame that points are given in."""
+        return self._from
+
+    @property
+    def name(self) -> str:
+        """``to_from_from``, such as ``base_from_camera``."""
+        return f"{self._to}_from_{self._from}"
+
+    @property
+    def matrix(self) -> Array:
+        """Homogeneous matrix, 4 x 4, read only."""
+        return self._matrix
+
+    @property
+    def rotation(self) -> Array:
+        """Rotation matrix, 3 x 3, read only."""
+        return self._matrix[:3, :3]
+
+    @property
+    def translation(self) -> Array:
+        """Origin of ``from_frame`` in ``to``, m; 3, read only."""
+        return self._matrix[:3, 3]
+
+    @property
+    def quaternion_xyzw(self) -> Array:
+        """Rotation as a unit quaternion, the real part last and not negative; 4."""
+        return _quaternion(self._matrix[:3, :3])
+
+    @property
+    def rotation_vector(self) -> Array:
+        """Rotation as an axis times its angle (rad), 3."""
+        import numpy as np
+
+        q = self.quaternion_xyzw
+        sine = float(np.linalg.norm(q[:3]))
+        if sine == 0.0:
+            return np.zeros(3)
+        vector: Array = q[:3] * (2.0 * np.arctan2(sine, q[3]) / sine)
+        return vector
+
+    def inverse(self) -> Pose:
+        """``from_from_to``."""
+        import numpy as np
+
+        matrix = np.eye(4)
+        matrix[:3, :3] = self.rotation.T
+        matrix[:3, 3] = -self.rotation.T @ self.translation
+        return Pose(self._from, self._to, matrix)
+
+    def to_dict(self) -> Dict[str, Any]:
+        """As in handeye's JSON."""
+        return {
+            "to": self._to,
+            "from": self._from,
+            "translation_m": self.translation.tolist(),
+            "rotation_xyzw": self.quaternion_xyzw.tolist(),
+        }
+
+    @overload
+    def __matmul__(self, other: Pose) -> Pose: ...
+    @overload
+    def __matmul__(self, other: npt.ArrayLike) -> Array: ...
+    def __matmul__(self, other: Union[Pose, npt.ArrayLike]) -> Union[Pose, Array]:
+        """With a pose: the chain of both. With points (3, or N x 3, m): their places in ``to``."""
+        import numpy as np
+
+        if isinstance(other, Pose):
+            if self._from != other._to:
+                raise InputError(
+                    f"{self.name} @ {other.name}: {self._from} is not {other._to}"
+                )
+            return Pose(self._to, other._from, self._matrix @ other._matrix)
+        points = np.asarray(other, dtype=np.float64)
+        if points.shape[-1:] != (3,):
+            raise InputError(f"{self.name} @ points of the shape {points.shape}: N x 3 is needed")
+        moved: Array = points @ self.rotation.T + self.translation
+        return moved
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Array:
+        import numpy as np
+
+        if dtype is None or np.dtype(dtype) == np.float64:
+            return self._matrix.copy() if copy else self._matrix
+        converted: Array = self._matrix.astype(dtype)
+        return converted
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Pose):
+            return NotImplemented
+        same_frames = (self._to, self._from) == (other._to, other._from)
+        return same_frames and bool((self._matrix == other._matrix).all())
+
+    def __hash__(self) -> int:
+        return hash((self._to, self._from, self._matrix.tobytes()))
+
+    def __reduce__(self) -> Any:
+        return (Pose, (self._to, self._from, self._matrix.copy()))
+
+    def __repr__(self) -> str:
+        x, y, z = (1e3 * self.translation).tolist()
+        a, b, c, d = self.quaternion_xyzw.tolist()
+        return (
+            f"<{self.name}: ({x:.3f}, {y:.3f}, {z:.3f}) mm, "
+            f"xyzw ({a:.6f}, {b:.6f}, {c:.6f}, {d:.6f})>"
+        )
+
+
+def _check(matrix: Array) -> None:
+    import numpy as np
+
+    if matrix.shape != (4, 4):
+        raise InputError(f"a pose has the shape (4, 4), not {matrix.shape}")
+    if not np.isfinite(matrix).all():
+        raise InputError("a pose holds a number that is NaN or infinite")
+    rotation = matrix[:3, :3]
+    off = float(np.abs(rotation @ rotation.T - np.eye(3)).max())
+    if off > _ROUNDED or np.linalg.det(rotation) < 0 or matrix[3].tolist() != [0, 0, 0, 1]:
+        raise InputError(
+            "the matrix is no rigid transform: three rows of rotation and translation (m), then 0 0 0 1"
+        )
+
+
+def _rotation(rotation: Any) -> Array:
+    import numpy as np
+
+    r: Array = np.asarray(rotation, dtype=np.float64)
+    if r.shape == (3, 3):
+        return r
+    if r.shape == (4,):
+        length = float(np.linalg.norm(r))
+        if not abs(length - 1.0) < _ROUNDED:
+            raise InputError(f"a quaternion (x, y, z, w) has the length 1, not {length:.4f}")
+        x, y, z, w = (r / length).tolist()
+        return np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        )
+    if r.shape == (3,):
+        angle = float(np.linalg.norm(r))
+        if angle == 0.0:
+            return np.eye(3)
+        half = np.append(np.sin(angle / 2) / angle * r, np.cos(angle / 2))
+        return _rotation(half)
+    raise InputError(
+        f"a rotation of the shape {r.shape}: give 3 x 3, a quaternion (x, y, z, w), or a vector (rad)"
+    )
+
+
+def _quaternion(r: Array) -> Array:
+    import numpy as np
+
+    # the largest of the four first, so that nothing small is divided by
+    squares = [1 + r[0, 0] - r[1, 1] - r[2, 2], 1 - r[0, 0] + r[1, 1] - r[2, 2]]
+    squares += [1 - r[0, 0] - r[1, 1] + r[2, 2], 1 + np.trace(r)]
+    k = int(np.argmax(squares))
+    a, b, c = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
+    d, e, f = r[1, 0] + r[0, 1], r[0, 2] + r[2, 0], r[2, 1] + r[1, 2]
+    q = np.array(
+        [
+            [squares[0], d, e, a],
+            [d, squares[1], f, b],
+            [e, f, squares[2], c],
+            [a, b, c, squares[3]],
+        ][k]
+    )
+    unit: Array = q / np.linalg.norm(q)
+    return -unit if unit[3] < 0 else unit

@@ -1,0 +1,144 @@
+"""OpenCV's ``calibrateHandEye`` and ``calibrateRobotWorldHandEye``, with a look at their answers.
+
+Signatures, shapes, flags and results are those of OpenCV 4; ``from handeye import cv2_compat as cv2`` is all that a
+script needs. Where OpenCV returns NaN, throws without a reason or answers wrongly without a word, an error says why:
+
+* :class:`handeye.NotDetermined`: the poses leave part of the answer free (one axis of rotation, too few).
+* :class:`handeye.Rejected`: poses contradict each other, or the method fails on them.
+* :class:`handeye.InputError`: an array is no rotation, has another shape, or lists differ in length.
+
+All three are a ``ValueError``. What is only worth knowing comes as a :class:`HandEyeWarning`. Lengths may be in any
+unit that is the same for all.
+"""
+
+import warnings as _warnings
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple
+
+from . import _core
+from ._core import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Array = npt.NDArray[np.float64]
+
+__all__ = [
+    "CALIB_HAND_EYE_ANDREFF",
+    "CALIB_HAND_EYE_DANIILIDIS",
+    "CALIB_HAND_EYE_HORAUD",
+    "CALIB_HAND_EYE_PARK",
+    "CALIB_HAND_EYE_TSAI",
+    "CALIB_ROBOT_WORLD_HAND_EYE_LI",
+    "CALIB_ROBOT_WORLD_HAND_EYE_SHAH",
+    "HandEyeWarning",
+    "calibrateHandEye",
+    "calibrateRobotWorldHandEye",
+]
+
+CALIB_HAND_EYE_TSAI = 0
+"""R. Tsai, R. Lenz, 1989."""
+CALIB_HAND_EYE_PARK = 1
+"""F. Park, B. Martin, 1994."""
+CALIB_HAND_EYE_HORAUD = 2
+"""R. Horaud, F. Dornaika, 1995."""
+CALIB_HAND_EYE_ANDREFF = 3
+"""N. Andreff, R. Horaud, B. Espiau, 1999."""
+CALIB_HAND_EYE_DANIILIDIS = 4
+"""K. Daniilidis, 1998."""
+CALIB_ROBOT_WORLD_HAND_EYE_SHAH = 0
+"""M. Shah, 2013."""
+CALIB_ROBOT_WORLD_HAND_EYE_LI = 1
+"""A. Li, L. Wang, D. Wu, 2010."""
+
+
+class HandEyeWarning(UserWarning):
+    """Something to know about an answer that still stands."""
+
+
+def calibrateHandEye(
+    R_gripper2base: Sequence[Any],
+    t_gripper2base: Sequence[Any],
+    R_target2cam: Sequence[Any],
+    t_target2cam: Sequence[Any],
+    R_cam2gripper: Optional[Any] = None,
+    t_cam2gripper: Optional[Any] = None,
+    method: int = CALIB_HAND_EYE_TSAI,
+) -> "Tuple[Array, Array]":
+    """Where the camera sits on the gripper.
+
+    For a camera beside the robot, give the inverse robot poses (``R_base2gripper``, ``t_base2gripper``): the result
+    is then ``R_cam2base``, ``t_cam2base``.
+
+    :param R_gripper2base: rotation of each robot pose: 3 x 3, or a rotation vector (rad); N of them.
+    :param t_gripper2base: its translation, 3 numbers.
+    :param R_target2cam: rotation of each pose of the target, as the camera saw it.
+    :param t_target2cam: its translation.
+    :param R_cam2gripper: an array that takes the result as well, or None.
+    :param t_cam2gripper: likewise.
+    :param method: one of ``CALIB_HAND_EYE_TSAI``, ``_PARK``, ``_HORAUD``, ``_ANDREFF``, ``_DANIILIDIS``.
+    :returns: ``R_cam2gripper`` (3 x 3) and ``t_cam2gripper`` (3 x 1).
+    """
+    _refuse_method((R_cam2gripper, t_cam2gripper))
+    r, t, told = _core.hand_eye(
+        R_gripper2base, t_gripper2base, R_target2cam, t_target2cam, method
+    )
+    _tell(told)
+    return _given(R_cam2gripper, r), _given(t_cam2gripper, t)
+
+
+def calibrateRobotWorldHandEye(
+    R_world2cam: Sequence[Any],
+    t_world2cam: Sequence[Any],
+    R_base2gripper: Sequence[Any],
+    t_base2gripper: Sequence[Any],
+    R_base2world: Optional[Any] = None,
+    t_base2world: Optional[Any] = None,
+    R_gripper2cam: Optional[Any] = None,
+    t_gripper2cam: Optional[Any] = None,
+    method: int = CALIB_ROBOT_WORLD_HAND_EYE_SHAH,
+) -> "Tuple[Array, Array, Array, Array]":
+    """Where the base sits in the world, and the gripper in the camera.
+
+    :param R_world2cam: rotation of the world (the target) in the camera: 3 x 3, or a vector (rad); N of them.
+    :param t_world2cam: its translation, 3 numbers.
+    :param R_base2gripper: rotation of the base in the gripper, the inverse of what robots report.
+    :param t_base2gripper: its translation.
+    :param R_base2world: an array that takes the result as well, or None; so the three after it.
+    :param method: ``CALIB_ROBOT_WORLD_HAND_EYE_SHAH`` or ``_LI``.
+    :returns: ``R_base2world`` (3 x 3), ``t_base2world`` (3 x 1), ``R_gripper2cam``, ``t_gripper2cam``.
+    """
+    _refuse_method((R_base2world, t_base2world, R_gripper2cam, t_gripper2cam))
+    r, t, q, s, told = _core.robot_world_hand_eye(
+        R_world2cam, t_world2cam, R_base2gripper, t_base2gripper, method
+    )
+    _tell(told)
+    return (
+        _given(R_base2world, r),
+        _given(t_base2world, t),
+        _given(R_gripper2cam, q),
+        _given(t_gripper2cam, s),
+    )
+
+
+def _refuse_method(outputs: Sequence[Any]) -> None:
+    """OpenCV takes a method in these places for an array to fill, and runs its default instead."""
+    for output in outputs:
+        if isinstance(output, (int, float, str)):
+            raise InputError(
+                f"{output!r} stands where an output array belongs: write method={output!r}"
+            )
+
+
+def _given(output: Optional[Any], result: "Array") -> "Array":
+    """Fills an array that was given for the result."""
+    if output is not None:
+        if getattr(output, "shape", None) != result.shape:
+            raise InputError(f"the output array must have the shape {result.shape}")
+        output[...] = result
+    return result
+
+
+def _tell(told: Sequence[str]) -> None:
+    for message in told:
+        _warnings.warn(message, HandEyeWarning, stacklevel=3)

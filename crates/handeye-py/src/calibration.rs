@@ -1,0 +1,222 @@
+//! Calibrations: from poses, from a folder, from their own JSON.
+
+use std::{collections::BTreeMap, path::PathBuf};
+
+use handeye::{
+    Calibration, Config, Observation, Pose, Session, Stamped, Streams, calibrate_sequence,
+    calibrate_streams, calibrate_unscaled, refine::noise::KnownNoise,
+};
+use handeye_io::{
+    Dataset,
+    calibrate::{calibrate_dataset, write_results},
+    export::{self, CameraPose, Format},
+    report::{calibration_html, dataset_html},
+};
+use pyo3::{exceptions::PyRuntimeError, prelude::*, types::PyBytes};
+
+use crate::{
+    arrays,
+    closed_form::{method, same_length, setup},
+    errors, working,
+};
+
+/// A result, with what its report shows beside it.
+#[pyclass(frozen, module = "handeye._core")]
+pub struct Calibrated {
+    calibration: Calibration,
+    measured: Option<(Dataset, Session)>,
+}
+
+#[pymethods]
+impl Calibrated {
+    /// From the JSON that `json` gives.
+    #[staticmethod]
+    fn from_json(text: &str) -> PyResult<Self> {
+        let calibration = serde_json::from_str(text)
+            .map_err(|error| errors::input(format!("no calibration of handeye: {error}")))?;
+        Ok(Self { calibration, measured: None })
+    }
+
+    /// As in `calibration.json`.
+    fn json(&self) -> PyResult<String> {
+        serde_json::to_string(&self.calibration)
+            .map_err(|error| PyRuntimeError::new_err(error.to_string()))
+    }
+
+    /// The report as one page.
+    fn report(&self, py: Python<'_>, title: &str) -> String {
+        py.detach(|| match &self.measured {
+            Some((dataset, session)) => dataset_html(dataset, &self.calibration, session),
+            None => calibration_html(title, &self.calibration),
+        })
+    }
+
+    /// Writes `calibration.json` and `report.html` into a folder.
+    fn write(&self, py: Python<'_>, out: PathBuf, title: &str) -> PyResult<PathBuf> {
+        let page = self.report(py, title);
+        std::fs::create_dir_all(&out)?;
+        write_results(&out, &self.calibration, &page).map_err(|e| errors::of_files(py, &e))
+    }
+
+    /// The usual name and the content of a file in another program's format.
+    fn export<'py>(
+        &self,
+        py: Python<'py>,
+        format: &str,
+        child: &str,
+    ) -> PyResult<(String, Bound<'py, PyBytes>)> {
+        let named = Format::named(format)
+            .map_err(|there| errors::input(format!("no format {format:?}: {there}")))?;
+        let Some(pose) = &self.calibration.hand_eye.mount_from_camera else {
+            return Err(errors::NotDetermined::new_err(self.calibration.reasons.join("; ")));
+        };
+        let setup = self.calibration.setup;
+        let camera = CameraPose {
+            name: &self.calibration.name,
+            parent_from_child: *pose.iso(),
+            parent: setup.mount(),
+            child,
+            setup,
+        };
+        let content = export::render(&camera, &named);
+        Ok((named.file_name(&self.calibration.name), PyBytes::new(py, &content)))
+    }
+}
+
+/// What a user says of the robot's noise.
+fn known(robot_rotation_deg: Option<f64>, robot_position_mm: Option<f64>) -> PyResult<KnownNoise> {
+    for (name, value) in
+        [("robot_rotation_deg", robot_rotation_deg), ("robot_position_mm", robot_position_mm)]
+    {
+        if value.is_some_and(|v| !(v > 0.0)) {
+            return Err(errors::input(format!(
+                "{name} must be positive; leave it out where it is not known"
+            )));
+        }
+    }
+    Ok(KnownNoise {
+        robot_rotation_rad: robot_rotation_deg.map(f64::to_radians),
+        robot_position_m: robot_position_mm.map(|mm| mm * 1e-3),
+        touch_m: None,
+        tip_m: None,
+    })
+}
+
+/// From poses of the same moments.
+#[pyfunction]
+#[pyo3(signature = (setup_name, base_from_flange, camera_from_target, *, ids, method_name=None, robot_rotation_deg=None, robot_position_mm=None, unknown_scale=false))]
+#[allow(clippy::too_many_arguments, reason = "each is one of Python's keywords")]
+pub fn solve(
+    py: Python<'_>,
+    setup_name: &str,
+    base_from_flange: &Bound<'_, PyAny>,
+    camera_from_target: &Bound<'_, PyAny>,
+    ids: Vec<String>,
+    method_name: Option<&str>,
+    robot_rotation_deg: Option<f64>,
+    robot_position_mm: Option<f64>,
+    unknown_scale: bool,
+) -> PyResult<Calibrated> {
+    let robot = arrays::poses(base_from_flange, "base_from_flange")?;
+    let camera = arrays::poses(camera_from_target, "camera_from_target")?;
+    same_length(robot.len(), camera.len())?;
+    if ids.len() != robot.len() {
+        return Err(errors::input(format!("{} ids for {} poses", ids.len(), robot.len())));
+    }
+    let mut sorted: Vec<&String> = ids.iter().collect();
+    sorted.sort();
+    if let Some(twice) = sorted.windows(2).find(|two| two[0] == two[1]) {
+        return Err(errors::input(format!("the id {:?} is there twice", twice[0])));
+    }
+    let poses = ids.into_iter().zip(robot).zip(camera);
+    let observation = |((id, (r, t)), (q, s)): ((String, (_, _)), (_, _))| {
+        Observation::bare(id, Pose::from_parts(&r, t), Pose::from_parts(&q, s))
+    };
+    let session = Session::of_captures(setup(setup_name)?, poses.map(observation).collect());
+    check_distances(&session)?;
+    let config = Config {
+        method: method_name.map(method).transpose()?,
+        known: known(robot_rotation_deg, robot_position_mm)?,
+        ..Config::default()
+    };
+    let work = move |_: &(dyn Fn(usize, usize) + Sync)| match unknown_scale {
+        true => calibrate_unscaled(&session, &config),
+        false => calibrate_sequence(&session, &BTreeMap::new(), &config),
+    };
+    let calibration = working::run(py, None, work)?.map_err(|error| errors::of_core(&error))?;
+    Ok(Calibrated { calibration, measured: None })
+}
+
+fn check_distances(session: &Session) -> PyResult<()> {
+    let far = session.observations.iter().find(|o| {
+        o.base_from_flange.is_too_far()
+            || o.candidates.iter().any(|c| c.camera_from_target.is_too_far())
+    });
+    match far {
+        Some(o) => {
+            Err(errors::input(format!("pose {} lies beyond any robot or camera", o.capture)))
+        }
+        None => Ok(()),
+    }
+}
+
+/// From two streams of stamped poses, whose clocks may differ.
+#[pyfunction]
+#[pyo3(signature = (setup_name, robot_times, base_from_flange, camera_times, camera_from_target, *, unknown_scale=false))]
+pub fn solve_streams(
+    py: Python<'_>,
+    setup_name: &str,
+    robot_times: Vec<f64>,
+    base_from_flange: &Bound<'_, PyAny>,
+    camera_times: Vec<f64>,
+    camera_from_target: &Bound<'_, PyAny>,
+    unknown_scale: bool,
+) -> PyResult<Calibrated> {
+    let robot = arrays::poses(base_from_flange, "base_from_flange")?;
+    let camera = arrays::poses(camera_from_target, "camera_from_target")?;
+    for (times, poses, name) in
+        [(robot_times.len(), robot.len(), "robot"), (camera_times.len(), camera.len(), "camera")]
+    {
+        if times != poses {
+            return Err(errors::input(format!("{times} {name} times for {poses} {name} poses")));
+        }
+    }
+    let robot = robot_times.into_iter().zip(robot);
+    let camera = camera_times.into_iter().zip(camera);
+    let streams = Streams {
+        setup: setup(setup_name)?,
+        robot: robot
+            .map(|(time_s, (r, t))| Stamped { time_s, pose: Pose::from_parts(&r, t) })
+            .collect(),
+        camera: camera
+            .map(|(time_s, (r, t))| Stamped { time_s, pose: Pose::from_parts(&r, t) })
+            .collect(),
+        unknown_scale,
+    };
+    let calibration =
+        working::run(py, None, move |_| calibrate_streams(&streams, &Config::default()))?
+            .map_err(|error| errors::of_core(&error))?;
+    Ok(Calibrated { calibration, measured: None })
+}
+
+/// From a folder with its manifest.
+#[pyfunction]
+#[pyo3(signature = (dataset, *, root=None, method_name=None, progress=None))]
+pub fn calibrate(
+    py: Python<'_>,
+    dataset: PathBuf,
+    root: Option<PathBuf>,
+    method_name: Option<&str>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Calibrated> {
+    let config = Config { method: method_name.map(method).transpose()?, ..Config::default() };
+    let work = move |tell: &(dyn Fn(usize, usize) + Sync)| {
+        let dataset = match &root {
+            Some(root) => Dataset::open_with_root(&dataset, root)?,
+            None => Dataset::open(&dataset)?,
+        };
+        let (calibration, session) = calibrate_dataset(&dataset, &config, tell)?;
+        Ok(Calibrated { calibration, measured: Some((dataset, session)) })
+    };
+    working::run(py, progress.as_ref(), work)?.map_err(|error| errors::of_files(py, &error))
+}

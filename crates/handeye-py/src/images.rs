@@ -1,0 +1,108 @@
+//! Targets in pictures.
+
+use std::path::PathBuf;
+
+use handeye::{GrayImage, ImageCorner, TargetModel, detect as detection};
+use handeye_io::read_target;
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::{prelude::*, types::PyDict};
+
+use crate::{errors, working};
+
+/// Ids, pixels (N x 2) and covariances (N x 2 x 2) of the corners; `None` and why, where there is no target.
+#[pyfunction]
+#[pyo3(signature = (image, *, target_json=None, target_file=None))]
+pub fn detect<'py>(
+    py: Python<'py>,
+    image: &Bound<'py, PyAny>,
+    target_json: Option<&str>,
+    target_file: Option<PathBuf>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let target = target(py, target_json, target_file)?;
+    let image = picture(image)?;
+    let found = working::run(py, None, move |_| detection::detect(&image, &target))?;
+    let answer = PyDict::new(py);
+    let (corners, reason) = match found {
+        Ok(corners) => (corners, None),
+        Err(reason) => (vec![], Some(reason.to_string())),
+    };
+    answer.set_item("reason", reason)?;
+    set(py, &answer, &corners)?;
+    Ok(answer)
+}
+
+fn set(py: Python<'_>, answer: &Bound<'_, PyDict>, corners: &[ImageCorner]) -> PyResult<()> {
+    let ids: Vec<u32> = corners.iter().map(|c| c.id).collect();
+    answer.set_item("ids", PyArray1::from_vec(py, ids))?;
+    let pixels = PyArray2::zeros(py, [corners.len(), 2], false);
+    let covariances = PyArray3::zeros(py, [corners.len(), 2, 2], false);
+    {
+        let (mut pixels, mut covariances) = (pixels.readwrite(), covariances.readwrite());
+        let (mut pixels, mut covariances) = (pixels.as_array_mut(), covariances.as_array_mut());
+        for (k, corner) in corners.iter().enumerate() {
+            for i in 0..2 {
+                pixels[[k, i]] = corner.pixel[i];
+                for j in 0..2 {
+                    covariances[[k, i, j]] = corner.covariance[(i, j)];
+                }
+            }
+        }
+    }
+    answer.set_item("pixels", pixels)?;
+    answer.set_item("covariances", covariances)
+}
+
+fn target(py: Python<'_>, json: Option<&str>, file: Option<PathBuf>) -> PyResult<TargetModel> {
+    if let Some(file) = file {
+        return read_target(&file).map_err(|error| errors::of_files(py, &error));
+    }
+    let target: TargetModel = serde_json::from_str(json.unwrap_or("null"))
+        .map_err(|error| errors::input(format!("no target: {error}")))?;
+    target.check().map_err(|error| errors::of_core(&error))?;
+    Ok(target)
+}
+
+/// Grey values of H x W, or of H x W x 3 in the order of OpenCV or its reverse; 8 or 16 bits, or floating.
+fn picture(image: &Bound<'_, PyAny>) -> PyResult<GrayImage> {
+    let wrong = |shape: &[usize]| {
+        errors::input(format!("the image has the shape {shape:?}: H x W or H x W x 3 is needed"))
+    };
+    fn grey<T: numpy::Element + Copy + Into<f32>>(
+        array: &Bound<'_, PyArrayDyn<T>>,
+        scale: f32,
+    ) -> Option<GrayImage> {
+        let shape = array.shape().to_vec();
+        let read = array.readonly();
+        let numbers = read.as_array();
+        let mut numbers = numbers.iter().map(|v| (*v).into() * scale);
+        match shape[..] {
+            [height, width] => GrayImage::new(width, height, numbers.collect()),
+            [height, width, 3] => {
+                let mut values = Vec::with_capacity(height * width);
+                while let (Some(a), Some(b), Some(c)) =
+                    (numbers.next(), numbers.next(), numbers.next())
+                {
+                    values.push(0.25 * a + 0.5 * b + 0.25 * c);
+                }
+                GrayImage::new(width, height, values)
+            }
+            _ => None,
+        }
+    }
+    if let Ok(array) = image.cast::<PyArrayDyn<u8>>() {
+        return grey(array, 1.0).ok_or_else(|| wrong(array.shape()));
+    }
+    if let Ok(array) = image.cast::<PyArrayDyn<u16>>() {
+        // 10, 12 and 14 bits are kept in 16 as well
+        let read = array.readonly();
+        let largest = read.as_array().iter().copied().max().unwrap_or(0);
+        let bits =
+            [8, 10, 12, 14].into_iter().find(|bits| u32::from(largest) < 1 << bits).unwrap_or(16);
+        let scale = 255.0 / ((1u32 << bits) - 1) as f32;
+        return grey(array, scale).ok_or_else(|| wrong(array.shape()));
+    }
+    if let Ok(array) = image.cast::<PyArrayDyn<f32>>() {
+        return grey(array, 1.0).ok_or_else(|| wrong(array.shape()));
+    }
+    Err(errors::input("the image must be an array of uint8, uint16 or float32 (0 to 255)"))
+}

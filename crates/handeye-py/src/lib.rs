@@ -1,0 +1,38 @@
+//! The compiled half of the Python package: numbers and files in, numbers and JSON out.
+//!
+//! What users see is `python/handeye`; it gives these functions their types, names and shapes.
+
+#![allow(clippy::result_large_err, reason = "an error ends the work: its size costs nothing")]
+
+mod arrays;
+mod calibration;
+mod closed_form;
+mod errors;
+mod images;
+mod opencv;
+mod scans;
+mod working;
+
+use pyo3::prelude::*;
+
+/// Compiled functions of handeye.
+#[pymodule]
+mod _core {
+    use super::{Bound, PyModule, PyModuleMethods, PyResult};
+    #[pymodule_export]
+    use super::{
+        calibration::{Calibrated, calibrate, solve, solve_streams},
+        closed_form::closed_form,
+        errors::{HandEyeError, InputError, NotDetermined, Rejected},
+        images::detect,
+        opencv::{hand_eye, robot_world_hand_eye},
+        scans::register,
+    };
+    use handeye::Method;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        module.add("METHODS", Method::ALL.map(Method::name).to_vec())
+    }
+}

@@ -1,0 +1,264 @@
+"""Poses, calibrations and the other functions of the package."""
+
+import json
+import pickle
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import handeye
+from handeye import Pose
+
+from cell import X, Y, about_one_axis, cell, rotation
+
+
+def test_poses_multiply_where_their_inner_frames_agree():
+    a = Pose("base", "flange", rotation=[0.1, 0.2, 0.3], translation=[1, 2, 3])
+    b = Pose("flange", "camera", rotation=[0.0, 0.0, 0.0, 1.0], translation=[0, 0, 0.1])
+    chained = a @ b
+    assert (chained.to, chained.from_frame, chained.name) == ("base", "camera", "base_from_camera")
+    assert np.allclose(chained.matrix, a.matrix @ b.matrix)
+    assert np.allclose((a @ a.inverse()).matrix, np.eye(4))
+    points = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+    assert np.allclose(chained @ points, (chained.matrix[:3, :3] @ points.T).T + chained.translation)
+    with pytest.raises(handeye.InputError, match="base_from_flange @ base_from_flange: flange is not base"):
+        a @ a
+
+
+def test_rotations_are_the_same_in_every_notation():
+    random = np.random.default_rng(1)
+    for _ in range(200):
+        axis = random.normal(size=3)
+        vector = axis / np.linalg.norm(axis) * random.choice([1e-9, 0.3, 2.0, np.pi - 1e-9, np.pi])
+        pose = Pose("a", "b", rotation=vector)
+        angle = np.linalg.norm(vector)
+        assert np.isclose(pose.rotation.trace(), 1 + 2 * np.cos(angle))
+        assert np.allclose(pose.rotation @ vector, vector)
+        again = Pose("a", "b", rotation=pose.quaternion_xyzw)
+        assert np.allclose(again.rotation, pose.rotation, atol=1e-12)
+        assert pose.quaternion_xyzw[3] >= 0
+        back = pose.rotation_vector
+        assert np.allclose(back, vector, atol=1e-7) or np.isclose(angle, np.pi, atol=1e-8)
+
+
+def test_what_is_no_pose_is_refused():
+    for matrix in [np.eye(3), np.diag([1.0, 1.0, -1.0, 1.0]), 2 * np.eye(4), np.full((4, 4), np.nan)]:
+        with pytest.raises(handeye.InputError):
+            Pose("a", "b", matrix)
+    with pytest.raises(handeye.InputError, match="length 1"):
+        Pose("a", "b", rotation=[1.0, 1.0, 0.0, 0.0])
+    with pytest.raises(ValueError):
+        Pose("a", "b").matrix[0, 3] = 1.0
+
+
+def test_poses_go_through_pickle_and_dict():
+    pose = Pose("base", "camera", rotation=[0.1, 0.2, 0.3], translation=[1, 2, 3])
+    assert pickle.loads(pickle.dumps(pose)) == pose
+    again = Pose.from_dict(json.loads(json.dumps(pose.to_dict())))
+    assert np.allclose(again.matrix, pose.matrix) and again.name == pose.name
+    assert hash(pickle.loads(pickle.dumps(pose))) == hash(pose)
+
+
+@pytest.mark.parametrize("setup", ["eye-in-hand", "eye-to-hand"])
+def test_poses_are_calibrated_with_their_uncertainty(setup):
+    errors = []
+    for seed in range(10):
+        robot, camera = cell(15, seed=seed)
+        if setup == "eye-to-hand":
+            robot = np.linalg.inv(robot)
+        found = handeye.solve(robot, camera, setup=setup)
+        assert found.accepted and found.verdict == "accepted" and found.setup == setup
+        mount = "flange" if setup == "eye-in-hand" else "base"
+        assert found.pose.name == f"{mount}_from_camera"
+        off = np.linalg.inv(X) @ found.pose.matrix
+        error = np.append(Pose("a", "b", off).rotation_vector, off[:3, 3])
+        errors.append(error @ np.linalg.solve(found.covariance, error) / 6)
+        assert np.allclose(found.anchor_from_target.matrix, Y, atol=3e-3)
+        assert np.allclose(found.sigma[1], 1e3 * np.sqrt(np.diag(found.covariance))[3:])
+    assert 0.3 < np.mean(errors) < 2.0
+
+
+def test_frames_of_given_poses_are_checked():
+    robot, camera = cell()
+    flange = [Pose("base", "flange", m) for m in robot]
+    target = [Pose("camera", "target", m) for m in camera]
+    found = handeye.solve(flange, target, setup="eye-in-hand")
+    assert found == handeye.solve(robot, camera, setup="eye-in-hand")
+    with pytest.raises(handeye.InputError, match="pose 0 is flange_from_base"):
+        handeye.solve([p.inverse() for p in flange], target, setup="eye-in-hand")
+
+
+def test_what_is_not_determined_is_none_and_named():
+    found = handeye.solve(*about_one_axis(), setup="eye-in-hand")
+    assert found.verdict == "undetermined" and not found.accepted
+    assert found.mount_from_camera is None and found.covariance is None and found.undetermined
+    with pytest.raises(handeye.NotDetermined, match="axis"):
+        found.pose
+    assert "undetermined" in repr(found)
+
+
+def test_a_wrong_capture_is_left_out_by_name():
+    robot, camera = cell()
+    camera[4] = camera[4] @ np.diag([-1.0, -1.0, 1.0, 1.0])
+    names = [f"shot_{k}" for k in range(len(robot))]
+    found = handeye.solve(robot, camera, setup="eye-in-hand", ids=names)
+    assert found.accepted and found.rejected == ["shot_4"]
+
+
+def test_calibrations_go_through_pickle_dict_and_files(tmp_path):
+    found = handeye.solve(*cell(), setup="eye-in-hand")
+    for again in [
+        pickle.loads(pickle.dumps(found)),
+        handeye.Calibration.from_dict(json.loads(json.dumps(found.to_dict()))),
+        handeye.Calibration.from_json(found.to_json()),
+    ]:
+        assert again == found and again.to_json() == found.to_json()
+    page = found.save(tmp_path / "out")
+    assert handeye.Calibration.load(tmp_path / "out" / "calibration.json") == found
+    assert "<html" in page.read_text("utf-8")
+    assert "accepted" in found.report(tmp_path / "x.html", title="my cell").read_text("utf-8").lower()
+    assert "my cell" in (tmp_path / "x.html").read_text("utf-8")
+    with pytest.raises(handeye.InputError, match="no calibration"):
+        handeye.Calibration.from_json("{}")
+
+
+def test_results_go_to_other_programs(tmp_path):
+    found = handeye.solve(*cell(), setup="eye-in-hand")
+    r, t = found.to_opencv()
+    assert r.shape == (3, 3) and t.shape == (3, 1) and np.allclose(t[:, 0], found.pose.translation)
+    stamped = found.to_ros(child="camera_optical_frame")
+    assert stamped["header"]["frame_id"] == "flange"
+    assert list(stamped["transform"]["rotation"]) == ["x", "y", "z", "w"]
+    assert np.isclose(stamped["transform"]["translation"]["x"], found.pose.translation[0])
+    assert b"<joint" in found.export("urdf")
+    assert np.allclose(np.load(found.export("npy", tmp_path)), found.pose.matrix)
+    with pytest.raises(handeye.InputError, match="urdf"):
+        found.export("nothing")
+
+
+def test_a_notebook_shows_a_table_without_scripts():
+    html = handeye.solve(*cell(), setup="eye-in-hand")._repr_html_()
+    assert html.startswith("<table>") and "accepted" in html and "<script" not in html
+
+
+def test_streams_with_clocks_of_their_own_are_aligned():
+    times = np.arange(0.0, 20.0, 0.02)
+    path = np.array([np.sin(0.5 * times), np.sin(0.8 * times + 1), np.sin(0.3 * times + 2)]).T
+
+    def base_from_flange(k):
+        turn = rotation([0.5 * path[k, 0], 0.6 * path[k, 1], 0.7 * path[k, 2]])
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = turn, [0.5, 0.1, 0.4] + 0.1 * path[k]
+        return matrix
+
+    robot = np.array([base_from_flange(k) for k in range(len(times))])
+    camera = np.linalg.inv(X) @ np.linalg.inv(robot) @ Y
+    found = handeye.solve(
+        robot,
+        camera[::3],
+        setup="eye-in-hand",
+        robot_times_s=times,
+        camera_times_s=times[::3] + 0.035,
+    )
+    assert abs(found.to_dict()["time_offset_s"] - 0.035) < 1e-3
+    assert np.allclose(found.pose.matrix, X, atol=2e-3)
+
+
+@pytest.mark.parametrize("method", handeye.METHODS)
+def test_every_published_method_solves_exact_data(method):
+    robot, camera = cell(noise=0.0)
+    x, y = handeye.closed_form(robot, camera, setup="eye-in-hand", method=method)
+    assert (x.name, y.name) == ("flange_from_camera", "base_from_target")
+    assert np.allclose(x.matrix, X, atol=1e-6) and np.allclose(y.matrix, Y, atol=1e-6)
+
+
+def test_corners_are_found_in_a_picture():
+    square, columns, rows = 40, 7, 5
+    image = np.full((480, 640), 230, np.uint8)
+    for row in range(rows + 1):
+        for column in range(columns + 1):
+            if (row + column) % 2 == 0:
+                y, x = 60 + row * square, 100 + column * square
+                image[y : y + square, x : x + square] = 20
+    target = {"kind": "checkerboard", "columns": columns, "rows": rows, "square_mm": 30.0}
+    expected = np.array(
+        [(99.5 + square * (c + 1), 59.5 + square * (r + 1)) for r in range(rows) for c in range(columns)]
+    )
+    for picture in [image, np.stack([image] * 3, axis=2), (image.astype(np.uint16) << 8), image.astype(np.float32)]:
+        found = handeye.detect(picture, target)
+        assert found.found and sorted(found.ids.tolist()) == list(range(35))
+        assert found.covariances.shape == (35, 2, 2)
+        nearest = np.abs(found.pixels[:, None] - expected[None]).max(axis=2).min(axis=1)
+        assert nearest.max() < 0.02
+    empty = handeye.detect(np.full((100, 100), 128, np.uint8), target)
+    assert not empty.found and empty.reason and len(empty.ids) == 0
+    with pytest.raises(handeye.InputError, match="kind"):
+        handeye.detect(image, {"columns": 7})
+    with pytest.raises(handeye.InputError, match="shape"):
+        handeye.detect(np.zeros((3, 4, 5, 6), np.uint8), target)
+
+
+def surface(random, count):
+    """Points on uneven ground."""
+    x, y = random.uniform(-0.3, 0.3, (2, count))
+    z = 0.03 * np.sin(9 * x + 1) * np.cos(7 * y) + 0.02 * np.sin(17 * y + 5 * x * x)
+    return np.stack([x, y, z], axis=1) + 2e-4 * random.normal(size=(count, 3))
+
+
+def test_scans_are_registered():
+    random = np.random.default_rng(3)
+    truth = Pose("target", "source", rotation=[0.2, -0.1, 0.4], translation=[0.3, 0.1, 0.2])
+    source, target = surface(random, 30_000), truth @ surface(random, 30_000)
+    start = np.array(truth.matrix)
+    start[:3, 3] += 0.004
+    for initial in [start, Pose("target", "source", start)]:
+        found = handeye.register(source.astype(np.float32), target, initial=initial)
+        assert found.accepted and found.target_from_source.name == "target_from_source"
+        assert np.allclose(found.target_from_source.matrix, truth.matrix, atol=2e-4)
+        assert found.covariance.shape == (6, 6) and abs(found.size_ratio - 1) < 2e-3
+    assert handeye.register(source, target, search=True).accepted
+    with pytest.raises(handeye.InputError, match="shape"):
+        handeye.register(source[:, :2], target)
+
+
+def test_other_threads_run_while_a_calibration_does():
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    handeye.solve(*cell(300), setup="eye-in-hand")
+    done.set()
+    thread.join()
+    assert len(ticks) > 5
+
+
+INTERRUPTED = """
+import _thread, threading, time, sys
+sys.path.insert(0, {folder!r})
+import handeye
+from cell import cell
+robot, camera = cell(4000)
+threading.Timer(0.3, _thread.interrupt_main).start()
+try:
+    handeye.solve(robot, camera, setup="eye-in-hand")
+    print("finished")
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+
+
+def test_ctrl_c_ends_long_work():
+    folder = __file__.rsplit("/", 1)[0]
+    run = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED.format(folder=folder)], capture_output=True, text=True, timeout=300
+    )
+    assert run.stdout.strip() == "interrupted", run.stdout + run.stderr
