@@ -1,12 +1,9 @@
 //! What ends the program without an answer: for people on standard error, for programs, with
 //! `--json`, as one document on standard output.
 
-use std::{
-    fmt, io,
-    path::{Path, PathBuf},
-};
+use std::{fmt, io, path::Path};
 
-use serde::Serialize;
+use handeye_io::Problem;
 use serde_json::json;
 
 use crate::output;
@@ -18,19 +15,6 @@ pub enum Failure {
     Input(Box<Problem>),
     /// The command line is wrong: exit code 2.
     Usage(String),
-}
-
-/// What is wrong with the input, and where, as far as that is known.
-#[derive(Debug, Serialize)]
-pub struct Problem {
-    code: &'static str,
-    message: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    file: Option<PathBuf>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    capture: Option<String>,
 }
 
 impl Failure {
@@ -113,13 +97,6 @@ impl Failure {
     }
 }
 
-impl Problem {
-    /// A problem of no known place.
-    pub fn new(code: &'static str, message: String) -> Self {
-        Problem { code, message, file: None, line: None, capture: None }
-    }
-}
-
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
@@ -131,26 +108,12 @@ impl fmt::Display for Failure {
 
 impl From<handeye::Error> for Failure {
     fn from(error: handeye::Error) -> Self {
-        use handeye::Error as E;
-        let code = match error {
-            E::TooFewPoses { .. } | E::TooFewSamples { .. } | E::TooFewPoints { .. } => {
-                "too-few-data"
-            }
-            E::Collinear { .. } | E::NotDetermined { .. } => "not-determined",
-            _ => "unusable",
-        };
-        Failure::new(Problem::new(code, error.to_string()))
+        Failure::new(Problem::from(error))
     }
 }
 
 impl From<handeye_io::Error> for Failure {
     fn from(error: handeye_io::Error) -> Self {
-        let place = error.place();
-        Failure::new(Problem {
-            file: Some(place.file),
-            line: place.line,
-            capture: error.capture().map(String::from),
-            ..Problem::new(error.code(), error.to_string())
-        })
+        Failure::new(Problem::from(error))
     }
 }

@@ -9,11 +9,11 @@ use std::{
 
 use handeye::{
     Scan, TriangleMesh, Verdict, Warning,
-    calibration::{Rows, rows},
-    register::{Dense, DenseConfig, DenseMethod, Stop, Surface, register_surfaces},
+    register::{DenseConfig, DenseMethod, Surface, register_surfaces},
 };
 use handeye_io::{
-    Error, ScanOptions, is_mesh, points_on, read_intrinsics, read_mesh, read_scan,
+    Error, RegistrationResult, ScanOptions, Transform, is_mesh, points_on, read_intrinsics,
+    read_mesh, read_scan,
     report::{NamedCloud, Registration, registration_html},
     scan_size, scan_unit,
     units::LengthUnit,
@@ -37,13 +37,6 @@ const BEYOND: (usize, usize) = (100, 10);
 /// Rotations may be off by so much from one of length one.
 const ROUNDED: f64 = 1e-3;
 
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Transform {
-    translation_m: [f64; 3],
-    rotation_xyzw: [f64; 4],
-}
-
 /// What `--initial` may hold.
 #[derive(Deserialize)]
 #[serde(
@@ -66,22 +59,9 @@ struct Seconds {
 
 #[derive(Serialize)]
 struct Answer {
-    verdict: Verdict,
-    reasons: Vec<String>,
-    target_from_source: Transform,
-    covariance: Option<Rows>,
-    sigma_mm: Option<[f64; 3]>,
-    sigma_deg: Option<[f64; 3]>,
-    undetermined: Vec<String>,
+    #[serde(flatten)]
+    found: RegistrationResult,
     method: &'static str,
-    iterations: usize,
-    stop: &'static str,
-    inlier_fraction: f64,
-    agreement: f64,
-    size_ratio: Option<f64>,
-    size_sigma: Option<f64>,
-    rms_mm: Option<f64>,
-    residual_sigma: Option<f64>,
     points: [usize; 2],
     seconds: Seconds,
     warnings: Vec<Warning>,
@@ -126,7 +106,8 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         write_atomically(page, html.as_bytes())?;
     }
     let points = [&source, &target].map(|scan| seen(scan.points()).count());
-    let answer = answer(&found, method, points, seconds, warnings);
+    let found = RegistrationResult::from(&found);
+    let answer = Answer { found, method, points, seconds, warnings };
     if manners.json {
         output::json(&answer);
     } else {
@@ -136,7 +117,7 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     if let Some(page) = args.report.as_ref().filter(|_| !manners.quiet) {
         eprintln!("report: {}", page.display());
     }
-    Ok(if answer.verdict == Verdict::Accepted { 0 } else { 3 })
+    Ok(if answer.found.verdict == Verdict::Accepted { 0 } else { 3 })
 }
 
 /// How to compare, and the method's name.
@@ -347,67 +328,25 @@ fn width(points: &[[f32; 3]], one_in: usize) -> f64 {
     })
 }
 
-fn answer(
-    found: &Dense,
-    method: &'static str,
-    points: [usize; 2],
-    seconds: Seconds,
-    warnings: Vec<Warning>,
-) -> Answer {
-    let pose = &found.target_from_source;
-    let sigma = |first: usize, scale: f64| {
-        found.covariance.map(|c| std::array::from_fn(|k| c[(first + k, first + k)].sqrt() * scale))
-    };
-    Answer {
-        verdict: found.verdict,
-        reasons: found.reasons.clone(),
-        target_from_source: Transform {
-            translation_m: pose.translation.vector.into(),
-            rotation_xyzw: pose.rotation.coords.into(),
-        },
-        covariance: found.covariance.as_ref().map(rows),
-        sigma_mm: sigma(3, 1e3),
-        sigma_deg: sigma(0, 1f64.to_degrees()),
-        undetermined: found.undetermined.clone(),
-        method,
-        iterations: found.iterations,
-        stop: match found.stop {
-            Stop::Converged => "converged",
-            Stop::Fitness => "fitness",
-            Stop::NoMatches => "no-matches",
-            Stop::MaxIterations => "max-iterations",
-        },
-        inlier_fraction: found.inlier_fraction,
-        agreement: found.agreement,
-        size_ratio: found.size.map(|size| size.ratio),
-        size_sigma: found.size.map(|size| size.sigma),
-        rms_mm: Some(found.rms_m * 1e3).filter(|x| x.is_finite()),
-        residual_sigma: Some(found.sigma).filter(|x| x.is_finite()),
-        points,
-        seconds,
-        warnings,
-    }
-}
-
 fn text(a: &Answer) -> String {
     let three = |v: &[f64; 3]| v.map(|x| format!("{x:12.3}")).join("");
-    let mut text = format!("\n{}\n", output::verdict(a.verdict));
-    text += &a.reasons.iter().map(|reason| output::wrapped("  ", reason)).collect::<String>();
-    let pose = &a.target_from_source;
+    let mut text = format!("\n{}\n", output::verdict(a.found.verdict));
+    text += &a.found.reasons.iter().map(|reason| output::wrapped("  ", reason)).collect::<String>();
+    let pose = &a.found.target_from_source;
     let q = pose.rotation_xyzw.map(|x| format!("{x:12.6}")).join("");
     text += &format!(
         "\ntarget from source\n  translation  {}   mm\n  quaternion   {q}   x y z w\n",
         three(&pose.translation_m.map(|x| 1e3 * x))
     );
-    if let (Some(mm), Some(deg)) = (&a.sigma_mm, &a.sigma_deg) {
+    if let (Some(mm), Some(deg)) = (&a.found.sigma_mm, &a.found.sigma_deg) {
         text += &format!(
             "  one sigma    {}   mm\n               {}   deg, in the source's axes\n",
             three(mm),
             three(deg)
         );
     }
-    let Some(rms) = a.rms_mm else { return text };
-    if let (Some(ratio), Some(sigma)) = (a.size_ratio, a.size_sigma) {
+    let Some(rms) = a.found.rms_mm else { return text };
+    if let (Some(ratio), Some(sigma)) = (a.found.size_ratio, a.found.size_sigma) {
         let (percent, sigma) = (100.0 * (ratio - 1.0), 100.0 * sigma);
         text += &format!(
             "  size         {percent:+12.3} %, one sigma {sigma:.3} %; target over source\n"
@@ -419,11 +358,11 @@ fn text(a: &Answer) -> String {
         &format!(
             "{:.0} % of the source lies on the target, {:.3} mm apart (RMS); where both show something, \
              {:.1} % agree. {} rounds ({}). Read in {:.2} s, prepared in {:.2} s, registered in {:.2} s.",
-            100.0 * a.inlier_fraction,
+            100.0 * a.found.inlier_fraction,
             rms,
-            100.0 * a.agreement,
-            a.iterations,
-            a.stop,
+            100.0 * a.found.agreement,
+            a.found.iterations,
+            a.found.stop,
             a.seconds.read,
             a.seconds.prepare,
             a.seconds.iterate,

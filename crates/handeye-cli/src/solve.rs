@@ -1,12 +1,7 @@
 //! `handeye solve`: poses in, answer out.
 
-use std::collections::BTreeMap;
-
-use handeye::{
-    Calibration, Config, Method, Warning, calibrate_sequence, calibrate_streams,
-    calibrate_unscaled, certify::certify_result,
-};
-use handeye_io::{MeasuredPoses, PosesFile, read_poses};
+use handeye::{Calibration, Config, Method, Warning, certify::certify_result};
+use handeye_io::read_poses;
 
 use crate::{
     args::{Manners, SolveArgs},
@@ -17,8 +12,7 @@ use crate::{
 pub fn run(args: &SolveArgs, manners: &Manners) -> Result<u8, Failure> {
     let method = args.method.as_deref().map(method).transpose()?;
     let input = read_poses(&args.pairs)?;
-    let config = Config { method, known: input.noise, ..Config::default() };
-    let mut calibration = solved(&input, &config)?;
+    let mut calibration = input.calibrate(&Config { method, ..Config::default() })?;
     if args.certify {
         certify(&mut calibration);
     }
@@ -37,16 +31,6 @@ fn certify(calibration: &mut Calibration) {
         Err(error) => format!("the least-squares fit cannot be certified: {error}"),
     };
     calibration.warnings.push(Warning::new("not-certified", message));
-}
-
-fn solved(input: &PosesFile, config: &Config) -> Result<Calibration, Failure> {
-    Ok(match &input.measured {
-        MeasuredPoses::Streams(streams) => calibrate_streams(streams, config)?,
-        MeasuredPoses::Pairs(session) if input.unknown_scale => {
-            calibrate_unscaled(session, config)?
-        }
-        MeasuredPoses::Pairs(session) => calibrate_sequence(session, &BTreeMap::new(), config)?,
-    })
 }
 
 fn show(calibration: &Calibration, manners: &Manners) {

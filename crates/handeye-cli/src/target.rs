@@ -7,6 +7,7 @@ use std::{
 
 use handeye::{TargetModel, target::AprilTagFamily};
 use handeye_io::{
+    Problem,
     drawing::{self, DrawingError, Paper},
     read_target, target_toml, write_atomically,
 };
@@ -14,7 +15,7 @@ use serde_json::json;
 
 use crate::{
     args::{Manners, TargetArgs},
-    failure::{Failure, Problem},
+    failure::Failure,
     output,
 };
 

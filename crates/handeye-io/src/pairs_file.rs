@@ -1,10 +1,14 @@
 //! Poses of robot and target as JSON: pairs, or two streams.
 
-use std::{collections::HashSet, path::Path};
+use std::{
+    collections::{BTreeMap, HashSet},
+    path::Path,
+};
 
 use handeye::{
-    Base, Camera, Flange, Frame, Observation, Pose, Session, Setup, Stamped, Streams, Target,
-    refine::KnownNoise, solve::FEWEST_POSES,
+    Base, Calibration, Camera, Config, Flange, Frame, Observation, Pose, Session, Setup, Stamped,
+    Streams, Target, calibrate_sequence, calibrate_streams, calibrate_unscaled, refine::KnownNoise,
+    solve::FEWEST_POSES,
 };
 use serde::{
     Deserialize, Deserializer,
@@ -35,6 +39,23 @@ pub struct PosesFile {
     pub unknown_scale: bool,
     /// What it says of the robot's noise.
     pub noise: KnownNoise,
+}
+
+impl PosesFile {
+    /// Calibrates from its poses; what it says of noise comes before `config`.
+    ///
+    /// # Errors
+    /// As [`calibrate_sequence`].
+    pub fn calibrate(&self, config: &Config) -> Result<Calibration, handeye::Error> {
+        let config = Config { known: self.noise, ..config.clone() };
+        match &self.measured {
+            MeasuredPoses::Streams(streams) => calibrate_streams(streams, &config),
+            MeasuredPoses::Pairs(session) if self.unknown_scale => {
+                calibrate_unscaled(session, &config)
+            }
+            MeasuredPoses::Pairs(session) => calibrate_sequence(session, &BTreeMap::new(), &config),
+        }
+    }
 }
 
 #[derive(Deserialize)]
