@@ -11,6 +11,7 @@ mod errors;
 mod images;
 mod opencv;
 mod scans;
+mod simulation;
 mod working;
 
 use pyo3::prelude::*;
@@ -27,6 +28,7 @@ mod _core {
         images::detect,
         opencv::{hand_eye, robot_world_hand_eye},
         scans::register,
+        simulation::simulate,
     };
     use handeye::Method;
 

@@ -1,6 +1,7 @@
 """Poses, calibrations and the other functions of the package."""
 
 import json
+import pathlib
 import pickle
 import subprocess
 import sys
@@ -262,3 +263,46 @@ def test_ctrl_c_ends_long_work():
         [sys.executable, "-c", INTERRUPTED.format(folder=folder)], capture_output=True, text=True, timeout=300
     )
     assert run.stdout.strip() == "interrupted", run.stdout + run.stderr
+
+
+def test_a_simulated_folder_is_calibrated(tmp_path):
+    told = []
+    names = handeye.simulate(tmp_path / "cell", captures=8, width=640, height=400)
+    assert "truth.json" in names and (tmp_path / "cell" / "handeye.toml").exists()
+    found = handeye.calibrate(
+        tmp_path / "cell", out=tmp_path / "out", progress=lambda done, count: told.append((done, count))
+    )
+    assert found.accepted and told[-1][0] == told[-1][1] >= 8
+    assert len(found.captures) == 8 and len(found.candidates) > 2
+    page = (tmp_path / "out" / "report.html").read_text("utf-8")
+    assert "data:image" in page
+    assert found.report(tmp_path / "again.html").read_text("utf-8") == page
+    with pytest.raises(handeye.InputError, match="does not exist") as caught:
+        handeye.calibrate(tmp_path / "nowhere")
+    assert caught.value.code == "cannot-read" and caught.value.file
+    with pytest.raises(handeye.InputError, match="captures"):
+        handeye.simulate(tmp_path / "none", captures=0)
+    (tmp_path / "cell" / "poses.csv").write_text("mine")
+    with pytest.raises(handeye.InputError, match="force"):
+        handeye.simulate(tmp_path / "cell", captures=8, width=640, height=400)
+
+
+def test_an_error_in_a_progress_callback_ends_the_work(tmp_path):
+    handeye.simulate(tmp_path / "cell", captures=8, width=640, height=400)
+
+    def fails(done, count):
+        raise RuntimeError("stop here")
+
+    with pytest.raises(RuntimeError, match="stop here"):
+        handeye.calibrate(tmp_path / "cell", progress=fails)
+
+
+EXAMPLES = sorted((pathlib.Path(__file__).resolve().parent.parent / "examples").glob("*.py"))
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_run(example, tmp_path):
+    run = subprocess.run(
+        [sys.executable, str(example)], capture_output=True, text=True, timeout=600, cwd=tmp_path
+    )
+    assert run.returncode == 0, run.stdout + run.stderr

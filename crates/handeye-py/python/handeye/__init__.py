@@ -17,7 +17,16 @@ from ._core import (
     Rejected,
     __version__,
 )
-from ._functions import Corners, Registration, calibrate, closed_form, detect, register, solve
+from ._functions import (
+    Corners,
+    Registration,
+    calibrate,
+    closed_form,
+    detect,
+    register,
+    simulate,
+    solve,
+)
 from ._pose import Pose
 
 __all__ = [
@@ -36,5 +45,6 @@ __all__ = [
     "closed_form",
     "detect",
     "register",
+    "simulate",
     "solve",
 ]

@@ -23,6 +23,7 @@ __all__ = [
     "hand_eye",
     "register",
     "robot_world_hand_eye",
+    "simulate",
     "solve",
     "solve_streams",
 ]
@@ -115,6 +116,20 @@ def register(
     is_global: bool = False,
     threads: int = 1,
 ) -> _Registration: ...
+def simulate(
+    out: _Path,
+    setup_name: str,
+    *,
+    seed: int = 1,
+    captures: int = 15,
+    width: int = 1920,
+    height: int = 1200,
+    target_json: Optional[str] = None,
+    images: bool = True,
+    scans: bool = False,
+    exact: bool = False,
+    force: bool = False,
+) -> list[str]: ...
 def hand_eye(
     r_gripper2base: Any, t_gripper2base: Any, r_target2cam: Any, t_target2cam: Any, method: int
 ) -> Tuple[_Array, _Array, list[str]]: ...

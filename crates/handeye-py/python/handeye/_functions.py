@@ -237,6 +237,45 @@ def register(
     )
 
 
+def simulate(
+    out: Path,
+    *,
+    setup: str = "eye-in-hand",
+    seed: int = 1,
+    captures: int = 15,
+    width: int = 1920,
+    height: int = 1200,
+    target: Optional[Mapping[str, Any]] = None,
+    images: bool = True,
+    scans: bool = False,
+    exact: bool = False,
+    force: bool = False,
+) -> List[str]:
+    """Writes a dataset whose truth is known, for :func:`calibrate`; ``truth.json`` holds the answer.
+
+    :param out: the folder; it is made if need be, and written over only if it holds an earlier simulation.
+    :param target: as for :func:`detect`; a checkerboard of 9 x 6 corners where it is left out.
+    :param images: pictures; else lists of corners.
+    :param scans: organised clouds (PLY, m) as well.
+    :param exact: no noise at all, of nothing.
+    :param force: write into a folder that holds other files.
+    :returns: names of the files. The same arguments give the same bytes.
+    """
+    return _core.simulate(
+        fspath(out),
+        setup,
+        seed=seed,
+        captures=captures,
+        width=width,
+        height=height,
+        target_json=None if target is None else json.dumps(dict(target)),
+        images=images,
+        scans=scans,
+        exact=exact,
+        force=force,
+    )
+
+
 def _poses(poses: Any, to: str, from_frame: str) -> Any:
     """As N x 4 x 4; frames of poses are checked."""
     import numpy as np

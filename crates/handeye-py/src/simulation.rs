@@ -1,0 +1,93 @@
+//! Datasets whose truth is known.
+
+use std::path::PathBuf;
+
+use handeye::{
+    Intrinsics, TargetModel,
+    simulate::{Cell, CellNoise, DepthSensor, Optics},
+};
+use handeye_io::simulated::{self, ScanFormat, Writing};
+use pyo3::prelude::*;
+
+use crate::{closed_form::setup, errors, working};
+
+/// Most captures: more are mistakes.
+const MOST: usize = 999;
+/// Largest side of a picture, px.
+const LARGEST_PX: u32 = 10_000;
+/// Focal length in picture widths.
+const FOCAL: f64 = 0.9375;
+
+/// Writes a dataset and its truth; names of the files.
+#[pyfunction]
+#[pyo3(signature = (out, setup_name, *, seed=1, captures=15, width=1920, height=1200, target_json=None, images=true, scans=false, exact=false, force=false))]
+#[allow(clippy::too_many_arguments, reason = "each is one of Python's keywords")]
+pub fn simulate(
+    py: Python<'_>,
+    out: PathBuf,
+    setup_name: &str,
+    seed: u64,
+    captures: usize,
+    width: u32,
+    height: u32,
+    target_json: Option<&str>,
+    images: bool,
+    scans: bool,
+    exact: bool,
+    force: bool,
+) -> PyResult<Vec<String>> {
+    if !(1..=MOST).contains(&captures) {
+        return Err(errors::input(format!("captures must be between 1 and {MOST}")));
+    }
+    if !(1..=LARGEST_PX).contains(&width) || !(1..=LARGEST_PX).contains(&height) {
+        return Err(errors::input(format!("pictures have 1 to {LARGEST_PX} pixels a side")));
+    }
+    let usual = Cell::new(setup(setup_name)?, seed);
+    let target = match target_json {
+        None => TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 },
+        Some(text) => serde_json::from_str(text)
+            .map_err(|error| errors::input(format!("no target: {error}")))?,
+    };
+    target.check().map_err(|error| errors::of_core(&error))?;
+    let (w, h) = (f64::from(width), f64::from(height));
+    let cell = Cell {
+        target,
+        intrinsics: Intrinsics::pinhole(
+            width,
+            height,
+            FOCAL * w,
+            FOCAL * w,
+            0.5 * (w - 1.0),
+            0.5 * (h - 1.0),
+        ),
+        noise: if exact { CellNoise::NONE } else { usual.noise },
+        optics: Optics { noise: if exact { 0.0 } else { usual.optics.noise }, ..usual.optics },
+        depth: scans.then(|| {
+            let usual = DepthSensor::default();
+            DepthSensor { sigma_at_1m: if exact { 0.0 } else { usual.sigma_at_1m }, ..usual }
+        }),
+        captures,
+        ..usual
+    };
+    if let Some(foreign) = simulated::foreign(&out).filter(|_| !force) {
+        return Err(errors::input(format!(
+            "{}: was not written by `simulate`, or was edited since: name another folder, or say force=True",
+            foreign.display()
+        )));
+    }
+    let work = move |_: &(dyn Fn(usize, usize) + Sync)| {
+        let recording = cell.record(seed).map_err(Failed::Core)?;
+        let writing = Writing { images, scans: ScanFormat::Ply };
+        simulated::write(&recording, &out, writing).map_err(Failed::Files)
+    };
+    working::run(py, None, work)?.map_err(|error| match error {
+        Failed::Core(error) => errors::of_core(&error),
+        Failed::Files(error) => errors::of_files(py, &error),
+    })
+}
+
+/// Where it went wrong.
+enum Failed {
+    Core(handeye::Error),
+    Files(handeye_io::Error),
+}
