@@ -6,8 +6,12 @@ use pyo3::{prelude::*, types::PyDict};
 
 use crate::errors::input;
 
-/// Entries of a rotation may be off by so much.
-const ROUNDED: f64 = 1e-3;
+/// Entries of a rotation may be off by so much: it was printed with few digits.
+const ROUNDED: f64 = 1e-2;
+/// Steps to the nearest rotation; each doubles the digits.
+const STEPS: usize = 4;
+/// No cell is so large, in metres or millimetres.
+const FARTHEST: f64 = 1e9;
 
 /// A few numbers and their shape.
 struct Few {
@@ -56,7 +60,7 @@ pub fn rotation(item: &Bound<'_, PyAny>, name: &str, k: usize) -> PyResult<Matri
     match (few.count, few.is_square) {
         (9, true) => {
             let matrix = Matrix3::from_row_slice(&few.numbers[..9]);
-            check_rotation(&matrix, &format!("{name}[{k}]")).map(|()| matrix)
+            nearest_rotation(&matrix, &format!("{name}[{k}]"))
         }
         (3, _) => {
             let vector = Vector3::from_column_slice(&few.numbers[..3]);
@@ -69,8 +73,8 @@ pub fn rotation(item: &Bound<'_, PyAny>, name: &str, k: usize) -> PyResult<Matri
     }
 }
 
-/// Refuses what turns nothing, mirrors or stretches.
-fn check_rotation(matrix: &Matrix3<f64>, name: &str) -> PyResult<()> {
+/// The rotation that a matrix is but for rounding; refuses what turns nothing, mirrors or stretches.
+fn nearest_rotation(matrix: &Matrix3<f64>, name: &str) -> PyResult<Matrix3<f64>> {
     let off = (matrix * matrix.transpose() - Matrix3::identity()).amax();
     if !(off < ROUNDED) {
         return Err(input(format!(
@@ -80,7 +84,13 @@ fn check_rotation(matrix: &Matrix3<f64>, name: &str) -> PyResult<()> {
     if matrix.determinant() < 0.0 {
         return Err(input(format!("{name} is no rotation: it mirrors (its determinant is -1)")));
     }
-    Ok(())
+    let mut nearest = *matrix;
+    for _ in 0..STEPS {
+        // Newton's step to the orthogonal factor
+        let Some(inverse) = nearest.try_inverse() else { break };
+        nearest = (nearest + inverse.transpose()) * 0.5;
+    }
+    Ok(nearest)
 }
 
 /// Three numbers, in a row or a column.
@@ -92,6 +102,12 @@ pub fn translation(item: &Bound<'_, PyAny>, name: &str, k: usize) -> PyResult<Ve
     let vector = Vector3::from_column_slice(&few.numbers[..3]);
     if vector.iter().any(|x| !x.is_finite()) {
         return Err(input(format!("{name}[{k}] holds a number that is NaN or infinite")));
+    }
+    if vector.amax() > FARTHEST {
+        return Err(input(format!(
+            "{name}[{k}] lies {:.1e} away, beyond any robot or camera",
+            vector.amax()
+        )));
     }
     Ok(vector)
 }
@@ -121,10 +137,21 @@ pub fn poses(array: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<(Matrix3<f64>
                 )));
             }
             let rotation = matrix.fixed_view::<3, 3>(0, 0).into_owned();
-            check_rotation(&rotation, &named)?;
+            let rotation = nearest_rotation(&rotation, &named)?;
             Ok((rotation, matrix.fixed_view::<3, 1>(0, 3).into_owned()))
         })
         .collect()
+}
+
+/// One homogeneous matrix, 4 x 4.
+pub fn pose(array: &Bound<'_, PyAny>, name: &str) -> PyResult<(Matrix3<f64>, Vector3<f64>)> {
+    let array = as_array(array)?;
+    let shape = array.cast::<PyArrayDyn<f64>>()?.shape().to_vec();
+    if shape != [4, 4] {
+        return Err(input(format!("{name} has the shape {shape:?}: 4 x 4 is needed")));
+    }
+    let one = poses(&array.call_method1("reshape", (1, 4, 4))?, name)?;
+    one.into_iter().next().ok_or_else(|| input(format!("{name} is empty")))
 }
 
 /// Points as they lie in an array, N x 3 or H x W x 3: columns, rows, and all points.

@@ -193,6 +193,12 @@ pub fn solve_streams(
             .collect(),
         unknown_scale,
     };
+    if let Some(k) = streams.robot.iter().position(|s| s.pose.is_too_far()) {
+        return Err(errors::input(format!("base_from_flange[{k}] lies beyond any robot")));
+    }
+    if let Some(k) = streams.camera.iter().position(|s| s.pose.is_too_far()) {
+        return Err(errors::input(format!("camera_from_target[{k}] lies beyond any camera")));
+    }
     let calibration =
         working::run(py, None, move |_| calibrate_streams(&streams, &Config::default()))?
             .map_err(|error| errors::of_core(&error))?;

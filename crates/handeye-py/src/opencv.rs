@@ -1,8 +1,9 @@
 //! What OpenCV's two functions take and give, with a look at the answer before it is given.
 //!
-//! The answer is that of the method as published. Where its misfit is small and even, and the rotations are about
-//! several axes, it is returned at once. Everything else is held against the recommended estimator, which knows its
-//! uncertainty, and refused where the two contradict each other, or the estimator refuses the data.
+//! The answer is that of the method as published. Where its misfit is small, alike in all poses, without order, no
+//! better with the target in another size, and the rotations are about several axes, it is returned at once. Everything
+//! else is held against the recommended estimator, which knows its uncertainty: what that refuses, and answers that are
+//! grossly off beside it, are refused; what it has to say else comes as a warning.
 
 use std::collections::BTreeMap;
 
@@ -10,13 +11,14 @@ use handeye::{
     Base, Calibration, Camera, Config, Flange, HandEye, Method, Mount, Observation, Pose, PosePair,
     Session, Setup, Target, Verdict, calibrate_sequence, calibration, lie, linalg::median, solve,
 };
-use nalgebra::{Matrix3, Matrix6, Vector3};
+use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyIterator};
 
 use crate::{
     arrays,
     errors::{self, NotDetermined, Rejected},
+    working,
 };
 
 /// Names and numbers of OpenCV's methods.
@@ -33,16 +35,22 @@ const ROBOT_WORLD: [Method; 2] = [Method::Shah, Method::Li];
 const FEW: usize = 6;
 /// Misfits (root mean square) up to which nothing is wrong: rad, and share of the distance to the target.
 const SMALL: (f64, f64) = (5e-3, 5e-3);
-/// One pose's misfit is uneven when it is so many times the median one, ...
-const UNEVEN: f64 = 6.0;
+/// One pose's misfit is uneven when it is so many times the largest that is usual, ...
+const UNEVEN: f64 = 1.5;
+/// Median of the length of three normal numbers.
+const MEDIAN_LENGTH: f64 = 1.538;
 /// ... and more than rounding.
 const ROUNDING: f64 = 1e-7;
 /// Rotations about other axes than the first one, rad, below which they count as about one.
 const SEVERAL_AXES: f64 = 0.1;
 /// Lengths of a cell beyond this are in millimetres.
 const LARGEST_M: f64 = 20.0;
+/// Another size of the target, and neighbours that err alike, count from so many standard deviations on.
+const ORDERLY: f64 = 3.0;
 /// Answers are the same within so many standard deviations.
 const SAME: f64 = 6.0;
+/// They are grossly different from here on: degrees, and share of the distance to the target.
+const GROSS: (f64, f64) = (2.0, 0.05);
 /// Predicted errors above this are told, mm.
 const INACCURATE_MM: f64 = 10.0;
 /// Nobody's answer is better than this: rad, and share of the cell's size.
@@ -71,7 +79,7 @@ pub fn hand_eye<'py>(
         camera_from_target: Pose::from_parts(&b.0, b.1),
     };
     let pairs: Vec<PosePair> = robot.iter().zip(&camera).map(pair).collect();
-    let (found, warnings) = Cell { equations: &pairs, is_reversed: false }.solved(py, method)?;
+    let (found, warnings) = Cell { equations: pairs, is_reversed: false }.solved(py, method)?;
     let x = found.mount_from_camera;
     Ok((
         arrays::of_rotation(py, &x.rotation())?,
@@ -100,8 +108,7 @@ pub fn robot_world_hand_eye<'py>(
         camera_from_target: Pose::from_parts(&b.0, b.1).inverse(),
     };
     let equations: Vec<PosePair> = camera.iter().zip(&robot).map(equation).collect();
-    let cell = Cell { equations: &equations, is_reversed: true };
-    let (found, warnings) = cell.solved(py, method)?;
+    let (found, warnings) = Cell { equations, is_reversed: true }.solved(py, method)?;
     let (z, x) = (found.mount_from_camera, found.anchor_from_target);
     Ok((
         arrays::of_rotation(py, &z.rotation())?,
@@ -157,55 +164,69 @@ fn same_length(lengths: [usize; 2], names: [&str; 2]) -> PyResult<()> {
 }
 
 /// Equations `A X = Y B`, and which side of them the robot is on.
-#[derive(Clone, Copy)]
-struct Cell<'a> {
-    equations: &'a [PosePair],
+struct Cell {
+    equations: Vec<PosePair>,
     /// `A` is the target in the camera, and `B` the base in the gripper.
     is_reversed: bool,
 }
 
-impl Cell<'_> {
+impl Cell {
     fn solved(self, py: Python<'_>, method: Method) -> PyResult<(HandEye, Vec<String>)> {
-        py.detach(|| {
-            let found = solve::solve(self.equations, method);
-            match &found {
-                Ok(found) if self.is_plain(found) => return Ok((*found, vec![])),
-                // what the estimator says of the same data is clearer
-                Err(handeye::Error::NotFinite { .. } | handeye::Error::TooFewPoses { .. })
-                | Ok(_) => {}
-                Err(_) => drop(self.examined(None, method)?),
+        let found = py.detach(|| solve::solve(&self.equations, method));
+        match &found {
+            Ok(found) if self.is_plain(found) => return Ok((*found, vec![])),
+            Err(
+                error @ (handeye::Error::NotFinite { .. } | handeye::Error::TooFewPoses { .. }),
+            ) => {
+                return Err(errors::of_core(error));
             }
-            let found = found.map_err(|error| errors::of_core(&error))?;
-            let warnings = self.examined(Some(&found), method)?;
-            Ok((found, warnings))
-        })
+            _ => {}
+        }
+        let (given, name) = (found.as_ref().ok().copied(), method.name());
+        // where the method failed, what the estimator says of the same data is clearer
+        let warnings = working::run(py, None, move |_| self.examined(given.as_ref(), name))??;
+        Ok((found.map_err(|error| errors::of_core(&error))?, warnings))
     }
 
-    /// Whether an answer fits well and evenly, and rotations are about several axes.
-    fn is_plain(self, found: &HandEye) -> bool {
-        let pairs = self.equations;
-        if pairs.len() < FEW || turning(pairs) < SEVERAL_AXES {
+    /// Whether nothing in an answer calls for a closer look.
+    fn is_plain(&self, found: &HandEye) -> bool {
+        let pairs = &self.equations;
+        if pairs.len() < FEW || turning(pairs) < SEVERAL_AXES || self.is_behind() {
             return false;
         }
         let errors: Vec<_> = pairs.iter().map(|p| found.loop_error(p)).collect();
-        let distance = median(pairs.iter().map(|p| self.seen(p).translation().norm()));
         let is_small_and_even = |all: Vec<f64>, small: f64| {
             let rms = (all.iter().map(|x| x * x).sum::<f64>() / all.len() as f64).sqrt();
             let largest = all.iter().copied().fold(0.0, f64::max);
-            rms < small && largest < UNEVEN * median(all) + ROUNDING
+            // of so many lengths the largest is about this many times the median one
+            let usual = (2.0 * (all.len() as f64).ln() + 3.0).sqrt() / MEDIAN_LENGTH;
+            rms < small && largest < UNEVEN * usual * median(all) + ROUNDING
         };
-        is_small_and_even(errors.iter().map(|e| e.iso().rotation.angle()).collect(), SMALL.0)
-            && is_small_and_even(
-                errors.iter().map(|e| e.translation().norm() / distance).collect(),
-                SMALL.1,
-            )
+        let distance = self.distance();
+        let angles = errors.iter().map(|e| e.iso().rotation.angle()).collect();
+        let shifts: Vec<Vector3<f64>> = errors.iter().map(|e| e.translation() / distance).collect();
+        is_small_and_even(angles, SMALL.0)
+            && is_small_and_even(shifts.iter().map(Vector3::norm).collect(), SMALL.1)
+            && !is_in_order(&shifts)
+            && !is_of_another_size(pairs, found, distance)
     }
 
-    fn seen(self, pair: &PosePair) -> Pose<Camera, Target> {
+    /// Median distance to the target.
+    fn distance(&self) -> f64 {
+        median(self.equations.iter().map(|p| self.seen(p).translation().norm()))
+    }
+
+    /// Whether most targets are behind the camera.
+    fn is_behind(&self) -> bool {
+        let behind = self.equations.iter().filter(|p| self.seen(p).translation().z <= 0.0);
+        2 * behind.count() > self.equations.len()
+    }
+
+    fn seen(&self, pair: &PosePair) -> Pose<Camera, Target> {
         if self.is_reversed { pair.anchor_from_mount.rename() } else { pair.camera_from_target }
     }
 
-    fn reported(self, pair: &PosePair) -> Pose<Base, Flange> {
+    fn reported(&self, pair: &PosePair) -> Pose<Base, Flange> {
         if self.is_reversed {
             pair.camera_from_target.rename()
         } else {
@@ -214,7 +235,7 @@ impl Cell<'_> {
     }
 
     /// Warnings, or why the answer is refused.
-    fn examined(self, found: Option<&HandEye>, method: Method) -> PyResult<Vec<String>> {
+    fn examined(&self, found: Option<&HandEye>, method: &str) -> PyResult<Vec<String>> {
         let size = self.equations.iter().flat_map(|p| {
             [p.anchor_from_mount.translation().amax(), p.camera_from_target.translation().amax()]
         });
@@ -230,24 +251,32 @@ impl Cell<'_> {
             let which = calibration.rejected.join(", ");
             format!("poses {which} (counted from 0) contradict the others")
         };
-        if let Some(found) = found
-            && let Some(apart) = apart(&calibration, &self.mount_from_camera(found), metre)
-        {
-            let why = if calibration.rejected.is_empty() {
-                format!(
-                    "{} is {apart} from the answer that fits these poses best: take another method, or \
-                     handeye.solve",
-                    method.name()
-                )
-            } else {
-                format!("{}: leave them out, or take handeye.solve, which does", left_out())
-            };
-            return Err(Rejected::new_err(why));
-        }
         let mut warnings: Vec<String> =
             calibration.warnings.iter().map(|w| w.message.clone()).collect();
         if !calibration.rejected.is_empty() {
             warnings.insert(0, left_out());
+        }
+        if let Some(found) = found
+            && let Some((degrees, m)) = apart(&calibration, &self.mount_from_camera(found), metre)
+        {
+            let is_gross = degrees > GROSS.0 || m > GROSS.1 * self.distance() * metre;
+            if !calibration.rejected.is_empty() {
+                let advice = "leave them out, or take handeye.solve, which does";
+                return Err(Rejected::new_err(format!("{}: {advice}", left_out())));
+            }
+            let what = format!(
+                "{method} is {degrees:.2} degrees and {:.1} mm from the answer that fits these poses best: take \
+                 another method, or handeye.solve",
+                1e3 * m
+            );
+            if is_gross {
+                return Err(Rejected::new_err(what));
+            }
+            warnings.insert(0, what);
+        }
+        if self.is_behind() {
+            let what = "most targets lie behind the camera (z < 0): are all poses inverted, or is z backwards?";
+            warnings.insert(0, what.into());
         }
         if let Some(tre) = calibration.predicted_tre_mm.filter(|tre| tre.p95 > INACCURATE_MM) {
             let (unit, p95) = if metre == 1.0 { ("m", tre.p95 * 1e-3) } else { ("mm", tre.p95) };
@@ -260,7 +289,7 @@ impl Cell<'_> {
     }
 
     /// Where the camera sits on the gripper.
-    fn mount_from_camera(self, found: &HandEye) -> Pose<Mount, Camera> {
+    fn mount_from_camera(&self, found: &HandEye) -> Pose<Mount, Camera> {
         if self.is_reversed {
             found.anchor_from_target.inverse().rename()
         } else {
@@ -268,7 +297,7 @@ impl Cell<'_> {
         }
     }
 
-    fn estimated(self, metre: f64) -> PyResult<Calibration> {
+    fn estimated(&self, metre: f64) -> PyResult<Calibration> {
         let observation = |(k, p): (usize, &PosePair)| {
             let (robot, seen) = (self.reported(p).farther(metre), self.seen(p).farther(metre));
             Observation::bare(k.to_string(), robot, seen)
@@ -296,15 +325,51 @@ fn turning(pairs: &[PosePair]) -> f64 {
     values[1].max(0.0).sqrt()
 }
 
-/// How far an answer is from the estimator's, where that is clearly more than both are unsure.
-fn apart(calibration: &Calibration, found: &Pose<Mount, Camera>, metre: f64) -> Option<String> {
+/// Whether neighbours err alike: a target or a robot that moves.
+fn is_in_order(errors: &[Vector3<f64>]) -> bool {
+    let mean = errors.iter().sum::<Vector3<f64>>() / errors.len() as f64;
+    let all: f64 = errors.iter().map(|e| (e - mean).norm_squared()).sum();
+    let neighbours: f64 = errors.windows(2).map(|two| (two[0] - mean).dot(&(two[1] - mean))).sum();
+    // of independent errors about all / (3 n) (n - 1), squared
+    neighbours > ORDERLY * all / (3.0 * errors.len() as f64).sqrt() && all.sqrt() > ROUNDING
+}
+
+/// Whether targets of another size would fit clearly better: the misfit of the positions by both places and a factor.
+fn is_of_another_size(pairs: &[PosePair], found: &HandEye, distance: f64) -> bool {
+    type Vector7 = SVector<f64, 7>;
+    let (x, y) = (found.mount_from_camera, found.anchor_from_target);
+    let mut information = SMatrix::<f64, 7, 7>::zeros();
+    let mut gradient = Vector7::zeros();
+    let mut squares = 0.0;
+    for pair in pairs {
+        let (a, b) = (&pair.anchor_from_mount, &pair.camera_from_target);
+        // R_A (R_X s t_B + t_X) + t_A = t_Y
+        let seen = a.rotation() * (x.rotation() * b.translation());
+        let residual =
+            (seen + a.rotation() * x.translation() + a.translation() - y.translation()) / distance;
+        for k in 0..3 {
+            let mut row = Vector7::zeros();
+            row.fixed_rows_mut::<3>(0).copy_from(&a.rotation().row(k).transpose());
+            row[3 + k] = -1.0;
+            row[6] = seen[k] / distance;
+            information += row * row.transpose();
+            gradient += row * residual[k];
+            squares += residual[k] * residual[k];
+        }
+    }
+    let Some(inverse) = information.cholesky().map(|c| c.inverse()) else { return false };
+    let change = -inverse * gradient;
+    let left = (squares + change.dot(&gradient)).max(0.0) / (3.0 * pairs.len() as f64 - 7.0);
+    change[6].abs() > ORDERLY * (left * inverse[(6, 6)]).sqrt() + ROUNDING
+}
+
+/// Degrees and metres between an answer and the estimator's, where that is clearly more than that is unsure.
+fn apart(calibration: &Calibration, found: &Pose<Mount, Camera>, metre: f64) -> Option<(f64, f64)> {
     let answer = calibration.hand_eye.mount_from_camera?;
     let covariance = calibration.hand_eye.covariance.mount_from_camera?;
     let least = Matrix6::identity() * BEST * BEST;
     let weight = (calibration::matrix(&covariance) + least).cholesky()?;
     let off = answer.local(&found.farther(metre));
-    (off.dot(&weight.solve(&off)) > 6.0 * SAME * SAME).then(|| {
-        let (turn, shift) = (lie::omega(&off).norm().to_degrees(), lie::nu(&off).norm() * 1e3);
-        format!("{turn:.2} degrees and {shift:.1} mm")
-    })
+    let is_same = off.dot(&weight.solve(&off)) <= 6.0 * SAME * SAME;
+    (!is_same).then(|| (lie::omega(&off).norm().to_degrees(), lie::nu(&off).norm()))
 }

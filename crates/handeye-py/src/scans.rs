@@ -40,8 +40,7 @@ pub fn register<'py>(
     let start = match initial {
         None => Isometry3::identity(),
         Some(matrix) => {
-            let one = matrix.call_method1("reshape", (1, 4, 4)).unwrap_or(matrix.clone());
-            let (r, t) = arrays::poses(&one, "initial")?[0];
+            let (r, t) = arrays::pose(matrix, "initial")?;
             let r = handeye::Pose::<(), ()>::from_parts(&r, t).iso().rotation;
             Isometry3::from_parts(Translation3::from(t), r)
         }

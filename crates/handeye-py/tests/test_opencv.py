@@ -179,3 +179,93 @@ class TestWhatOpenCvAnswersWrongly:
             warnings.simplefilter("error")
             for seed in range(10):
                 hand_eye(*cell(12, seed=seed), name)
+
+
+@pytest.mark.parametrize("name", [*HAND_EYE, *ROBOT_WORLD])
+def test_good_data_are_not_refused(name):
+    for seed in range(12):
+        for count, noise in [(7, 2.0), (12, 5.0), (30, 1.0)]:
+            robot, camera = cell(count, noise=noise, seed=seed)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                if name in HAND_EYE:
+                    hand_eye(robot, camera, name)
+                else:
+                    given = (*parts(camera), *parts(np.linalg.inv(robot)))
+                    method = flag(name, "ROBOT_WORLD_HAND_EYE")
+                    cv2_compat.calibrateRobotWorldHandEye(*given, method=method)
+
+
+def told_or_refused(robot, camera, name="PARK"):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        try:
+            hand_eye(robot, camera, name)
+        except handeye.HandEyeError:
+            return True
+    return len(told) > 0
+
+
+class TestSmallErrors:
+    """Too small for an exception, and nothing to be silent about."""
+
+    def count(self, change):
+        return sum(told_or_refused(*change(*cell(15, seed=seed))) for seed in range(20))
+
+    def test_a_board_that_is_two_percent_larger_is_noticed(self):
+        def larger(robot, camera):
+            camera[:, :3, 3] *= 1.02
+            return robot, camera
+
+        assert self.count(larger) == 20
+
+    def test_a_pose_that_is_off_by_five_millimetres_is_noticed(self):
+        def off(robot, camera):
+            robot[6, :3, 3] += [0.003, -0.003, 0.003]
+            return robot, camera
+
+        assert self.count(off) >= 19
+
+    def test_a_camera_that_looks_backwards_is_noticed(self):
+        def inverted(robot, camera):
+            return np.linalg.inv(robot), np.linalg.inv(camera)
+
+        assert self.count(inverted) == 20
+
+    def test_nothing_is_said_of_clean_data(self):
+        assert self.count(lambda robot, camera: (robot, camera)) <= 1
+
+
+def test_rotations_that_were_printed_with_three_digits_are_taken():
+    robot, camera = cell(noise=0.0)
+    robot[:, :3, :3], camera[:, :3, :3] = robot[:, :3, :3].round(3), camera[:, :3, :3].round(3)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = cv2_compat.calibrateHandEye(*parts(robot), *parts(camera))
+    assert apart(found, (X[:3, :3], X[:3, 3:])) < 2e-3
+
+
+def test_methods_and_outputs_that_are_none_are_refused():
+    given = (*parts(cell()[0]), *parts(cell()[1]))
+    for method in [-1, 5, True, "PARK", 1.0]:
+        with pytest.raises(handeye.InputError, match="method"):
+            cv2_compat.calibrateHandEye(*given, method=method)
+    default = cv2_compat.calibrateHandEye(*given)
+    assert apart(cv2_compat.calibrateHandEye(*given, method=None), default) == 0.0
+    with pytest.raises(handeye.InputError, match="floating"):
+        cv2_compat.calibrateHandEye(*given, np.zeros((3, 3), int))
+    r = np.zeros((3, 3))
+    assert cv2_compat.calibrateHandEye(*given, r)[0] is r and r.any()
+
+
+def test_other_names_are_those_of_opencv():
+    assert cv2_compat.Rodrigues is cv2.Rodrigues
+    with pytest.raises(AttributeError):
+        cv2_compat.no_such_name
+
+
+def test_a_length_that_overflows_is_refused():
+    robot, camera = cell()
+    robot[0, 0, 3] = 1e300
+    with pytest.raises(handeye.InputError, match=r"t_gripper2base\[0\]"):
+        cv2_compat.calibrateHandEye(*parts(robot), *parts(camera))

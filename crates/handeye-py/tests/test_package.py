@@ -308,3 +308,56 @@ def test_examples_run(example, tmp_path):
         [sys.executable, str(example)], capture_output=True, text=True, timeout=600, cwd=tmp_path
     )
     assert run.returncode == 0, run.stdout + run.stderr
+
+
+def test_poses_of_few_digits_are_made_rotations():
+    exact = Pose("a", "b", rotation=[0.3, -0.4, 0.5], translation=[1, 2, 3])
+    rounded = Pose("a", "b", exact.matrix.round(3))
+    assert np.abs((rounded @ rounded.inverse()).matrix - np.eye(4)).max() < 1e-12
+    assert np.abs(Pose.from_dict(rounded.to_dict()).matrix - rounded.matrix).max() < 1e-12
+    assert np.abs(rounded.matrix - exact.matrix).max() < 2e-3
+    assert np.allclose(Pose("a", "b", rotation=np.array([[0.3], [-0.4], [0.5]])).rotation, exact.rotation)
+
+
+def test_poses_do_not_change_and_keep_their_frames():
+    pose = Pose("a", "b", translation=[0.0, 1.0, 2.0])
+    with pytest.raises(ValueError):
+        pose.matrix.setflags(write=True)
+    assert hash(pose) == hash(Pose("a", "b", translation=[-0.0, 1.0, 2.0]))
+    with pytest.raises(TypeError):
+        np.eye(4) @ pose
+    with pytest.raises(handeye.InputError, match="numbers"):
+        Pose("a", "b", translation=[1, 2, 3, 4])
+    with pytest.raises(handeye.InputError, match="3 x 3|numbers|shape"):
+        Pose("a", "b", rotation=[[1, 2], [3]])
+
+
+def test_a_start_has_its_frames_and_its_shape():
+    cloud = surface(np.random.default_rng(1), 5000)
+    with pytest.raises(handeye.InputError, match="source_from_target"):
+        handeye.register(cloud, cloud, initial=Pose("source", "target"))
+    for initial in [np.zeros((0, 4, 4)), np.zeros((2, 4, 4)), np.eye(3)]:
+        with pytest.raises(handeye.InputError, match="4 x 4"):
+            handeye.register(cloud, cloud, initial=initial)
+    assert handeye.register(cloud, cloud, initial=np.eye(4).tolist()).accepted
+
+
+def test_what_is_no_list_of_poses_is_named():
+    robot, camera = cell()
+    for wrong, said in [(None, "no list"), ([[1, 2], [3]], r"\[0\]"), (robot[:, :3], "N x 4 x 4")]:
+        with pytest.raises(handeye.InputError, match=said):
+            handeye.solve(wrong, camera, setup="eye-in-hand")
+    with pytest.raises(handeye.InputError) as caught:
+        handeye.solve(robot, camera, setup="eye in hand")
+    assert caught.value.file is None
+    with pytest.raises(handeye.InputError, match="noise"):
+        handeye.solve(
+            robot, camera, setup="eye-in-hand", robot_times_s=[0], camera_times_s=[0], robot_position_mm=1
+        )
+
+
+def test_what_a_calibration_tells_does_not_change_it():
+    found = handeye.solve(*cell(), setup="eye-in-hand")
+    found.captures[0]["id"] = "other"
+    found.to_dict()["verdict"] = "other"
+    assert found.accepted and found.captures[0]["id"] == "0"

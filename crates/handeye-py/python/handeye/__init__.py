@@ -29,6 +29,11 @@ from ._functions import (
 )
 from ._pose import Pose
 
+# what only errors in files have
+for _name in ("code", "file", "line", "capture"):
+    setattr(HandEyeError, _name, None)
+del _name
+
 __all__ = [
     "METHODS",
     "Calibration",

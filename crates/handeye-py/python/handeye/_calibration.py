@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Tuple, Union
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Dict,
+    List,
+    Mapping,
+    NamedTuple,
+    Optional,
+    Tuple,
+    Union,
+    overload,
+)
 
 from . import _core
 from ._core import NotDetermined
@@ -34,6 +46,9 @@ class Calibration:
 
     ``mount`` is the flange for a camera on the robot (eye-in-hand), the base for one beside it (eye-to-hand);
     ``anchor`` is the other of the two. An answer that the data do not determine is None, never invented.
+
+    A calibration of a folder keeps what its report shows of pictures and scans; one that was loaded or went through
+    ``pickle`` has the numbers only.
     """
 
     def __init__(self, calibrated: _core.Calibrated) -> None:
@@ -143,7 +158,7 @@ class Calibration:
     @property
     def captures(self) -> List[Dict[str, Any]]:
         """Every capture, with its misfit, and why it was left out if it was."""
-        return list(self._known["captures"])
+        return copy.deepcopy(list(self._known["captures"]))
 
     @property
     def candidates(self) -> List[Candidate]:
@@ -176,9 +191,14 @@ class Calibration:
     def report(self, path: Union[str, PathLike[str]], title: str = "calibration") -> Path:
         """Writes the report, one page that holds everything it shows."""
         path = Path(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(self._calibrated.report(title), encoding="utf-8")
         return path
 
+    @overload
+    def export(self, format: str, folder: None = None, child: str = "camera") -> bytes: ...
+    @overload
+    def export(self, format: str, folder: Union[str, PathLike[str]], child: str = "camera") -> Path: ...
     def export(
         self, format: str, folder: Optional[Union[str, PathLike[str]]] = None, child: str = "camera"
     ) -> Union[bytes, Path]:
@@ -190,6 +210,7 @@ class Calibration:
         if folder is None:
             return content
         path = Path(folder) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
         return path
 

@@ -1,6 +1,7 @@
 """Compiled functions of handeye; users take those of the package, which know their types."""
 
 from os import PathLike
+from pathlib import Path
 from typing import Any, Callable, Optional, Sequence, Tuple, TypedDict, Union, final
 
 import numpy as np
@@ -31,14 +32,13 @@ __all__ = [
 __version__: str
 METHODS: list[str]
 
-class HandEyeError(ValueError): ...
-
-class InputError(HandEyeError):
-    code: str
-    file: str
+class HandEyeError(ValueError):
+    code: Optional[str]
+    file: Optional[Path]
     line: Optional[int]
     capture: Optional[str]
 
+class InputError(HandEyeError): ...
 class NotDetermined(HandEyeError): ...
 class Rejected(HandEyeError): ...
 
@@ -69,7 +69,7 @@ class Calibrated:
     def from_json(text: str) -> Calibrated: ...
     def json(self) -> str: ...
     def report(self, title: str) -> str: ...
-    def write(self, out: _Path, title: str) -> str: ...
+    def write(self, out: _Path, title: str) -> Path: ...
     def export(self, format: str, child: str) -> Tuple[str, bytes]: ...
 
 def calibrate(

@@ -130,8 +130,8 @@ def solve(
     if (robot_times_s is None) != (camera_times_s is None):
         raise InputError("give the times of both streams, or of none")
     if robot_times_s is not None and camera_times_s is not None:
-        if ids is not None or method is not None:
-            raise InputError("streams take neither ids nor a method")
+        if any(given is not None for given in (ids, method, robot_rotation_deg, robot_position_mm)):
+            raise InputError("streams take neither ids nor a method nor the robot's noise")
         robot_times = [float(time) for time in robot_times_s]
         camera_times = [float(time) for time in camera_times_s]
         return Calibration(
@@ -210,6 +210,8 @@ def register(
     :param search: look for a beginning everywhere, and take no ``initial``.
     :param threads: the answer is the same with any number.
     """
+    if isinstance(initial, Pose) and (initial.to, initial.from_frame) != ("target", "source"):
+        raise InputError(f"initial is {initial.name}: target_from_source is needed")
     found = _core.register(
         source,
         target,
@@ -218,7 +220,7 @@ def register(
         max_distance_m=max_distance_m,
         max_iterations=max_iterations,
         is_global=search,
-        threads=threads,
+        threads=max(1, int(threads)),
     )
     return Registration(
         found["verdict"],
@@ -282,11 +284,22 @@ def _poses(poses: Any, to: str, from_frame: str) -> Any:
 
     if isinstance(poses, np.ndarray):
         return poses
+    name = f"{to}_from_{from_frame}"
+    try:
+        listed = list(poses)
+    except TypeError:
+        raise InputError(f"{name} is no list of poses, and no array of N x 4 x 4") from None
     matrices = []
-    for k, pose in enumerate(poses):
+    for k, pose in enumerate(listed):
         if isinstance(pose, Pose):
             if (pose.to, pose.from_frame) != (to, from_frame):
                 raise InputError(f"pose {k} is {pose.name}: {to}_from_{from_frame} is needed")
             pose = pose.matrix
-        matrices.append(pose)
-    return np.array(matrices, dtype=np.float64).reshape(-1, 4, 4) if matrices else np.zeros((0, 4, 4))
+        try:
+            matrix = np.asarray(pose, dtype=np.float64)
+        except (TypeError, ValueError):
+            matrix = np.zeros(0)
+        if matrix.shape != (4, 4):
+            raise InputError(f"{name}[{k}] is no matrix of 4 x 4")
+        matrices.append(matrix)
+    return np.array(matrices) if matrices else np.zeros((0, 4, 4))

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[np.float64]
 
-# entries of a rotation may be off by so much
-_ROUNDED = 1e-3
+# entries of a rotation may be off by so much: it was printed with few digits
+_ROUNDED = 1e-2
 
 
 class Pose:
@@ -31,7 +31,9 @@ class Pose:
     handeye.InputError: flange_from_camera @ base_from_flange: camera is not base
     """
 
-    __slots__ = ("_from", "_matrix", "_to")
+    __slots__ = ("__weakref__", "_from", "_matrix", "_to")
+    # arrays leave @ and == to a pose
+    __array_ufunc__ = None
 
     def __init__(
         self,
@@ -55,15 +57,22 @@ class Pose:
             if rotation is not None:
                 matrix[:3, :3] = _rotation(rotation)
             if translation is not None:
-                matrix[:3, 3] = np.asarray(translation, dtype=np.float64).reshape(3)
+                matrix[:3, 3] = _numbers(translation, "a translation", 3)
         elif rotation is not None or translation is not None:
             raise InputError("give either a matrix, or a rotation and a translation")
         else:
-            matrix = np.array(matrix, dtype=np.float64)
+            matrix = _numbers(matrix, "a pose", 16, (4, 4)).copy()
         _check(matrix)
-        matrix.setflags(write=False)
+        matrix[:3, :3] = _nearest(matrix[:3, :3])
         self._to, self._from = str(to), str(from_frame)
-        self._matrix: Array = matrix
+        self._matrix: Array = _closed(matrix)
+
+    @classmethod
+    def _of(cls, to: str, from_frame: str, matrix: Array) -> Pose:
+        """Of a matrix that is one."""
+        pose = cls.__new__(cls)
+        pose._to, pose._from, pose._matrix = to, from_frame, _closed(matrix)
+        return pose
 
     @classmethod
     def from_dict(cls, pose: Mapping[str, Any]) -> Pose:
@@ -129,7 +138,7 @@ class Pose:
         matrix = np.eye(4)
         matrix[:3, :3] = self.rotation.T
         matrix[:3, 3] = -self.rotation.T @ self.translation
-        return Pose(self._from, self._to, matrix)
+        return self._of(self._from, self._to, matrix)
 
     def to_dict(self) -> Dict[str, Any]:
         """As in handeye's JSON."""
@@ -153,9 +162,11 @@ class Pose:
                 raise InputError(
                     f"{self.name} @ {other.name}: {self._from} is not {other._to}"
                 )
-            return Pose(self._to, other._from, self._matrix @ other._matrix)
+            matrix = self._matrix @ other._matrix
+            matrix[:3, :3] = _nearest(matrix[:3, :3])
+            return self._of(self._to, other._from, matrix)
         points = np.asarray(other, dtype=np.float64)
-        if points.shape[-1:] != (3,):
+        if points.shape[-1:] != (3,) or points.ndim > 2:
             raise InputError(f"{self.name} @ points of the shape {points.shape}: N x 3 is needed")
         moved: Array = points @ self.rotation.T + self.translation
         return moved
@@ -165,6 +176,8 @@ class Pose:
 
         if dtype is None or np.dtype(dtype) == np.float64:
             return self._matrix.copy() if copy else self._matrix
+        if copy is False:
+            raise ValueError("a pose holds float64: another type is a copy")
         converted: Array = self._matrix.astype(dtype)
         return converted
 
@@ -175,10 +188,10 @@ class Pose:
         return same_frames and bool((self._matrix == other._matrix).all())
 
     def __hash__(self) -> int:
-        return hash((self._to, self._from, self._matrix.tobytes()))
+        return hash((self._to, self._from, (self._matrix + 0.0).tobytes()))  # -0 is 0
 
     def __reduce__(self) -> Any:
-        return (Pose, (self._to, self._from, self._matrix.copy()))
+        return (_again, (self._to, self._from, self._matrix.copy()))
 
     def __repr__(self) -> str:
         x, y, z = (1e3 * self.translation).tolist()
@@ -189,11 +202,43 @@ class Pose:
         )
 
 
+def _again(to: str, from_frame: str, matrix: Array) -> Pose:
+    """What was pickled, bit for bit."""
+    return Pose._of(to, from_frame, matrix)
+
+
+def _closed(matrix: Array) -> Array:
+    """A view that nobody can open for writing."""
+    matrix.setflags(write=False)
+    return matrix.view()
+
+
+def _numbers(given: Any, what: str, count: int, shape: Any = None) -> Array:
+    import numpy as np
+
+    try:
+        array: Array = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{what} is an array of {count} numbers: {error}") from None
+    if array.size != count or (shape is not None and array.shape != shape):
+        raise InputError(f"{what} has {shape or count} numbers, not {array.shape}")
+    return array if shape is not None else array.reshape(count)
+
+
+def _nearest(r: Array) -> Array:
+    """The nearest rotation, by Newton's steps to the orthogonal factor."""
+    import numpy as np
+
+    for _ in range(4):
+        if np.abs(r @ r.T - np.eye(3)).max() < 1e-15:
+            break
+        r = 0.5 * (r + np.linalg.inv(r).T)
+    return r
+
+
 def _check(matrix: Array) -> None:
     import numpy as np
 
-    if matrix.shape != (4, 4):
-        raise InputError(f"a pose has the shape (4, 4), not {matrix.shape}")
     if not np.isfinite(matrix).all():
         raise InputError("a pose holds a number that is NaN or infinite")
     rotation = matrix[:3, :3]
@@ -207,7 +252,12 @@ def _check(matrix: Array) -> None:
 def _rotation(rotation: Any) -> Array:
     import numpy as np
 
-    r: Array = np.asarray(rotation, dtype=np.float64)
+    try:
+        r: Array = np.asarray(rotation, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"a rotation is an array of numbers: {error}") from None
+    if r.shape in ((3, 1), (1, 3)):
+        r = r.reshape(3)
     if r.shape == (3, 3):
         return r
     if r.shape == (4,):

@@ -1,18 +1,19 @@
 """OpenCV's ``calibrateHandEye`` and ``calibrateRobotWorldHandEye``, with a look at their answers.
 
-Signatures, shapes, flags and results are those of OpenCV 4; ``from handeye import cv2_compat as cv2`` is all that a
-script needs. Where OpenCV returns NaN, throws without a reason or answers wrongly without a word, an error says why:
+Signatures, shapes, flags and results are those of OpenCV 4, and every other name is looked up in ``cv2`` itself, so that
+``from handeye import cv2_compat as cv2`` is all that a script needs. Where OpenCV returns NaN, throws without a reason or answers wrongly without a word, an error says why:
 
 * :class:`handeye.NotDetermined`: the poses leave part of the answer free (one axis of rotation, too few).
 * :class:`handeye.Rejected`: poses contradict each other, or the method fails on them.
 * :class:`handeye.InputError`: an array is no rotation, has another shape, or lists differ in length.
 
-All three are a ``ValueError``. What is only worth knowing comes as a :class:`HandEyeWarning`. Lengths may be in any
-unit that is the same for all.
+All three are a ``ValueError``, and not a ``cv2.error``. What is only worth knowing comes as a
+:class:`HandEyeWarning`. Lengths may be metres or millimetres, the same for all. Translations of the shape 1 x 3 are
+read as they are meant, where OpenCV goes wrong.
 """
 
 import warnings as _warnings
-from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, cast
 
 from . import _core
 from ._core import InputError
@@ -57,13 +58,13 @@ class HandEyeWarning(UserWarning):
 
 
 def calibrateHandEye(
-    R_gripper2base: Sequence[Any],
-    t_gripper2base: Sequence[Any],
-    R_target2cam: Sequence[Any],
-    t_target2cam: Sequence[Any],
+    R_gripper2base: Any,
+    t_gripper2base: Any,
+    R_target2cam: Any,
+    t_target2cam: Any,
     R_cam2gripper: Optional[Any] = None,
     t_cam2gripper: Optional[Any] = None,
-    method: int = CALIB_HAND_EYE_TSAI,
+    method: Optional[int] = CALIB_HAND_EYE_TSAI,
 ) -> "Tuple[Array, Array]":
     """Where the camera sits on the gripper.
 
@@ -81,22 +82,22 @@ def calibrateHandEye(
     """
     _refuse_method((R_cam2gripper, t_cam2gripper))
     r, t, told = _core.hand_eye(
-        R_gripper2base, t_gripper2base, R_target2cam, t_target2cam, method
+        R_gripper2base, t_gripper2base, R_target2cam, t_target2cam, _flag(method)
     )
     _tell(told)
     return _given(R_cam2gripper, r), _given(t_cam2gripper, t)
 
 
 def calibrateRobotWorldHandEye(
-    R_world2cam: Sequence[Any],
-    t_world2cam: Sequence[Any],
-    R_base2gripper: Sequence[Any],
-    t_base2gripper: Sequence[Any],
+    R_world2cam: Any,
+    t_world2cam: Any,
+    R_base2gripper: Any,
+    t_base2gripper: Any,
     R_base2world: Optional[Any] = None,
     t_base2world: Optional[Any] = None,
     R_gripper2cam: Optional[Any] = None,
     t_gripper2cam: Optional[Any] = None,
-    method: int = CALIB_ROBOT_WORLD_HAND_EYE_SHAH,
+    method: Optional[int] = CALIB_ROBOT_WORLD_HAND_EYE_SHAH,
 ) -> "Tuple[Array, Array, Array, Array]":
     """Where the base sits in the world, and the gripper in the camera.
 
@@ -110,7 +111,7 @@ def calibrateRobotWorldHandEye(
     """
     _refuse_method((R_base2world, t_base2world, R_gripper2cam, t_gripper2cam))
     r, t, q, s, told = _core.robot_world_hand_eye(
-        R_world2cam, t_world2cam, R_base2gripper, t_base2gripper, method
+        R_world2cam, t_world2cam, R_base2gripper, t_base2gripper, _flag(method)
     )
     _tell(told)
     return (
@@ -130,15 +131,40 @@ def _refuse_method(outputs: Sequence[Any]) -> None:
             )
 
 
+def _flag(method: Any) -> int:
+    if method is None:
+        return 0
+    try:
+        number = int(method)
+    except (TypeError, ValueError):
+        number = -1
+    if isinstance(method, (bool, float, str)) or number < 0:
+        raise InputError(f"{method!r} is no method: take one of this module's flags")
+    return number
+
+
 def _given(output: Optional[Any], result: "Array") -> "Array":
-    """Fills an array that was given for the result."""
-    if output is not None:
-        if getattr(output, "shape", None) != result.shape:
-            raise InputError(f"the output array must have the shape {result.shape}")
-        output[...] = result
-    return result
+    """Fills an array that was given for the result; one of another shape is left alone, as by OpenCV."""
+    if output is None or getattr(output, "shape", None) != result.shape:
+        return result
+    if output.dtype.kind != "f" or not output.flags.writeable:
+        raise InputError("an output array must hold floating numbers, and be open for writing")
+    output[...] = result
+    return cast("Array", output)
 
 
 def _tell(told: Sequence[str]) -> None:
     for message in told:
         _warnings.warn(message, HandEyeWarning, stacklevel=3)
+
+
+def __getattr__(name: str) -> Any:
+    if name.startswith("__"):
+        raise AttributeError(name)
+    try:
+        import cv2
+    except ImportError:
+        raise AttributeError(
+            f"handeye.cv2_compat has no {name!r}, and OpenCV is not installed to look it up"
+        ) from None
+    return getattr(cv2, name)
