@@ -46,6 +46,8 @@ pub enum Command {
     Export(ExportArgs),
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
     Init(InitArgs),
+    /// Recognise a data set of another program, and write a `handeye.toml` beside it.
+    Import(ImportArgs),
     /// Draw a board to print, in true scale.
     Target(Box<TargetArgs>),
     /// Compare several results of one cell: do they agree?
@@ -159,6 +161,22 @@ pub struct ExportArgs {
 pub struct InitArgs {
     /// Folder with pictures, scans and robot poses.
     pub folder: PathBuf,
+    /// Write over a manifest that is there.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `import`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye import cell.samples.yaml && handeye calibrate .\n  handeye import pose_samples.json --setup eye-to-hand\n\nSamples of easy_handeye2 and moveit_calibration, cal_data.yaml of robot_cal_tools, data sets of\nindustrial_calibration, Tabb's layout and Zivid's are known. Other folders: handeye init."
+)]
+pub struct ImportArgs {
+    /// Its file or folder.
+    pub source: PathBuf,
+    /// Who carries the camera, where the files do not say it.
+    #[arg(long, value_enum)]
+    pub setup: Option<crate::simulate::SetupArg>,
     /// Write over a manifest that is there.
     #[arg(long)]
     pub force: bool,

@@ -7,6 +7,7 @@ mod demo;
 mod detect;
 mod export;
 mod failure;
+mod import;
 mod init;
 mod output;
 mod progress;
@@ -59,6 +60,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Solve(args) => solve::run(args, &program.manners),
         Command::Export(args) => export::run(args, &program.manners),
         Command::Init(args) => init::run(args, &program.manners),
+        Command::Import(args) => import::run(args, &program.manners),
         Command::Target(args) => target::run(args, &program.manners),
         Command::Repeat(args) => repeat::run(args, &program.manners),
         Command::Tcp(args) => tcp::run(args, &program.manners),

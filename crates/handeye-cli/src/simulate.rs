@@ -152,6 +152,15 @@ pub enum SetupArg {
     EyeToHand,
 }
 
+impl From<SetupArg> for Setup {
+    fn from(arg: SetupArg) -> Self {
+        match arg {
+            SetupArg::EyeInHand => Setup::EyeInHand,
+            SetupArg::EyeToHand => Setup::EyeToHand,
+        }
+    }
+}
+
 /// How scans are written.
 #[derive(Clone, Copy, ValueEnum)]
 pub enum ScanFormatArg {
@@ -200,10 +209,7 @@ pub fn run(args: &SimulateArgs, manners: &Manners) -> Result<u8, Failure> {
 }
 
 fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
-    let setup = match args.setup {
-        SetupArg::EyeInHand => Setup::EyeInHand,
-        SetupArg::EyeToHand => Setup::EyeToHand,
-    };
+    let setup = args.setup.into();
     let usual = Cell::new(setup, args.seed);
     let placements = args.placements.unwrap_or(usual.placements);
     let touches = args.touches.unwrap_or(usual.touches);

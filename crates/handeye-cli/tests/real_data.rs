@@ -142,3 +142,50 @@ fn ur5_kluzior_sessions_of_one_mount() {
     println!("spread of the camera's position between sessions: {rms:.2} mm");
     assert!(rms < 1.55, "{rms} mm");
 }
+
+/// Their files, copied to where a manifest may be written beside them.
+fn imported(set: &str, source: &str, more: &[&str]) -> Option<Calibration> {
+    let folder = std::env::temp_dir().join(format!("handeye-{set}-{}", std::process::id()));
+    std::fs::remove_dir_all(&folder).ok();
+    copy(&data()?.join(set), &folder);
+    let run = |args: &[&str]| {
+        let run = Command::new(env!("CARGO_BIN_EXE_handeye"))
+            .current_dir(&folder)
+            .args(args)
+            .args(["--json", "--quiet"])
+            .output()
+            .unwrap();
+        assert!(run.status.success(), "{set}: {}", String::from_utf8_lossy(&run.stderr));
+        run.stdout
+    };
+    run(&[&["import", source], more].concat());
+    let found = serde_json::from_slice(&run(&["calibrate", "."])).unwrap();
+    std::fs::remove_dir_all(folder).ok();
+    Some(found)
+}
+
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).unwrap();
+    for entry in std::fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        let to = to.join(entry.file_name());
+        match entry.file_type().unwrap().is_dir() {
+            true => copy(&entry.path(), &to),
+            false => drop(std::fs::copy(entry.path(), to).unwrap()),
+        }
+    }
+}
+
+#[test]
+fn sets_of_other_programs_are_imported_and_calibrated() {
+    let sets: [(&str, &str, &[&str], f64); 2] = [
+        ("moveit_samples", "pose_samples.json", &["--setup", "eye-to-hand"], 4.8),
+        ("rct_charuco", ".", &[], 2.02),
+    ];
+    for (set, source, more, left_out_mm) in sets {
+        let Some(found) = imported(set, source, more) else { return };
+        assert_eq!(found.verdict, Verdict::Accepted, "{set}: {:?}", found.reasons);
+        let mm = found.held_out.translation_rms_mm.unwrap();
+        assert!(mm <= left_out_mm, "{set}: {mm} mm left out");
+    }
+}

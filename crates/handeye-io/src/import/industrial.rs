@@ -1,0 +1,142 @@
+//! robot_cal_tools and industrial_calibration: a list of `{pose, image}`, a target finder, guesses.
+//!
+//! Lengths are metres, poses `x y z qx qy qz qw`. A guess for `base_to_camera` says that the camera stands still, one
+//! for `wrist_to_camera` that the robot carries it. Focal lengths without distortion are not taken: the views tell more.
+
+use std::path::Path;
+
+use handeye::{Setup, TargetModel};
+
+use super::{Described, quoted};
+use crate::{Error, error::unusable, files, target_file::target_toml, tree::Tree};
+
+/// OpenCV's dictionaries by their numbers.
+const DICTIONARIES: [&str; 17] = [
+    "DICT_4X4_50",
+    "DICT_4X4_100",
+    "DICT_4X4_250",
+    "DICT_4X4_1000",
+    "DICT_5X5_50",
+    "DICT_5X5_100",
+    "DICT_5X5_250",
+    "DICT_5X5_1000",
+    "DICT_6X6_50",
+    "DICT_6X6_100",
+    "DICT_6X6_250",
+    "DICT_6X6_1000",
+    "DICT_7X7_50",
+    "DICT_7X7_100",
+    "DICT_7X7_250",
+    "DICT_7X7_1000",
+    "DICT_ARUCO_ORIGINAL",
+];
+
+pub(super) fn describe(source: &Path) -> Result<Option<Described>, Error> {
+    let file = if source.is_dir() { source.join("cal_data.yaml") } else { source.to_path_buf() };
+    if !file.is_file() || !["yaml", "yml"].contains(&files::extension(&file).as_str()) {
+        return Ok(None);
+    }
+    let tree = Tree::read(&file)?;
+    let list = tree.get("data").unwrap_or(&tree);
+    let Tree::List(entries) = list else { return Ok(None) };
+    let entry = |entry: &Tree| {
+        let text = |key: &str| entry.get(key)?.text().map(String::from);
+        Some((text("pose")?, text("image")?))
+    };
+    let Some(pairs) = entries.iter().map(entry).collect::<Option<Vec<_>>>() else {
+        return Ok(None);
+    };
+    if pairs.is_empty() {
+        return Ok(None);
+    }
+    let (folder, _) = super::split(&file);
+    let poses = pattern(pairs.iter().map(|p| p.0.as_str()), &file)?;
+    let images = pattern(pairs.iter().map(|p| p.1.as_str()), &file)?;
+    let unlike = pairs
+        .iter()
+        .find(|(pose, image)| files::stem(Path::new(pose)) != files::stem(Path::new(image)));
+    if let Some((pose, image)) = unlike {
+        let what = format!(
+            "{pose} belongs to {image}: give both the same name, since files are paired by their names"
+        );
+        return Err(unusable(&file, what));
+    }
+    let others = ["target.yaml", "pose_guesses.yaml"].map(|name| folder.join(name));
+    let beside: Vec<Tree> =
+        others.iter().filter(|f| f.is_file()).map(|f| Tree::read(f)).collect::<Result<_, _>>()?;
+    let all = || std::iter::once(&tree).chain(&beside);
+    let mut questions = vec![];
+    let target = match all().find_map(|t| t.get("target_finder")).and_then(target) {
+        Some(model) => target_toml(&model),
+        None => {
+            let what = "which target is in the pictures?";
+            questions.push(what.into());
+            format!("# {what}\n# [target]\n# kind = \"checkerboard\"\n")
+        }
+    };
+    let sections = format!(
+        "\n{target}\n[robot]\nposes = {}\nnotation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n\
+         direction = \"base_from_flange\"\n\n[images]\nfiles = {}\n",
+        quoted(&poses),
+        quoted(&images)
+    );
+    let layout =
+        if tree.get("data").is_some() { "industrial_calibration" } else { "robot_cal_tools" };
+    Ok(Some(Described { layout, folder, setup: all().find_map(setup), sections, questions }))
+}
+
+/// `poses/*.yaml` of `poses/0.yaml`, `poses/1.yaml` ...
+fn pattern<'a>(mut names: impl Iterator<Item = &'a str>, list: &Path) -> Result<String, Error> {
+    let pattern = |name: &str| {
+        let path = Path::new(name);
+        let file = format!("*.{}", path.extension().unwrap_or_default().to_string_lossy());
+        path.with_file_name(file).to_string_lossy().replace('\\', "/")
+    };
+    let first = names.next().map(pattern).unwrap_or_default();
+    match names.find(|name| pattern(name) != first) {
+        Some(other) => {
+            let what = format!(
+                "{other} does not lie where the others do ({first}): put them into one folder"
+            );
+            Err(unusable(list, what))
+        }
+        None => Ok(first),
+    }
+}
+
+fn setup(tree: &Tree) -> Option<Setup> {
+    let has = |keys: &[&str]| tree.any(keys).is_some();
+    match tree.get("static_camera") {
+        Some(Tree::Bool(true)) => return Some(Setup::EyeToHand),
+        Some(Tree::Bool(false)) => return Some(Setup::EyeInHand),
+        _ => {}
+    }
+    if has(&["base_to_camera_guess", "wrist_to_target_guess"]) {
+        return Some(Setup::EyeToHand);
+    }
+    has(&["wrist_to_camera_guess", "base_to_target_guess"]).then_some(Setup::EyeInHand)
+}
+
+fn target(finder: &Tree) -> Option<TargetModel> {
+    let number = |key: &str| finder.get(key)?.number();
+    let count = |key: &str| number(key).filter(|n| (1.0..1e3).contains(n)).map(|n| n as u32);
+    let mm = |key: &str| number(key).map(|m| (m * 1e9).round() * 1e-6);
+    let kind = finder.get("type")?.text()?;
+    let (columns, rows) = (count("cols")?, count("rows")?);
+    let model = if kind.contains("Charuco") {
+        TargetModel::Charuco {
+            squares_x: columns,
+            squares_y: rows,
+            square_mm: mm("chessboard_dim")?,
+            marker_mm: mm("aruco_marker_dim")?,
+            dictionary: DICTIONARIES.get(number("dictionary")? as usize)?.to_string(),
+            legacy: false,
+            first_id: 0,
+        }
+    } else if kind.contains("ModifiedCircleGrid") {
+        TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm: mm("spacing")? }
+    } else {
+        return None;
+    };
+    model.check().ok().map(|()| model)
+}

@@ -1,0 +1,91 @@
+//! Samples of ROS programs: pairs of poses in one file.
+//!
+//! easy_handeye2 keeps `{parameters: {calibration_type}, samples: [{robot, tracking}]}`; for a camera beside the robot
+//! its `robot` is the inverse, `effector_from_base`. moveit_calibration keeps a list of
+//! `{effector_wrt_world, object_wrt_sensor}`, sixteen numbers each, or of `[[4 x 4], [4 x 4]]`; who carries the camera
+//! it does not say.
+
+use std::path::Path;
+
+use handeye::Setup;
+
+use super::{Described, quoted, split};
+use crate::{Error, error::unusable, files, tree::Tree};
+
+pub(super) fn describe(source: &Path) -> Result<Option<Described>, Error> {
+    let is_text = ["yaml", "yml", "json", "samples"].contains(&files::extension(source).as_str());
+    if !source.is_file() || !is_text {
+        return Ok(None);
+    }
+    let tree = Tree::read(source)?;
+    if let Some(Tree::List(samples)) = tree.get("samples") {
+        return easy_handeye(source, &tree, samples).map(Some);
+    }
+    let Tree::List(samples) = &tree else { return Ok(None) };
+    let Some(first) = samples.first() else { return Ok(None) };
+    if first.get("effector_wrt_world").is_some() && first.get("object_wrt_sensor").is_some() {
+        return Ok(Some(moveit(source, ["*.effector_wrt_world", "*.object_wrt_sensor"])));
+    }
+    let is_pair = |sample: &Tree| match sample {
+        Tree::List(two) => {
+            two.len() == 2 && two.iter().all(|m| m.numbers().is_some_and(|n| n.len() == 16))
+        }
+        _ => false,
+    };
+    Ok(samples.iter().all(is_pair).then(|| moveit(source, ["*.0", "*.1"])))
+}
+
+fn easy_handeye(source: &Path, tree: &Tree, samples: &[Tree]) -> Result<Described, Error> {
+    let wrong =
+        samples.iter().position(|s| s.get("robot").is_none() || s.get("tracking").is_none());
+    if let Some(k) = wrong {
+        return Err(unusable(source, format!("sample {} has no `robot` and `tracking`", k + 1)));
+    }
+    let parameters = tree.get("parameters");
+    let said = |key: &str| parameters.and_then(|p| p.get(key));
+    let setup = match (said("calibration_type").and_then(Tree::text), said("eye_on_hand")) {
+        (Some("eye_in_hand"), _) | (None, Some(Tree::Bool(true))) => Setup::EyeInHand,
+        (Some("eye_on_base"), _) | (None, Some(Tree::Bool(false))) => Setup::EyeToHand,
+        _ => {
+            let what = "parameters.calibration_type is neither eye_in_hand nor eye_on_base: the robot's poses have \
+                        opposite directions in the two";
+            return Err(unusable(source, what));
+        }
+    };
+    let direction = match setup {
+        Setup::EyeInHand => "base_from_flange",
+        Setup::EyeToHand => "flange_from_base",
+    };
+    let (folder, file) = split(source);
+    let sections =
+        sections(&file, ["samples.*.robot", "samples.*.tracking"], "quaternion-xyzw", direction);
+    Ok(Described {
+        layout: "easy_handeye2 samples",
+        folder,
+        setup: Some(setup),
+        sections,
+        questions: vec![],
+    })
+}
+
+fn moveit(source: &Path, fields: [&str; 2]) -> Described {
+    let (folder, file) = split(source);
+    let sections = sections(&file, fields, "matrix4x4", "base_from_flange");
+    Described {
+        layout: "moveit_calibration samples",
+        folder,
+        setup: None,
+        sections,
+        questions: vec![],
+    }
+}
+
+fn sections(file: &str, fields: [&str; 2], notation: &str, direction: &str) -> String {
+    let file = quoted(file);
+    format!(
+        "\n[robot]\nposes = {file}\nfield = \"{}\"\nnotation = \"{notation}\"\nlength_unit = \"m\"\n\
+         direction = \"{direction}\"\n\n[board_poses]\nposes = {file}\nfield = \"{}\"\nnotation = \"{notation}\"\n\
+         length_unit = \"m\"\ndirection = \"camera_from_target\"\n",
+        fields[0], fields[1]
+    )
+}
