@@ -22,6 +22,7 @@ use handeye_io::{
     calibrate::{calibrate_dataset, write_results},
     poses_from_json,
     report::dataset_html,
+    robot::rotation_near,
 };
 use nalgebra::{Isometry3, Matrix3, Matrix4, Translation3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -35,8 +36,6 @@ const NOT_ACCEPTED: c_int = 3;
 const FAILED: c_int = 4;
 /// What `handeye_solve` calls its text in messages.
 const POSES: &str = "poses";
-/// Entries of a rotation may be off by so much.
-const ROUNDED: f64 = 1e-3;
 /// Most points of a scan.
 const MOST_POINTS: usize = 100_000_000;
 
@@ -231,16 +230,10 @@ impl Default for Options {
 
 impl Options {
     fn config(&self) -> Result<DenseConfig, End> {
-        let method = match self.method.as_str() {
-            "auto" => DenseMethod::Auto,
-            "point-to-point" => DenseMethod::PointToPoint,
-            "point-to-plane" => DenseMethod::PointToPlane,
-            "gicp" => DenseMethod::PlaneToPlane,
-            other => {
-                let there = "auto, point-to-point, point-to-plane, gicp";
-                return Err(End::WrongCall(format!("no method {other:?}; there are {there}")));
-            }
-        };
+        let method = DenseMethod::from_name(&self.method).ok_or_else(|| {
+            let there = DenseMethod::ALL.map(DenseMethod::name).join(", ");
+            End::WrongCall(format!("no method {:?}; there are {there}", self.method))
+        })?;
         if !(self.max_distance_mm > 0.0 && self.max_distance_mm.is_finite())
             || self.max_iterations == 0
         {
@@ -300,19 +293,15 @@ pub unsafe extern "C" fn handeye_register(
 fn pose(numbers: &[f64], name: &str) -> Result<Isometry3<f64>, End> {
     let matrix = Matrix4::from_row_slice(numbers);
     let rotation: Matrix3<f64> = matrix.fixed_view::<3, 3>(0, 0).into_owned();
-    let off = (rotation * rotation.transpose() - Matrix3::identity()).amax();
-    let is_rigid = off < ROUNDED
-        && rotation.determinant() > 0.0
-        && matrix.row(3) == Matrix4::identity().row(3)
-        && matrix.iter().all(|x| x.is_finite());
-    if !is_rigid {
+    let is_whole =
+        matrix.row(3) == Matrix4::identity().row(3) && matrix.iter().all(|x| x.is_finite());
+    let Some(rotation) = rotation_near(&rotation).ok().filter(|_| is_whole) else {
         let what = format!(
             "{name} is no rigid transform: three rows of rotation and translation, then 0 0 0 1"
         );
         return Err(End::Unusable(Problem::new("unusable", what)));
-    }
+    };
     let translation: Vector3<f64> = matrix.fixed_view::<3, 1>(0, 3).into_owned();
-    let rotation = Pose::<(), ()>::from_parts(&rotation, translation).iso().rotation;
     Ok(Isometry3::from_parts(Translation3::from(translation), rotation))
 }
 
@@ -335,15 +324,12 @@ pub unsafe extern "C" fn handeye_closed_form(
     let work = || {
         // SAFETY: as promised by the caller.
         let (setup, name) = unsafe { (text(setup, "setup")?, text(method_name, "method")?) };
-        let setup = match needed(setup, "setup")? {
-            "eye-in-hand" => Setup::EyeInHand,
-            "eye-to-hand" => Setup::EyeToHand,
-            other => {
-                let what =
-                    format!("setup {other:?} is neither \"eye-in-hand\" nor \"eye-to-hand\"");
-                return Err(End::WrongCall(what));
-            }
-        };
+        let setup = needed(setup, "setup")?;
+        let setup = Setup::from_name(setup).ok_or_else(|| {
+            End::WrongCall(format!(
+                "setup {setup:?} is neither \"eye-in-hand\" nor \"eye-to-hand\""
+            ))
+        })?;
         let method = method(needed(name, "method")?)?;
         if mount_from_camera.is_null() || anchor_from_target.is_null() {
             return Err(End::WrongCall("a result is NULL".into()));

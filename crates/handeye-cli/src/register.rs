@@ -15,11 +15,12 @@ use handeye_io::{
     Error, RegistrationResult, ScanOptions, Transform, is_mesh, points_on, read_intrinsics,
     read_mesh, read_scan,
     report::{NamedCloud, Registration, registration_html},
+    robot::rotation_near,
     scan_size, scan_unit,
     units::LengthUnit,
     write_atomically,
 };
-use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Matrix3, Quaternion, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -68,7 +69,8 @@ struct Answer {
 }
 
 pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
-    let (config, method) = config(args)?;
+    let config = config(args)?;
+    let method = config.method.name();
     let inputs = [Some(&args.source), Some(&args.target), args.initial.as_ref()];
     if let Some(page) = &args.report {
         is_no_input(page, inputs.into_iter().flatten())?;
@@ -120,8 +122,8 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     Ok(if answer.found.verdict == Verdict::Accepted { 0 } else { 3 })
 }
 
-/// How to compare, and the method's name.
-fn config(args: &RegisterArgs) -> Result<(DenseConfig, &'static str), Failure> {
+/// How to compare.
+fn config(args: &RegisterArgs) -> Result<DenseConfig, Failure> {
     let gate = args.max_distance_mm.unwrap_or(50.0);
     if !(gate > 0.0 && gate.is_finite()) {
         return Err(Failure::Usage("--max-distance-mm must be positive".into()));
@@ -129,16 +131,14 @@ fn config(args: &RegisterArgs) -> Result<(DenseConfig, &'static str), Failure> {
     if args.max_iterations == 0 {
         return Err(Failure::Usage("--max-iterations must be positive".into()));
     }
-    let (method, name) = method(&args.method)?;
-    let config = DenseConfig {
-        method,
+    Ok(DenseConfig {
+        method: method(&args.method)?,
         max_correspondence_distance_m: gate * 1e-3,
         max_iterations: args.max_iterations,
         global: args.global,
         threads: thread::available_parallelism().map_or(1, usize::from),
         ..DenseConfig::default()
-    };
-    Ok((config, name))
+    })
 }
 
 fn surfaces(scans: [(&Scan, &PathBuf); 2], config: &DenseConfig) -> Result<Vec<Surface>, Failure> {
@@ -173,15 +173,9 @@ pub fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-fn method(name: &str) -> Result<(DenseMethod, &'static str), Failure> {
-    let known = [
-        ("auto", DenseMethod::Auto),
-        ("point-to-point", DenseMethod::PointToPoint),
-        ("point-to-plane", DenseMethod::PointToPlane),
-        ("gicp", DenseMethod::PlaneToPlane),
-    ];
-    known.into_iter().find(|k| k.0 == name).map(|k| (k.1, k.0)).ok_or_else(|| {
-        let names = known.map(|k| k.0).join(", ");
+fn method(name: &str) -> Result<DenseMethod, Failure> {
+    DenseMethod::from_name(name).ok_or_else(|| {
+        let names = DenseMethod::ALL.map(DenseMethod::name).join(", ");
         Failure::Usage(format!("no method {name:?}; there are {names}"))
     })
 }
@@ -203,14 +197,13 @@ pub fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
         }
         Initial::Matrix(m) => {
             let r = Matrix3::from_fn(|i, j| m[i][j]);
-            let straight = (r * r.transpose() - Matrix3::identity()).amax() < ROUNDED;
-            if !straight || r.determinant() < 0.0 || m[3] != [0.0, 0.0, 0.0, 1.0] {
+            let rotation = rotation_near(&r).ok().filter(|_| m[3] == [0.0, 0.0, 0.0, 1.0]);
+            let Some(rotation) = rotation else {
                 return Err(wrong(
                     "the matrix is no rigid transform: three rows of rotation and translation (m), then \
                      0 0 0 1",
                 ));
-            }
-            let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix(&r));
+            };
             ([m[0][3], m[1][3], m[2][3]], rotation)
         }
     };

@@ -1,15 +1,12 @@
 //! Arrays as rotations, translations, poses and points.
 
+use handeye_io::robot::rotation_near;
 use nalgebra::{Matrix3, Matrix4, Vector3};
 use numpy::{PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::{prelude::*, types::PyDict};
 
 use crate::errors::input;
 
-/// Entries of a rotation may be off by so much: it was printed with few digits.
-const ROUNDED: f64 = 1e-2;
-/// Steps to the nearest rotation; each doubles the digits.
-const STEPS: usize = 4;
 /// No cell is so large, in metres or millimetres.
 const FARTHEST: f64 = 1e9;
 
@@ -75,22 +72,8 @@ pub fn rotation(item: &Bound<'_, PyAny>, name: &str, k: usize) -> PyResult<Matri
 
 /// The rotation that a matrix is but for rounding; refuses what turns nothing, mirrors or stretches.
 fn nearest_rotation(matrix: &Matrix3<f64>, name: &str) -> PyResult<Matrix3<f64>> {
-    let off = (matrix * matrix.transpose() - Matrix3::identity()).amax();
-    if !(off < ROUNDED) {
-        return Err(input(format!(
-            "{name} is no rotation: its rows are off by {off:.1e} from being of length one and square to each other"
-        )));
-    }
-    if matrix.determinant() < 0.0 {
-        return Err(input(format!("{name} is no rotation: it mirrors (its determinant is -1)")));
-    }
-    let mut nearest = *matrix;
-    for _ in 0..STEPS {
-        // Newton's step to the orthogonal factor
-        let Some(inverse) = nearest.try_inverse() else { break };
-        nearest = (nearest + inverse.transpose()) * 0.5;
-    }
-    Ok(nearest)
+    let found = rotation_near(matrix).map_err(|what| input(format!("{name}: {what}")))?;
+    Ok(found.to_rotation_matrix().into_inner())
 }
 
 /// Three numbers, in a row or a column.

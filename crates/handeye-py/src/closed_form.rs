@@ -21,13 +21,9 @@ pub fn pairs(
 
 /// `eye-in-hand` or `eye-to-hand`.
 pub fn setup(name: &str) -> PyResult<Setup> {
-    match name {
-        "eye-in-hand" => Ok(Setup::EyeInHand),
-        "eye-to-hand" => Ok(Setup::EyeToHand),
-        _ => Err(errors::input(format!(
-            "setup {name:?} is neither \"eye-in-hand\" nor \"eye-to-hand\""
-        ))),
-    }
+    Setup::from_name(name).ok_or_else(|| {
+        errors::input(format!("setup {name:?} is neither \"eye-in-hand\" nor \"eye-to-hand\""))
+    })
 }
 
 /// The published method of that name.

@@ -56,8 +56,13 @@ fn target(py: Python<'_>, json: Option<&str>, file: Option<PathBuf>) -> PyResult
     if let Some(file) = file {
         return read_target(&file).map_err(|error| errors::of_files(py, &error));
     }
-    let target: TargetModel = serde_json::from_str(json.unwrap_or("null"))
-        .map_err(|error| errors::input(format!("no target: {error}")))?;
+    target_from_json(json.unwrap_or("null"))
+}
+
+/// The target that a dict describes.
+pub fn target_from_json(text: &str) -> PyResult<TargetModel> {
+    let target: TargetModel =
+        serde_json::from_str(text).map_err(|error| errors::input(format!("no target: {error}")))?;
     target.check().map_err(|error| errors::of_core(&error))?;
     Ok(target)
 }

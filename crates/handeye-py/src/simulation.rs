@@ -9,7 +9,7 @@ use handeye::{
 use handeye_io::simulated::{self, ScanFormat, Writing};
 use pyo3::prelude::*;
 
-use crate::{closed_form::setup, errors, working};
+use crate::{closed_form::setup, errors, images, working};
 
 /// Most captures: more are mistakes.
 const MOST: usize = 999;
@@ -42,33 +42,13 @@ pub fn simulate(
     if !(1..=LARGEST_PX).contains(&width) || !(1..=LARGEST_PX).contains(&height) {
         return Err(errors::input(format!("pictures have 1 to {LARGEST_PX} pixels a side")));
     }
-    let usual = Cell::new(setup(setup_name)?, seed);
     let target = match target_json {
         None => TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 },
-        Some(text) => serde_json::from_str(text)
-            .map_err(|error| errors::input(format!("no target: {error}")))?,
+        Some(text) => images::target_from_json(text)?,
     };
-    target.check().map_err(|error| errors::of_core(&error))?;
-    let (w, h) = (f64::from(width), f64::from(height));
-    let cell = Cell {
-        target,
-        intrinsics: Intrinsics::pinhole(
-            width,
-            height,
-            FOCAL * w,
-            FOCAL * w,
-            0.5 * (w - 1.0),
-            0.5 * (h - 1.0),
-        ),
-        noise: if exact { CellNoise::NONE } else { usual.noise },
-        optics: Optics { noise: if exact { 0.0 } else { usual.optics.noise }, ..usual.optics },
-        depth: scans.then(|| {
-            let usual = DepthSensor::default();
-            DepthSensor { sigma_at_1m: if exact { 0.0 } else { usual.sigma_at_1m }, ..usual }
-        }),
-        captures,
-        ..usual
-    };
+    let usual = Cell::new(setup(setup_name)?, seed);
+    let cell = Cell { target, intrinsics: camera(width, height), captures, ..usual };
+    let cell = with_noise(cell, exact, scans);
     if let Some(foreign) = simulated::foreign(&out).filter(|_| !force) {
         return Err(errors::input(format!(
             "{}: was not written by `simulate`, or was edited since: name another folder, or say force=True",
@@ -84,6 +64,25 @@ pub fn simulate(
         Failed::Core(error) => errors::of_core(&error),
         Failed::Files(error) => errors::of_files(py, &error),
     })
+}
+
+fn camera(width: u32, height: u32) -> Intrinsics {
+    let (w, h) = (f64::from(width), f64::from(height));
+    Intrinsics::pinhole(width, height, FOCAL * w, FOCAL * w, 0.5 * (w - 1.0), 0.5 * (h - 1.0))
+}
+
+/// The usual noise, or none of anything; with a depth sensor, or without.
+fn with_noise(cell: Cell, exact: bool, scans: bool) -> Cell {
+    let sensor = DepthSensor::default();
+    if !exact {
+        return Cell { depth: scans.then_some(sensor), ..cell };
+    }
+    Cell {
+        noise: CellNoise::NONE,
+        optics: Optics { noise: 0.0, ..cell.optics },
+        depth: scans.then_some(DepthSensor { sigma_at_1m: 0.0, ..sensor }),
+        ..cell
+    }
 }
 
 /// Where it went wrong.

@@ -24,6 +24,19 @@ impl Setup {
         }
     }
 
+    /// As files call it: `eye-in-hand` or `eye-to-hand`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Setup::EyeInHand => "eye-in-hand",
+            Setup::EyeToHand => "eye-to-hand",
+        }
+    }
+
+    /// The setup of that name.
+    pub fn from_name(name: &str) -> Option<Setup> {
+        [Setup::EyeInHand, Setup::EyeToHand].into_iter().find(|setup| setup.name() == name)
+    }
+
     /// The user's name of the mount: `flange` or `base`.
     pub fn mount(self) -> &'static str {
         match self {

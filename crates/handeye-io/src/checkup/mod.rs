@@ -322,7 +322,7 @@ fn directions(case: &Case, robot: Explanation, k: usize) -> Vec<Explanation> {
         changes: others.iter().cloned().chain([c]).collect(),
         ..robot.clone()
     };
-    let (name, other_name) = (words::setup(own), words::setup(other));
+    let (name, other_name) = (own.name(), other.name());
     let first = format!("{} {}", robot.message, words::on_flange(own, as_declared));
     let mut all = vec![
         (as_declared, Explanation { message: first, ..robot.clone() }),

@@ -160,14 +160,6 @@ pub(super) fn robot_scale(s: &TargetScale) -> String {
     )
 }
 
-/// As a manifest calls it.
-pub(super) fn setup(setup: Setup) -> &'static str {
-    match setup {
-        Setup::EyeInHand => "eye-in-hand",
-        Setup::EyeToHand => "eye-to-hand",
-    }
-}
-
 /// What a direction says of the cell, for its user to judge; `distance` in m.
 pub(super) fn on_flange(setup: Setup, distance: f64) -> String {
     let what = match setup {

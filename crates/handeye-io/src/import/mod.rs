@@ -72,12 +72,12 @@ fn with_setup(set: Described, given: Option<Setup>, source: &Path) -> Result<Imp
     if let (Some(own), Some(given)) = (set.setup, given)
         && own != given
     {
-        let what = format!("says that it is {}, and {} was asked for", name(own), name(given));
+        let what = format!("says that it is {}, and {} was asked for", own.name(), given.name());
         return Err(unusable(source, what));
     }
     let mut questions = set.questions;
     let line = match set.setup.or(given) {
-        Some(setup) => format!("setup = \"{}\"", name(setup)),
+        Some(setup) => format!("setup = \"{}\"", setup.name()),
         None => {
             let what =
                 "who carries the camera: the robot (eye-in-hand), or the cell (eye-to-hand)?";
@@ -87,13 +87,6 @@ fn with_setup(set: Described, given: Option<Setup>, source: &Path) -> Result<Imp
     };
     let manifest = format!("# {}\n{line}\n{}", set.layout, set.sections);
     Ok(Imported { layout: set.layout, folder: set.folder, manifest, questions })
-}
-
-fn name(setup: Setup) -> &'static str {
-    match setup {
-        Setup::EyeInHand => "eye-in-hand",
-        Setup::EyeToHand => "eye-to-hand",
-    }
 }
 
 /// The folder a file lies in, and its name.

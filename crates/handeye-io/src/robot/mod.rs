@@ -20,7 +20,7 @@ use crate::{
 pub use dh::arm_file;
 pub(crate) use dh::{DhModel, DhSpec};
 pub use euler::{Axes, Sense};
-pub use rotation::Rotation;
+pub use rotation::{Rotation, rotation_near};
 pub(crate) use suspicion::suspicious_values;
 
 /// What a number of a notation measures.

@@ -19,8 +19,10 @@ pub enum Rotation {
     Euler(Axes, Sense),
 }
 
-/// How far a matrix may be from a rotation, or a quaternion's length from one.
+/// How far a quaternion's length may be from one.
 const TOLERANCE: f64 = 1e-3;
+/// How far a matrix may be from a rotation: it was printed with three digits.
+const ROUNDED: f64 = 5e-3;
 
 impl Rotation {
     /// Position and rotation numbers of a notation's numbers.
@@ -80,9 +82,16 @@ fn from_matrix(n: &[f64]) -> Result<UnitQuaternion<f64>, String> {
     if n[12..] != [0.0, 0.0, 0.0, 1.0] {
         return Err(format!("the last row of the matrix is {:?}, not 0 0 0 1", &n[12..]));
     }
-    let m = Matrix3::new(n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10]);
+    rotation_near(&Matrix3::new(n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10]))
+}
+
+/// The rotation that a matrix is but for the rounding of its digits.
+///
+/// # Errors
+/// Why it is none: it stretches, mirrors, or is not finite.
+pub fn rotation_near(m: &Matrix3<f64>) -> Result<UnitQuaternion<f64>, String> {
     let apart = (m.transpose() * m - Matrix3::identity()).abs().max();
-    if !(0.0..=TOLERANCE).contains(&apart) {
+    if !(0.0..=ROUNDED).contains(&apart) {
         return Err(format!(
             "the matrix is no rotation: its columns are off unit and square by {apart:.1e}"
         ));
@@ -90,7 +99,9 @@ fn from_matrix(n: &[f64]) -> Result<UnitQuaternion<f64>, String> {
     if m.determinant() < 0.0 {
         return Err("the matrix mirrors (its determinant is -1): an axis is turned round".into());
     }
-    Ok(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(nearest_rotation(m))))
+    Ok(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(nearest_rotation(
+        *m,
+    ))))
 }
 
 /// The orthonormal factor of `m`: Newton's iteration for the polar decomposition (Higham 1986).

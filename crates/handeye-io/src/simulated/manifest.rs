@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use handeye::{
-    Distortion, Intrinsics, Setup,
+    Distortion, Intrinsics,
     simulate::{Cell, Recording, recording::placement_name},
 };
 use serde_json::{Value, json};
@@ -14,10 +14,7 @@ use super::{ARM, ScanFormat, TRUTH, Writing, pictures::DEPTH_SCALE};
 pub(super) fn manifest(recording: &Recording, writing: Writing) -> String {
     let with_images = writing.images;
     let cell = recording.cell;
-    let setup = match cell.setup {
-        Setup::EyeInHand => "eye-in-hand",
-        Setup::EyeToHand => "eye-to-hand",
-    };
+    let setup = cell.setup.name();
     let mut text = format!("# A simulated cell; its truth is in {TRUTH}.\nsetup = \"{setup}\"\n");
     text += &format!("\n[target]\n{}", table(&json!(cell.target)));
     text += &format!("\n[camera]\n{}", camera(&cell.intrinsics));

@@ -48,21 +48,6 @@ class _Corners(TypedDict):
     pixels: _Array
     covariances: _Array
 
-class _Registration(TypedDict):
-    target_from_source: _Array
-    covariance: Optional[_Array]
-    verdict: str
-    reasons: list[str]
-    undetermined: list[str]
-    iterations: int
-    stop: str
-    inlier_fraction: float
-    agreement: float
-    rms_m: float
-    residual_sigma: float
-    size_ratio: Optional[float]
-    size_sigma: Optional[float]
-
 @final
 class Calibrated:
     @staticmethod
@@ -115,7 +100,7 @@ def register(
     max_iterations: int = 60,
     is_global: bool = False,
     threads: int = 1,
-) -> _Registration: ...
+) -> str: ...
 def simulate(
     out: _Path,
     setup_name: str,

@@ -55,8 +55,9 @@ class Registration(NamedTuple):
     """Share of the source that lies on the target."""
     agreement: float
     """Of the places where both scans show something, the share at which it is the same."""
-    rms_m: float
-    residual_sigma: float
+    rms_mm: Optional[float]
+    """Distance between the surfaces, where anything could be compared."""
+    residual_sigma: Optional[float]
     size_ratio: Optional[float]
     """Size of what the target shows over that of what the source shows."""
     size_sigma: Optional[float]
@@ -212,7 +213,7 @@ def register(
     """
     if isinstance(initial, Pose) and (initial.to, initial.from_frame) != ("target", "source"):
         raise InputError(f"initial is {initial.name}: target_from_source is needed")
-    found = _core.register(
+    text = _core.register(
         source,
         target,
         initial=initial.matrix if isinstance(initial, Pose) else initial,
@@ -222,17 +223,21 @@ def register(
         is_global=search,
         threads=max(1, int(threads)),
     )
+    import numpy as np
+
+    found = json.loads(text)
+    pose, covariance = found["target_from_source"], found["covariance"]
     return Registration(
         found["verdict"],
         found["reasons"],
-        Pose("target", "source", found["target_from_source"]),
-        found["covariance"],
+        Pose("target", "source", rotation=pose["rotation_xyzw"], translation=pose["translation_m"]),
+        None if covariance is None else np.array(covariance),
         found["undetermined"],
         found["iterations"],
         found["stop"],
         found["inlier_fraction"],
         found["agreement"],
-        found["rms_m"],
+        found["rms_mm"],
         found["residual_sigma"],
         found["size_ratio"],
         found["size_sigma"],

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[np.float64]
 
-# entries of a rotation may be off by so much: it was printed with few digits
-_ROUNDED = 1e-2
+# rotations may be off by so much: they were printed with three digits
+_ROUNDED = 5e-3
 
 
 class Pose:

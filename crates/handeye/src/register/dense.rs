@@ -31,6 +31,31 @@ pub enum DenseMethod {
     PlaneToPlane,
 }
 
+impl DenseMethod {
+    /// Every method.
+    pub const ALL: [DenseMethod; 4] = [
+        DenseMethod::Auto,
+        DenseMethod::PointToPoint,
+        DenseMethod::PointToPlane,
+        DenseMethod::PlaneToPlane,
+    ];
+
+    /// The name in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            DenseMethod::Auto => "auto",
+            DenseMethod::PointToPoint => "point-to-point",
+            DenseMethod::PointToPlane => "point-to-plane",
+            DenseMethod::PlaneToPlane => "gicp",
+        }
+    }
+
+    /// The method of that name.
+    pub fn from_name(name: &str) -> Option<DenseMethod> {
+        DenseMethod::ALL.into_iter().find(|method| method.name() == name)
+    }
+}
+
 /// When to match and when to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DenseConfig {
