@@ -46,7 +46,7 @@ pub enum Command {
     Export(ExportArgs),
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
     Init(InitArgs),
-    /// Recognise a data set of another program, and write a `handeye.toml` beside it.
+    /// Take over what another program recorded, and write a file of ours beside it.
     Import(ImportArgs),
     /// Draw a board to print, in true scale.
     Target(Box<TargetArgs>),
@@ -169,15 +169,29 @@ pub struct InitArgs {
 /// Arguments of `import`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye import cell.samples.yaml && handeye calibrate .\n  handeye import pose_samples.json --setup eye-to-hand\n\nSamples of easy_handeye2 and moveit_calibration, cal_data.yaml of robot_cal_tools, data sets of\nindustrial_calibration, Tabb's layout and Zivid's are known. Other folders: handeye init."
+    after_help = "Examples:\n  handeye import cell.samples.yaml && handeye calibrate .\n  handeye import pose_samples.json --setup eye-to-hand\n  handeye import flange.csv board.csv --setup eye-in-hand --direction base_from_flange\n\n\
+Data sets get a manifest, handeye.toml: samples of easy_handeye2 and moveit_calibration, cal_data.yaml\n\
+of robot_cal_tools, data sets of industrial_calibration, Tabb's layout and Zivid's.\n\
+Trajectories, lines of t x y z qx qy qz qw (s, m; apart by commas or blanks), of robot and camera\n\
+become pairs.json for `solve`: name both files, or a folder with the two.\n\
+Other folders: handeye init."
 )]
 pub struct ImportArgs {
-    /// Its file or folder.
+    /// Its file or folder; of two trajectories, the robot's.
     pub source: PathBuf,
+    /// The camera's trajectory.
+    pub camera: Option<PathBuf>,
     /// Who carries the camera, where the files do not say it.
     #[arg(long, value_enum)]
     pub setup: Option<crate::simulate::SetupArg>,
-    /// Write over a manifest that is there.
+    /// What poses take to what, where the files do not say it: base_from_flange (where the flange is),
+    /// camera_from_target (what OpenCV's solvePnP gives), or the other way round.
+    #[arg(long, value_delimiter = ',', value_name = "A_FROM_B")]
+    pub direction: Vec<String>,
+    /// Where to write, if not beside the source.
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+    /// Write over a file that is there.
     #[arg(long)]
     pub force: bool,
 }

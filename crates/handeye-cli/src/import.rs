@@ -1,6 +1,6 @@
-//! `handeye import`: a manifest for the data set of another program.
+//! `handeye import`: what other programs recorded or found, described by a file of ours.
 
-use handeye_io::{MANIFEST, import, write_atomically};
+use handeye_io::{Declared, Direction, import, write_atomically};
 use serde_json::json;
 
 use crate::{
@@ -10,23 +10,45 @@ use crate::{
 };
 
 pub fn run(args: &ImportArgs, manners: &Manners) -> Result<u8, Failure> {
-    let imported = import(&args.source, args.setup.map(Into::into))?;
-    let path = imported.folder.join(MANIFEST);
+    let imported = import(&args.source, &declared(args)?)?;
+    let path = args.out.clone().unwrap_or_else(|| imported.folder.join(&imported.name));
     if path.exists() && !args.force {
         let what = "is there already; to write over it: --force";
         return Err(Failure::in_the_way(path, what));
     }
-    write_atomically(&path, imported.manifest.as_bytes())?;
+    write_atomically(&path, imported.text.as_bytes())?;
+    let next = format!("{} {}", imported.next, path.display());
     if manners.json {
-        let questions = &imported.questions;
-        output::json(
-            &json!({ "layout": imported.layout, "manifest": path, "questions": questions }),
-        );
+        let key = if imported.name == handeye_io::MANIFEST { "manifest" } else { "file" };
+        output::json(&json!({
+            "layout": imported.layout,
+            key: path,
+            "questions": imported.questions,
+            "notes": imported.notes,
+            "next": next,
+        }));
         return Ok(0);
     }
     let mut text = format!("{}: {} is written", imported.layout, path.display());
     text += if imported.questions.is_empty() { "\n" } else { "; answer in it:\n\n" };
-    text += &imported.questions.iter().map(|q| output::wrapped("  ", q)).collect::<String>();
+    let lines = imported.questions.iter().chain(&imported.notes);
+    text += &lines.map(|line| output::wrapped("  ", line)).collect::<String>();
+    if imported.questions.is_empty() {
+        text += &format!("\nnext: {next}\n");
+    }
     output::print(&text);
     Ok(0)
+}
+
+fn declared(args: &ImportArgs) -> Result<Declared, Failure> {
+    let direction = |name: &String| {
+        Direction::named(name)
+            .map_err(|e| Failure::Usage(format!("--direction {name} is not known; {e}")))
+    };
+    Ok(Declared {
+        setup: args.setup.map(Into::into),
+        camera: args.camera.clone(),
+        directions: args.direction.iter().map(direction).collect::<Result<_, _>>()?,
+        sequence: None,
+    })
 }

@@ -46,7 +46,7 @@ pub use dataset::{
 pub use error::{Error, Place};
 pub use files::write_atomically;
 pub use image::{image_size, read_image};
-pub use import::{Imported, import};
+pub use import::{Declared, Direction, Imported, import};
 pub use init::{FirstManifest, Question, first_manifest};
 pub use mesh::{is_mesh, points_on, read_mesh};
 pub use pairs_file::{MeasuredPoses, PosesFile, poses_from_json, read_poses};

@@ -1,33 +1,45 @@
-//! Data sets of other programs: recognised, and described by a manifest beside them.
+//! Data sets and results of other programs: recognised, and described by a file of ours beside them.
 //!
-//! Nothing is converted: the manifest says how their files are to be read, directions and units included. What a
-//! program's layout says of itself is taken, what it leaves open is asked.
+//! A data set gets a manifest, and nothing is converted: the manifest says how its files are to be read, directions
+//! and units included. What a manifest cannot describe is written anew: two streams of poses by two clocks as
+//! `pairs.json` for `solve`, a result as a pose. What a program's layout says of itself is taken, what it leaves open is
+//! declared, proven from the data, or asked.
 
+mod declared;
 mod industrial;
 mod samples;
+mod streams;
 mod tabb;
+mod trajectories;
 mod zivid;
 
 use std::path::{Path, PathBuf};
 
 use handeye::Setup;
 
-use crate::{Error, error::unusable};
+use crate::{Error, MANIFEST, error::unusable};
+pub use declared::{Declared, Direction};
 
-/// A data set that was recognised.
+/// What was recognised, and the file that belongs beside it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Imported {
     /// Whose layout it is.
     pub layout: &'static str,
-    /// Where the manifest belongs.
+    /// Where the file belongs.
     pub folder: PathBuf,
+    /// What it is called.
+    pub name: String,
     /// Its text.
-    pub manifest: String,
+    pub text: String,
     /// What it does not say, and somebody must add.
     pub questions: Vec<String>,
+    /// What was taken from where, or proven by the data.
+    pub notes: Vec<String>,
+    /// What to run on it.
+    pub next: &'static str,
 }
 
-/// What a layout says of the set.
+/// What a layout says of a data set.
 struct Described {
     layout: &'static str,
     folder: PathBuf,
@@ -37,56 +49,65 @@ struct Described {
     questions: Vec<String>,
 }
 
-/// Describes a source whose layout it knows.
+/// Describes a data set whose layout it knows.
 type Layout = fn(&Path) -> Result<Option<Described>, Error>;
+/// Writes anew what no manifest can describe.
+type Rewritten = fn(&Path, &Declared) -> Result<Option<Imported>, Error>;
 
-/// Layouts, in the order in which they are tried.
-const LAYOUTS: [Layout; 4] =
+/// Layouts of data sets, in the order in which they are tried.
+const SETS: [Layout; 4] =
     [samples::describe, industrial::describe, tabb::describe, zivid::describe];
+/// All others, likewise.
+const OTHERS: [Rewritten; 1] = [trajectories::import];
 /// What is recognised.
 const KNOWN: &str = "samples of easy_handeye2 (samples with `robot` and `tracking`) and of moveit_calibration \
                      (`effector_wrt_world` and `object_wrt_sensor`), cal_data.yaml of robot_cal_tools, data sets \
-                     of industrial_calibration, Tabb's layout (robot_cali.txt), Zivid's (img01.zdf and pos01.yaml)";
+                     of industrial_calibration, Tabb's layout (robot_cali.txt), Zivid's (img01.zdf and pos01.yaml), \
+                     trajectories (lines of t x y z qx qy qz qw) of robot and camera";
 
-/// Recognises a file or folder of another program. `setup` says who carries the camera, where the files do not.
+/// Recognises a file or folder of another program; `declared` is what its files do not say.
 ///
 /// # Errors
-/// What cannot be read; a layout that is none of those known; a setup that contradicts the files.
-pub fn import(source: &Path, setup: Option<Setup>) -> Result<Imported, Error> {
+/// What cannot be read; a layout that is none of those known; a declaration that contradicts the files; a question
+/// that must be answered before anything can be written.
+pub fn import(source: &Path, declared: &Declared) -> Result<Imported, Error> {
     std::fs::metadata(source)
         .map_err(|error| Error::Read { path: source.into(), source: error })?;
-    for layout in LAYOUTS {
+    let sets: &[Layout] = if declared.camera.is_some() { &[] } else { &SETS };
+    for layout in sets {
         if let Some(described) = layout(source)? {
-            return with_setup(described, setup, source);
+            return with_setup(described, declared.setup, source);
+        }
+    }
+    for layout in OTHERS {
+        if let Some(imported) = layout(source, declared)? {
+            return Ok(imported);
         }
     }
     Err(unusable(
         source,
-        format!(
-            "is no data set that is known here; there are {KNOWN}. For other files: handeye init"
-        ),
+        format!("is nothing that is known here; there are {KNOWN}. For other files: handeye init"),
     ))
 }
 
 fn with_setup(set: Described, given: Option<Setup>, source: &Path) -> Result<Imported, Error> {
-    if let (Some(own), Some(given)) = (set.setup, given)
-        && own != given
-    {
-        let what = format!("says that it is {}, and {} was asked for", own.name(), given.name());
-        return Err(unusable(source, what));
-    }
     let mut questions = set.questions;
-    let line = match set.setup.or(given) {
+    let line = match declared::setup(set.setup, given, source)? {
         Some(setup) => format!("setup = \"{}\"", setup.name()),
         None => {
-            let what =
-                "who carries the camera: the robot (eye-in-hand), or the cell (eye-to-hand)?";
-            questions.insert(0, what.into());
-            format!("# {what}\n# setup = \"eye-in-hand\"")
+            questions.insert(0, declared::WHO_CARRIES.into());
+            format!("# {}\n# setup = \"eye-in-hand\"", declared::WHO_CARRIES)
         }
     };
-    let manifest = format!("# {}\n{line}\n{}", set.layout, set.sections);
-    Ok(Imported { layout: set.layout, folder: set.folder, manifest, questions })
+    Ok(Imported {
+        layout: set.layout,
+        folder: set.folder,
+        name: MANIFEST.into(),
+        text: format!("# {}\n{line}\n{}", set.layout, set.sections),
+        questions,
+        notes: vec![],
+        next: "handeye calibrate",
+    })
 }
 
 /// The folder a file lies in, and its name.

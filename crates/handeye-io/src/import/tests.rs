@@ -11,11 +11,15 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
+fn of(setup: Setup) -> Declared {
+    Declared { setup: Some(setup), ..Declared::default() }
+}
+
 /// The manifest, written and opened.
 fn opened(imported: &Imported) -> Dataset {
-    let manifest = imported.folder.join("handeye.toml");
-    fs::write(&manifest, &imported.manifest).unwrap();
-    Dataset::open(&manifest).unwrap_or_else(|e| panic!("{e}\n{}", imported.manifest))
+    let manifest = imported.folder.join(&imported.name);
+    fs::write(&manifest, &imported.text).unwrap();
+    Dataset::open(&manifest).unwrap_or_else(|e| panic!("{e}\n{}", imported.text))
 }
 
 fn easy_handeye(kind: &str) -> String {
@@ -38,7 +42,7 @@ fn samples_of_easy_handeye_are_read_in_their_own_direction() {
         let folder = folder(kind);
         let file = folder.join("cell.samples.yaml");
         fs::write(&file, easy_handeye(kind)).unwrap();
-        let set = opened(&import(&file, None).unwrap());
+        let set = opened(&import(&file, &Declared::default()).unwrap());
         assert_eq!((set.setup, set.captures.len()), (setup, 3));
         let first = set.captures[0].base_from_flange.iso();
         let reported = if setup == Setup::EyeInHand { *first } else { first.inverse() };
@@ -55,10 +59,10 @@ fn a_setup_that_contradicts_the_samples_is_refused() {
     let folder = folder("contradiction");
     let file = folder.join("cell.yaml");
     fs::write(&file, easy_handeye("eye_in_hand")).unwrap();
-    let error = import(&file, Some(Setup::EyeToHand)).unwrap_err().to_string();
+    let error = import(&file, &of(Setup::EyeToHand)).unwrap_err().to_string();
     assert!(error.contains("says that it is eye-in-hand"), "{error}");
     fs::write(&file, easy_handeye("eye_on_nothing")).unwrap();
-    let error = import(&file, None).unwrap_err().to_string();
+    let error = import(&file, &Declared::default()).unwrap_err().to_string();
     assert!(error.contains("calibration_type"), "{error}");
     fs::remove_dir_all(folder).ok();
 }
@@ -76,9 +80,9 @@ fn samples_of_moveit_calibration_ask_who_carries_the_camera() {
     for (name, text) in files {
         let file = folder.join(name);
         fs::write(&file, text).unwrap();
-        let asked = import(&file, None).unwrap();
+        let asked = import(&file, &Declared::default()).unwrap();
         assert!(asked.questions[0].contains("who carries the camera"), "{:?}", asked.questions);
-        let answered = import(&file, Some(Setup::EyeToHand)).unwrap();
+        let answered = import(&file, &of(Setup::EyeToHand)).unwrap();
         assert!(answered.questions.is_empty());
         assert_eq!(opened(&answered).captures.len(), 3, "{name}");
     }
@@ -108,18 +112,18 @@ fn robot_cal_tools_says_target_and_setup() {
     let folder = folder("rct");
     let pairs = ["0", "1", "2"].map(|k| (format!("poses/{k}.yaml"), format!("images/{k}.png")));
     robot_cal_tools(&folder, [0, 1, 2].map(|k| (pairs[k].0.as_str(), pairs[k].1.as_str())));
-    let imported = import(&folder, None).unwrap();
+    let imported = import(&folder, &Declared::default()).unwrap();
     assert_eq!((imported.layout, imported.questions.len()), ("robot_cal_tools", 0));
     let set = opened(&imported);
     assert_eq!((set.setup, set.captures.len()), (Setup::EyeInHand, 3));
-    assert!(imported.manifest.contains("DICT_6X6_250") && imported.manifest.contains("36.195"));
+    assert!(imported.text.contains("DICT_6X6_250") && imported.text.contains("36.195"));
     let named = [
         ("poses/0.yaml", "images/0.png"),
         ("poses/1.yaml", "images/2.png"),
         ("poses/2.yaml", "images/1.png"),
     ];
     robot_cal_tools(&folder, named);
-    let error = import(&folder, None).unwrap_err().to_string();
+    let error = import(&folder, &Declared::default()).unwrap_err().to_string();
     assert!(error.contains("poses/1.yaml belongs to images/2.png"), "{error}");
     fs::remove_dir_all(folder).ok();
 }
@@ -129,10 +133,10 @@ fn what_is_not_known_is_told_what_is() {
     let folder = folder("unknown");
     fs::write(folder.join("notes.txt"), "nothing").unwrap();
     for source in [folder.clone(), folder.join("notes.txt")] {
-        let error = import(&source, None).unwrap_err().to_string();
+        let error = import(&source, &Declared::default()).unwrap_err().to_string();
         assert!(error.contains("easy_handeye2") && error.contains("handeye init"), "{error}");
     }
-    let error = import(&folder.join("gone"), None).unwrap_err();
+    let error = import(&folder.join("gone"), &Declared::default()).unwrap_err();
     assert_eq!(error.code(), "cannot-read");
     fs::remove_dir_all(folder).ok();
 }
