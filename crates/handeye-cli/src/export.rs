@@ -8,7 +8,7 @@ use std::{
 use handeye::{Calibration, Verdict};
 use handeye_io::{
     export::{CameraPose, Format, render},
-    write_atomically,
+    read_result, write_atomically,
 };
 use serde_json::json;
 
@@ -28,7 +28,7 @@ pub fn run(args: &ExportArgs, manners: &Manners) -> Result<u8, Failure> {
     let path = args.calibration.as_ref().ok_or_else(|| {
         Failure::Usage("which calibration? Name the calibration.json of a result".into())
     })?;
-    let calibration = read_calibration(path)?;
+    let calibration = read_result(path)?;
     check_verdict(path, &calibration, args.force, manners)?;
     let frames = Frames { parent: args.parent.as_deref(), child: &args.child };
     match &args.out {
@@ -86,13 +86,6 @@ fn check_out(out: Option<&Path>, formats: &[Format]) -> Result<(), Failure> {
     )))
 }
 
-/// Reads a calibration.json.
-pub fn read_calibration(path: &Path) -> Result<Calibration, Failure> {
-    let text = fs::read_to_string(path).map_err(|e| Failure::unreadable(path, &e))?;
-    let named = "is no calibration.json of handeye: ";
-    serde_json::from_str(&text).map_err(|e| Failure::in_json(path, &e, named))
-}
-
 fn list(manners: &Manners) {
     let names = Format::names();
     if manners.json {
@@ -102,7 +95,7 @@ fn list(manners: &Manners) {
     }
 }
 
-/// A result that is not accepted leaves the house only by force.
+/// A result that is not accepted leaves the house only by force; what came from elsewhere leaves as it came.
 fn check_verdict(
     path: &Path,
     calibration: &Calibration,
@@ -110,6 +103,13 @@ fn check_verdict(
     manners: &Manners,
 ) -> Result<(), Failure> {
     if calibration.verdict == Verdict::Accepted {
+        return Ok(());
+    }
+    if calibration.is_unjudged() {
+        let what = "nothing here tells how good it is; `handeye verify` tests it on touched points";
+        if !manners.quiet {
+            eprintln!("warning [not-judged]: {}: {what}", path.display());
+        }
         return Ok(());
     }
     let verdict = match calibration.verdict {

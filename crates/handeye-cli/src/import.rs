@@ -17,7 +17,7 @@ pub fn run(args: &ImportArgs, manners: &Manners) -> Result<u8, Failure> {
         return Err(Failure::in_the_way(path, what));
     }
     write_atomically(&path, imported.text.as_bytes())?;
-    let next = format!("{} {}", imported.next, path.display());
+    let next = imported.next.replace("{}", &path.display().to_string());
     if manners.json {
         let key = if imported.name == handeye_io::MANIFEST { "manifest" } else { "file" };
         output::json(&json!({
@@ -49,6 +49,7 @@ fn declared(args: &ImportArgs) -> Result<Declared, Failure> {
         setup: args.setup.map(Into::into),
         camera: args.camera.clone(),
         directions: args.direction.iter().map(direction).collect::<Result<_, _>>()?,
-        sequence: None,
+        sequence: args.sequence.clone(),
+        length_unit: args.length_unit.map(Into::into),
     })
 }

@@ -48,7 +48,19 @@ const ROUNDED: f64 = 1e-3;
 enum Initial {
     Named { target_from_source: Transform },
     Plain(Transform),
+    Framed(Framed),
     Matrix([[f64; 4]; 4]),
+}
+
+/// A pose with the names of its frames, as `import` writes it.
+#[derive(Deserialize)]
+struct Framed {
+    #[serde(rename = "to")]
+    _to: String,
+    #[serde(rename = "from")]
+    _from: String,
+    translation_m: [f64; 3],
+    rotation_xyzw: [f64; 4],
 }
 
 #[derive(Serialize)]
@@ -187,13 +199,15 @@ pub fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
         serde_json::from_str(&text).map_err(|error| Failure::in_json(path, &error, ""))?;
     let wrong = |what: &str| Failure::input(path, what.to_owned());
     let (t, rotation) = match read {
-        Initial::Named { target_from_source: pose } | Initial::Plain(pose) => {
-            let [x, y, z, w] = pose.rotation_xyzw;
+        Initial::Named { target_from_source: Transform { translation_m, rotation_xyzw } }
+        | Initial::Plain(Transform { translation_m, rotation_xyzw })
+        | Initial::Framed(Framed { translation_m, rotation_xyzw, .. }) => {
+            let [x, y, z, w] = rotation_xyzw;
             let q = Quaternion::new(w, x, y, z);
             if !((q.norm() - 1.0).abs() < ROUNDED) {
                 return Err(wrong("the rotation is no quaternion of length one (x, y, z, w)"));
             }
-            (pose.translation_m, UnitQuaternion::from_quaternion(q))
+            (translation_m, UnitQuaternion::from_quaternion(q))
         }
         Initial::Matrix(m) => {
             let r = Matrix3::from_fn(|i, j| m[i][j]);

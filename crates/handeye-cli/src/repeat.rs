@@ -6,12 +6,12 @@ use handeye::{
     Calibration, Camera, Mount, Pose, Setup, calibration,
     repeat::{Agreement, Repeat, Repetition, Scatter, repeat, scatter_at, scatter_of_rotation},
 };
+use handeye_io::read_result;
 use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::{
     args::{Manners, RepeatArgs},
-    export::read_calibration,
     failure::Failure,
     output,
 };
@@ -80,8 +80,7 @@ struct Answer {
 }
 
 pub fn run(args: &RepeatArgs, manners: &Manners) -> Result<u8, Failure> {
-    let results =
-        args.results.iter().map(|p| read_calibration(p)).collect::<Result<Vec<_>, _>>()?;
+    let results = args.results.iter().map(|p| read_result(p)).collect::<Result<Vec<_>, _>>()?;
     check_twice(&args.results)?;
     check_setups(&args.results, &results)?;
     let answers = args.results.iter().zip(&results).map(|(path, c)| repetition(path, c));

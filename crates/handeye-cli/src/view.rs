@@ -7,7 +7,7 @@ use std::{
 
 use handeye::{Calibration, Scan, Setup, TriangleMesh, Verdict, Warning};
 use handeye_io::{
-    is_mesh,
+    is_mesh, read_result,
     report::{Shown, Thing, ThingCount, shown_html},
     write_atomically,
 };
@@ -17,7 +17,6 @@ use serde_json::Value;
 
 use crate::{
     args::{Manners, Reading, ViewArgs},
-    export::read_calibration,
     failure::Failure,
     output, register,
 };
@@ -131,7 +130,7 @@ fn tell(told: &Told, manners: &Manners) {
 fn read(path: &Path, reading: &Reading, warnings: &mut Vec<Warning>) -> Result<Content, Failure> {
     let kind = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if kind == "json" {
-        return read_result(path);
+        return read_json(path);
     }
     if is_mesh(path) {
         return register::read_triangles(path, reading, warnings).map(Content::Mesh);
@@ -146,7 +145,7 @@ fn read(path: &Path, reading: &Reading, warnings: &mut Vec<Warning>) -> Result<C
 }
 
 /// A result of this program, told by its keys.
-fn read_result(path: &Path) -> Result<Content, Failure> {
+fn read_json(path: &Path) -> Result<Content, Failure> {
     let text = fs::read_to_string(path).map_err(|error| Failure::unreadable(path, &error))?;
     let value: Value =
         serde_json::from_str(&text).map_err(|error| Failure::in_json(path, &error, ""))?;
@@ -155,13 +154,13 @@ fn read_result(path: &Path) -> Result<Content, Failure> {
         let judged = serde_json::from_value(value).ok();
         return Ok(Content::Registration(Found { target_from_source, judged }));
     }
-    if value.get("hand_eye").is_none() {
+    if value.get("hand_eye").is_none() && value.get("translation_m").is_none() {
         return Err(Failure::input(
             path,
             format!("is neither a calibration nor a registration; {KINDS}"),
         ));
     }
-    let calibration = read_calibration(path)?;
+    let calibration = read_result(path)?;
     if calibration.hand_eye.mount_from_camera.is_none() {
         let what = "holds no transform: the data did not determine it; nothing of it can be drawn";
         return Err(Failure::input(path, what));

@@ -416,7 +416,15 @@ pub struct Calibration {
     pub warnings: Vec<Warning>,
 }
 
+/// Method of a pose that comes from elsewhere.
+pub(crate) const UNJUDGED: &str = "unjudged";
+
 impl Calibration {
+    /// Whether it is a mere pose that comes from elsewhere, without any data to judge it by.
+    pub fn is_unjudged(&self) -> bool {
+        self.method == UNJUDGED
+    }
+
     /// Process exit code of the verdict: 0 accepted, 3 otherwise.
     pub fn exit_code(&self) -> u8 {
         if self.verdict == Verdict::Accepted { 0 } else { 3 }

@@ -9,6 +9,7 @@ use handeye::{
     verify::{self, ChiSquare, LEAST_CHANCE, SHARE, Test, Touched, Verification, Within},
 };
 use handeye_io::{
+    read_result,
     report::{TouchTest, touch_test_html},
     write_atomically,
 };
@@ -17,7 +18,6 @@ use serde::Serialize;
 
 use crate::{
     args::{Manners, VerifyArgs},
-    export::read_calibration,
     failure::Failure,
     output,
 };
@@ -77,7 +77,7 @@ pub fn run(args: &VerifyArgs, manners: &Manners) -> Result<u8, Failure> {
         true => args.calibration.join("calibration.json"),
         false => args.calibration.clone(),
     };
-    let calibration = read_calibration(&path)?;
+    let calibration = read_result(&path)?;
     let (test, mut warnings) = test::test(args, &calibration, &path, manners)?;
     let found = verify::verify(&test)?;
     warnings.splice(..0, of_its_own(&calibration));
@@ -170,9 +170,11 @@ fn conclude(
     }
 }
 
-/// The calibration's own verdict, in words, where it is not accepted.
+/// The calibration's own verdict, in words, where it is not accepted. A pose that comes from elsewhere has none: of that
+/// the touches alone decide.
 fn own_verdict(c: &Calibration) -> Option<String> {
     let word = match c.verdict {
+        _ if c.is_unjudged() => return None,
         Verdict::Accepted => return None,
         Verdict::Rejected => "rejected",
         Verdict::Undetermined => "undetermined",
@@ -197,6 +199,11 @@ fn with_its_own(
 }
 
 fn of_its_own(c: &Calibration) -> Option<Warning> {
+    if c.is_unjudged() {
+        let message = "it is a pose from elsewhere, without data to judge it by: the touches alone decide, and only \
+                       for where they were";
+        return Some(Warning::new("not-judged", message));
+    }
     let message =
         format!("{}: correct that first, calibrate anew, and test again", own_verdict(c)?);
     Some(Warning::new("calibration-not-accepted", message))

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::{Calibration, Camera, Mount, Pose, Scan, Setup, Warning};
+use handeye::{Camera, Mount, Pose, Scan, Setup, Warning};
 use serde::{
     Deserialize, Deserializer,
     de::{Error as _, MapAccess, SeqAccess, Visitor},
@@ -14,7 +14,8 @@ use serde::{
 use super::{Dataset, opening::Opening};
 use crate::{
     error::{Error, Place, malformed},
-    files, mesh,
+    mesh,
+    result_file::read_result,
     scan::{self, ScanOptions},
     target_file::{Targets, TargetsVisitor},
     units::LengthUnit,
@@ -206,11 +207,7 @@ fn guess(path: &Path, setup: Setup) -> Result<Pose<Mount, Camera>, Error> {
     let refuse = |line: Option<usize>, what: String, advice: &str| {
         malformed(Place { line, ..Place::file(path) }, what, advice)
     };
-    let earlier: Calibration = serde_json::from_str(&files::text(path)?).map_err(|e| {
-        let line = (e.line() > 0).then_some(e.line());
-        let advice = "name the calibration.json that `handeye calibrate` wrote";
-        refuse(line, format!("is no calibration.json of handeye: {e}"), advice)
-    })?;
+    let earlier = read_result(path)?;
     if earlier.setup != setup {
         let what = "is the result of a camera that stands still (eye-to-hand)".to_owned();
         return Err(refuse(None, what, "name one of this camera on the flange (eye-in-hand)"));

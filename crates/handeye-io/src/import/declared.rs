@@ -8,6 +8,7 @@ use nalgebra::Isometry3;
 use crate::{
     Error,
     error::{nearest, unusable},
+    units::LengthUnit,
 };
 
 /// What the user says of a source.
@@ -21,6 +22,8 @@ pub struct Declared {
     pub directions: Vec<Direction>,
     /// Which of several sequences.
     pub sequence: Option<String>,
+    /// The unit of positions.
+    pub length_unit: Option<LengthUnit>,
 }
 
 /// `a_from_b`: such a pose takes points of the second frame into the first.
@@ -68,6 +71,15 @@ impl Direction {
     /// The other way.
     pub(super) const fn inverse(&self) -> Self {
         Self::of(self.from, self.to)
+    }
+
+    /// Who carries the camera, where this is its pose.
+    pub(super) fn setup(self) -> Option<Setup> {
+        match [self.to, self.from] {
+            ["base", "camera"] | ["camera", "base"] => Some(Setup::EyeToHand),
+            ["flange", "camera"] | ["camera", "flange"] => Some(Setup::EyeInHand),
+            _ => None,
+        }
     }
 
     /// A pose of this direction in that one, which is the same or the inverse.

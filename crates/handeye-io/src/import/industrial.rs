@@ -7,7 +7,7 @@ use std::path::Path;
 
 use handeye::{Setup, TargetModel};
 
-use super::{Described, quoted};
+use super::{Declared, Described, quoted};
 use crate::{Error, error::unusable, files, target_file::target_toml, tree::Tree};
 
 /// OpenCV's dictionaries by their numbers.
@@ -31,7 +31,7 @@ const DICTIONARIES: [&str; 17] = [
     "DICT_ARUCO_ORIGINAL",
 ];
 
-pub(super) fn describe(source: &Path) -> Result<Option<Described>, Error> {
+pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>, Error> {
     let file = if source.is_dir() { source.join("cal_data.yaml") } else { source.to_path_buf() };
     if !file.is_file() || !["yaml", "yml"].contains(&files::extension(&file).as_str()) {
         return Ok(None);
@@ -86,7 +86,10 @@ pub(super) fn describe(source: &Path) -> Result<Option<Described>, Error> {
 }
 
 /// `poses/*.yaml` of `poses/0.yaml`, `poses/1.yaml` ...
-fn pattern<'a>(mut names: impl Iterator<Item = &'a str>, list: &Path) -> Result<String, Error> {
+pub(super) fn pattern<'a>(
+    mut names: impl Iterator<Item = &'a str>,
+    list: &Path,
+) -> Result<String, Error> {
     let pattern = |name: &str| {
         let path = Path::new(name);
         let file = format!("*.{}", path.extension().unwrap_or_default().to_string_lossy());

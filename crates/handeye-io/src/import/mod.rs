@@ -5,12 +5,18 @@
 //! `pairs.json` for `solve`, a result as a pose. What a program's layout says of itself is taken, what it leaves open is
 //! declared, proven from the data, or asked.
 
+mod calibration_rs;
 mod declared;
+mod halcon;
 mod industrial;
+mod kinhec;
+mod results;
+mod ros;
 mod samples;
 mod streams;
 mod tabb;
 mod trajectories;
+mod vision;
 mod zivid;
 
 use std::path::{Path, PathBuf};
@@ -35,7 +41,7 @@ pub struct Imported {
     pub questions: Vec<String>,
     /// What was taken from where, or proven by the data.
     pub notes: Vec<String>,
-    /// What to run on it.
+    /// What to run on it, `{}` in place of its path.
     pub next: &'static str,
 }
 
@@ -50,20 +56,28 @@ struct Described {
 }
 
 /// Describes a data set whose layout it knows.
-type Layout = fn(&Path) -> Result<Option<Described>, Error>;
+type Layout = fn(&Path, &Declared) -> Result<Option<Described>, Error>;
 /// Writes anew what no manifest can describe.
 type Rewritten = fn(&Path, &Declared) -> Result<Option<Imported>, Error>;
 
 /// Layouts of data sets, in the order in which they are tried.
-const SETS: [Layout; 4] =
-    [samples::describe, industrial::describe, tabb::describe, zivid::describe];
+const SETS: [Layout; 6] = [
+    samples::describe,
+    industrial::describe,
+    tabb::describe,
+    zivid::describe,
+    calibration_rs::describe,
+    halcon::describe,
+];
 /// All others, likewise.
-const OTHERS: [Rewritten; 1] = [trajectories::import];
+const OTHERS: [Rewritten; 3] = [kinhec::import, trajectories::import, results::import];
 /// What is recognised.
 const KNOWN: &str = "samples of easy_handeye2 (samples with `robot` and `tracking`) and of moveit_calibration \
                      (`effector_wrt_world` and `object_wrt_sensor`), cal_data.yaml of robot_cal_tools, data sets \
                      of industrial_calibration, Tabb's layout (robot_cali.txt), Zivid's (img01.zdf and pos01.yaml), \
-                     trajectories (lines of t x y z qx qy qz qw) of robot and camera";
+                     manifests of calibration-rs, folders of HALCON's poses, trajectories (lines of \
+                     t x y z qx qy qz qw) of robot and camera, KinHEC; and results of easy_handeye, \
+                     moveit_calibration, ROS 2 launch files, Zivid, OpenCV, HALCON, Mech-Mind";
 
 /// Recognises a file or folder of another program; `declared` is what its files do not say.
 ///
@@ -75,7 +89,7 @@ pub fn import(source: &Path, declared: &Declared) -> Result<Imported, Error> {
         .map_err(|error| Error::Read { path: source.into(), source: error })?;
     let sets: &[Layout] = if declared.camera.is_some() { &[] } else { &SETS };
     for layout in sets {
-        if let Some(described) = layout(source)? {
+        if let Some(described) = layout(source, declared)? {
             return with_setup(described, declared.setup, source);
         }
     }
@@ -106,7 +120,7 @@ fn with_setup(set: Described, given: Option<Setup>, source: &Path) -> Result<Imp
         text: format!("# {}\n{line}\n{}", set.layout, set.sections),
         questions,
         notes: vec![],
-        next: "handeye calibrate",
+        next: "handeye calibrate {}",
     })
 }
 

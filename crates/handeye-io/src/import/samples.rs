@@ -9,10 +9,10 @@ use std::path::Path;
 
 use handeye::Setup;
 
-use super::{Described, quoted, split};
+use super::{Declared, Described, quoted, split};
 use crate::{Error, error::unusable, files, tree::Tree};
 
-pub(super) fn describe(source: &Path) -> Result<Option<Described>, Error> {
+pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>, Error> {
     let is_text = ["yaml", "yml", "json", "samples"].contains(&files::extension(source).as_str());
     if !source.is_file() || !is_text {
         return Ok(None);

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use handeye::{Setup, TargetModel};
 
-use super::{Described, quoted};
+use super::{Declared, Described, quoted};
 use crate::{Error, error::unusable, files, target_file::target_toml};
 
-pub(super) fn describe(source: &Path) -> Result<Option<Described>, Error> {
+pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>, Error> {
     let folder = if source.is_dir() { source.to_path_buf() } else { super::split(source).0 };
     let (poses, board) = (folder.join("robot_cali.txt"), folder.join("calibration_object.txt"));
     let is_meant = source.is_dir() || source.file_name() == poses.file_name();

@@ -59,7 +59,7 @@ pub(super) fn import(source: &Path, declared: &Declared) -> Result<Option<Import
         text: streams::text(&streams),
         questions: vec![],
         notes,
-        next: "handeye solve",
+        next: "handeye solve {}",
     }))
 }
 

@@ -3,6 +3,7 @@
 
 mod array;
 mod field;
+pub(crate) mod halcon;
 mod lines;
 
 use std::path::{Path, PathBuf};
@@ -67,10 +68,16 @@ pub(crate) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error
     let records = match files::extension(path).as_str() {
         "json" | "yaml" | "yml" | "calib" | "xml" => field::records(path, layout)?,
         "npy" | "npz" => array::records(path, layout)?,
+        "dat" if let Some(text) = pose_of_halcon(path)? => vec![halcon::record(&text, path)?],
         _ => lines::records(path, layout)?,
     };
     let records = select_rows(records, layout, path)?;
     records.into_iter().map(|r| r.select_columns(&layout.columns)).collect()
+}
+
+/// The text of a file, where it is a pose that HALCON wrote.
+fn pose_of_halcon(path: &Path) -> Result<Option<String>, Error> {
+    files::text(path).map(|text| Some(text).filter(|text| halcon::is_pose(text)))
 }
 
 /// The single record of each of several files, named after its file.

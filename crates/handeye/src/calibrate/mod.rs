@@ -35,9 +35,9 @@ mod workpiece;
 mod wrong_touches;
 
 use crate::{
-    Correspondence, Error, Intrinsics, Observation, Placement, Setup, TargetModel, Touch,
-    Workspace,
-    calibration::{Answer, Calibration, Misfit, Verdict},
+    Camera, Correspondence, Error, Intrinsics, Mount, Observation, Placement, Pose, Setup,
+    TargetModel, Touch, Workspace,
+    calibration::{Answer, Calibration, Misfit, UNJUDGED, Verdict},
     kinematics::Arm,
     refine::{KnownPosition, noise::KnownNoise},
     register::IcpConfig,
@@ -127,19 +127,19 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
     let mut session = in_order(session);
     let repeated = touches::each_once(&mut session.touches);
     if session.observations.is_empty() {
-        let mut result = empty(&session);
+        let mut result = empty(session.setup);
         points::from_points(&session, &mut result);
         verdict::conclude(config, &mut result);
         return Ok(result);
     }
     if let Some(TargetModel::Sphere { .. }) = session.target {
-        let mut result = empty(&session);
+        let mut result = empty(session.setup);
         balls::from_balls(&session, config, &mut result);
         verdict::conclude(config, &mut result);
         return Ok(result);
     }
     let mut result = sources::best_source(&session, |session| {
-        let mut result = empty(session);
+        let mut result = empty(session.setup);
         from_views(session, (session, &Optics::default(), 0), config, &mut result);
         verdict::conclude(config, &mut result);
         result
@@ -175,7 +175,7 @@ fn from_views(
     if round < OPTICS_ROUNDS
         && let Some((moved, next)) = optics::look(given, &views, &found.hand_eye, optics, config)
     {
-        let mut again = empty(session);
+        let mut again = empty(session.setup);
         from_views(given, (&moved, &next, round + 1), config, &mut again);
         if again.chosen.is_some() {
             *result = again;
@@ -189,7 +189,7 @@ fn from_views(
     if round <= OPTICS_ROUNDS
         && let Some((moved, next)) = arm.and_then(|fit| optics.moved_by(given, &fit))
     {
-        let mut again = empty(session);
+        let mut again = empty(session.setup);
         from_views(given, (&moved, &next, OPTICS_ROUNDS + 1), config, &mut again);
         if again.chosen.is_some() {
             *result = again;
@@ -246,21 +246,31 @@ pub fn natural(a: &str, b: &str) -> std::cmp::Ordering {
 
 /// The result of a session that has no answer.
 pub(crate) fn without_answer(session: &Session) -> Calibration {
-    let mut result = empty(session);
+    let mut result = empty(session.setup);
     result.captures = session.observations.iter().map(agreement::first_report).collect();
     result.captures.iter_mut().for_each(|c| c.used = false);
     result
 }
 
-fn empty(session: &Session) -> Calibration {
+/// A pose of the camera that comes from elsewhere: nothing was measured here, and nothing is said of its error.
+pub fn unjudged(setup: Setup, mount_from_camera: Pose<Mount, Camera>) -> Calibration {
+    let mut result = empty(setup);
+    result.hand_eye.mount_from_camera = Some(mount_from_camera);
+    result.method = UNJUDGED.into();
+    result.reasons = vec!["it comes from elsewhere, and nothing was measured here".into()];
+    (result.time_offset_s, result.scale) = (None, None);
+    result
+}
+
+fn empty(setup: Setup) -> Calibration {
     Calibration {
         format: FORMAT.into(),
-        setup: session.setup,
+        setup,
         verdict: Verdict::Undetermined,
         reasons: vec![],
         method: String::new(),
         hand_eye: Answer::default(),
-        name: format!("{}_from_camera", session.setup.mount()),
+        name: format!("{}_from_camera", setup.mount()),
         chosen: None,
         why: String::new(),
         candidates: vec![],
