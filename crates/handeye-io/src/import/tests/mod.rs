@@ -1,3 +1,7 @@
+mod results;
+mod sets;
+mod trajectories;
+
 use std::{env, fs};
 
 use super::*;
