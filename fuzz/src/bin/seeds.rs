@@ -31,6 +31,7 @@ fn main() {
     }
     scans(target);
     texts();
+    imports();
 }
 
 fn scene(target: &TargetModel) -> Scene {
@@ -194,6 +195,35 @@ fn texts() {
         "setup = \"eye-to-hand\"\n\n{target}\n[camera]\nfile = \"camera.json\"\n\n[robot]\nposes = \"poses.csv\"\nnotation = \"kuka\"\ndirection = \"base_from_flange\"\n\n[images]\nfiles = \"*.png\"\n"
     );
     put("manifest", "plain", manifest.as_bytes());
+}
+
+/// What other programs write; the first byte chooses the ending.
+fn imports() {
+    let line = |k: f64| format!("{k}, 0.1, {}, 0.3, 0, 0, 0.6, 0.8\n", 0.2 * k);
+    let csv: String = (0..12).map(|k| line(f64::from(k) * 0.1)).collect();
+    let easy = "parameters: {calibration_type: eye_on_base}\ntransform:\n  translation: {x: 1, y: 2, z: 3}\n  rotation: {x: 0, y: 0, z: 0, w: 1}\n";
+    let zivid =
+        "FloatMatrix:\n  Data: [[1, 0, 0, 100], [0, 1, 0, 200], [0, 0, 1, 300], [0, 0, 0, 1]]\n";
+    let launch =
+        "<launch><node type=\"static_transform_publisher\" args=\"1 2 3 0 0 0 1 a b\"/></launch>";
+    let python = "Node(executable='static_transform_publisher', arguments=['--x', '1', '--qw', '1', '--frame-id', 'a', '--child-frame-id', 'b'])";
+    let rust = "topology = \"single_cam_handeye\"\n_unresolved = [\"target\"]\n[[cameras]]\nid = \"a\"\nimages = { kind = \"glob\", pattern = \"*.png\" }\n[target]\nkind = \"chessboard\"\nrows = 6\ncols = 9\nsquare_size_m = 0.03\n[robot_poses]\npath = \"p.csv\"\nformat = \"csv\"\ncolumns = { tx = \"x\", ty = \"y\", tz = \"z\", rotation = [\"a\"] }\n[pose_convention]\ntransform = \"t_base_tcp\"\nrotation_format = \"quat_xyzw\"\ntranslation_units = \"mm\"\n";
+    let pose = r#"{"to": "base", "from": "camera", "translation_m": [1, 2, 3], "rotation_xyzw": [0, 0, 0, 1]}"#;
+    for (k, name, text) in [
+        (1, "csv", csv.as_str()),
+        (2, "tum", &csv.replace(',', " ")),
+        (2, "mech_mind", "ExtrinsicParameters:\n1,2,3,1,0,0,0\n"),
+        (3, "pose", pose),
+        (4, "easy", easy),
+        (4, "zivid", zivid),
+        (7, "launch", launch),
+        (9, "python", python),
+        (10, "halcon", "f 0\nr 0 0 90\nt 1 0 0\n"),
+        (11, "calibration_rs", rust),
+    ] {
+        put("import", name, &[&[k][..], text.as_bytes()].concat());
+    }
+    put("import", "parquet", &[&[0][..], include_bytes!("../../sequence.parquet")].concat());
 }
 
 fn put(target: &str, name: &str, bytes: &[u8]) {

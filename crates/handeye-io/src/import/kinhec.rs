@@ -3,7 +3,7 @@
 //!
 //! A. Aiersilan, KinHEC: a kinematic trajectory benchmark for hand-eye and robot-world calibration, 2026.
 
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 use handeye::{Base, Camera, Flange, Pose, Setup, Stamped, Target};
 use nalgebra::Isometry3;
@@ -23,6 +23,8 @@ use crate::{
 const SEQUENCES: &str = "sequences.parquet";
 /// So many names are listed where none was chosen.
 const MOST_LISTED: usize = 24;
+/// More frames than that has no sequence.
+const MOST_FRAMES: usize = 200_000;
 
 /// A frame of a stream.
 struct Frame {
@@ -154,9 +156,10 @@ fn frames(path: &Path, prefix: &str, id: &str) -> Result<Vec<Frame>, Error> {
             }
         }
     }
-    match all.is_empty() {
-        true => Err(unusable(path, format!("holds no pose of {id} that was measured"))),
-        false => Ok(all),
+    match all.len() {
+        0 => Err(unusable(path, format!("holds no pose of {id} that was measured"))),
+        1..=MOST_FRAMES => Ok(all),
+        many => Err(unusable(path, format!("{id} has {many} frames, more than {MOST_FRAMES}"))),
     }
 }
 
@@ -183,8 +186,9 @@ fn two_streams(sequence: &Sequence, robot: Vec<Frame>, camera: Vec<Frame>) -> St
 
 /// Frames of the same number were taken at the same moment.
 fn pairs(sequence: &Sequence, robot: &[Frame], camera: &[Frame]) -> String {
+    let numbered: BTreeMap<u64, &Frame> = robot.iter().map(|r| (r.number.to_bits(), r)).collect();
     let line = |c: &Frame| {
-        let r = robot.iter().find(|r| r.number == c.number)?;
+        let r = numbered.get(&c.number.to_bits())?;
         let pair = json!({
             "id": c.number.to_string(),
             "base_from_flange": Pose::<Base, Flange>::claim(r.stamped.pose),

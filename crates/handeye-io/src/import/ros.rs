@@ -9,7 +9,6 @@ use roxmltree::Document;
 use super::{
     Declared,
     results::{Found, pose},
-    split,
 };
 use crate::{
     Error, Place,
@@ -120,7 +119,7 @@ fn only_one(several: bool, source: &Path) -> Result<(), Error> {
 }
 
 pub(super) fn launch_python(source: &Path, _: &Declared) -> Result<Option<Found>, Error> {
-    if !split(source).1.ends_with(".launch.py") {
+    if files::extension(source) != "py" {
         return Ok(None);
     }
     let text = files::text(source)?;

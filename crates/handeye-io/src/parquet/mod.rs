@@ -32,7 +32,7 @@ struct Group {
 type Broken = String;
 
 const MAGIC: &[u8] = b"PAR1";
-/// Most rows of a group: columns of them are held in memory.
+/// Most rows of a file: columns of them are held in memory.
 const MOST_ROWS: usize = 2_000_000;
 /// Largest description of a file's columns.
 const LONGEST_FOOTER: usize = 64 << 20;
@@ -96,7 +96,12 @@ fn groups(bytes: &[u8]) -> Result<Vec<Group>, Broken> {
     }
     let footer = Value::parse(&body[body.len() - length..])?;
     let flat = flat_columns(footer.list(2)?);
-    footer.list(4)?.iter().map(|group| Group::of(group, &flat)).collect()
+    let groups: Vec<Group> =
+        footer.list(4)?.iter().map(|group| Group::of(group, &flat)).collect::<Result<_, _>>()?;
+    match groups.iter().try_fold(0usize, |sum, group| sum.checked_add(group.rows)) {
+        Some(rows) if rows <= MOST_ROWS => Ok(groups),
+        _ => Err(format!("has more than {MOST_ROWS} rows")),
+    }
 }
 
 /// Columns right below the root of the schema, and whether their values may be missing.
@@ -115,9 +120,7 @@ fn flat_columns(schema: &[Value]) -> Vec<(String, bool)> {
 
 impl Group {
     fn of(group: &Value, flat: &[(String, bool)]) -> Result<Self, Broken> {
-        let rows = group.number(3)?;
-        let rows = usize::try_from(rows).ok().filter(|rows| *rows <= MOST_ROWS);
-        let rows = rows.ok_or(format!("has a group of more than {MOST_ROWS} rows"))?;
+        let rows = group.size(3)?;
         let mut columns = vec![];
         for chunk in group.list(1)? {
             let about = chunk.field(3)?;
