@@ -136,7 +136,7 @@ pub struct CalibrateArgs {
     after_help = "Examples:\n  handeye export result/calibration.json --format kuka\n  handeye export result/calibration.json -f urdf,ros2-launch,npy --out exports\n  handeye export --format list"
 )]
 pub struct ExportArgs {
-    /// The calibration.json of a result.
+    /// The calibration.json of a result, or a pose that `import` wrote.
     pub calibration: Option<PathBuf>,
     /// What to write, one or several; `list` shows all.
     #[arg(long, short, required = true, value_delimiter = ',')]
@@ -298,7 +298,7 @@ Exit code 0: they agree within what they say of their errors (p >= 0.01); 3: the
 be tested because one states no covariance."
 )]
 pub struct RepeatArgs {
-    /// The calibration.json of two or more results.
+    /// The calibration.json of two or more results, or poses that `import` wrote.
     #[arg(required = true, num_args = 2..)]
     pub results: Vec<PathBuf>,
 }
@@ -392,8 +392,8 @@ eye-to-hand calibration.json moves all scans into the frame of the robot's base.
 At most 150 000 points of a scan are shown, and 500 000 of all, evenly spread."
 )]
 pub struct ViewArgs {
-    /// Scans and meshes as `register` reads them, a calibration.json, an answer of `handeye register
-    /// --json`.
+    /// Scans and meshes as `register` reads them, a calibration.json or a pose that `import` wrote, an
+    /// answer of `handeye register --json`.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// The page; one that is there is written over.
@@ -476,7 +476,7 @@ Exit code 0: passed; 3: failed. With --tolerance-mm, 95 % of the touches must li
 without, the touches must agree with the uncertainty that the calibration states (p >= 0.01)."
 )]
 pub struct VerifyArgs {
-    /// calibration.json, or the folder that holds it.
+    /// calibration.json, or the folder that holds it; or a pose that `import` wrote.
     pub calibration: PathBuf,
     /// CSV or JSON file of points seen and touched; or a dataset with touches that are new.
     pub touches: PathBuf,

@@ -80,7 +80,8 @@ struct Answer {
 }
 
 pub fn run(args: &RepeatArgs, manners: &Manners) -> Result<u8, Failure> {
-    let results = args.results.iter().map(|p| read_result(p)).collect::<Result<Vec<_>, _>>()?;
+    let read = |path: &PathBuf| read_result(path).map_err(Failure::from);
+    let results = args.results.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     check_twice(&args.results)?;
     check_setups(&args.results, &results)?;
     let answers = args.results.iter().zip(&results).map(|(path, c)| repetition(path, c));

@@ -104,7 +104,10 @@ impl Reader<'_> {
 
     fn structure(&mut self, depth: usize) -> Option<Value> {
         let (mut fields, mut number) = (vec![], 0i16);
-        while depth <= DEEPEST {
+        if depth > DEEPEST {
+            return None;
+        }
+        loop {
             let head = self.byte()?;
             if head == 0 {
                 return Some(Value::Struct(fields));
@@ -120,7 +123,6 @@ impl Reader<'_> {
             };
             fields.push((number, value));
         }
-        None
     }
 
     fn value(&mut self, kind: u8, depth: usize) -> Option<Value> {
@@ -156,7 +158,7 @@ impl Reader<'_> {
         if count > self.bytes.len() - self.at || depth > DEEPEST {
             return None;
         }
-        (0..count).map(|_| self.value(head & 15, depth)).collect::<Option<_>>().map(Value::List)
+        (0..count).map(|_| self.value(head & 15, depth + 1)).collect::<Option<_>>().map(Value::List)
     }
 }
 
@@ -180,6 +182,13 @@ mod tests {
             [&[0x18, 0xff, 0xff, 0xff, 0x7f][..], &[0x19, 0xf5, 0xff, 0xff, 0x7f], &[0x1c; 40]]
         {
             assert!(Value::parse(bytes).is_err());
+        }
+    }
+
+    #[test]
+    fn what_nests_without_end_is_refused() {
+        for kind in [0x19, 0x1c] {
+            assert!(Value::parse(&vec![kind; 1 << 20]).is_err());
         }
     }
 }
