@@ -13,13 +13,16 @@ const ENDINGS: [&str; 13] = [
     "samples",
 ];
 
+fn direction(name: &str) -> Direction {
+    Direction::named(name).expect("one that is known")
+}
+
 fuzz_target!(|data: &[u8]| {
     let Some(path) = file(data, &ENDINGS) else { return };
-    let direction = |name| Direction::named(name).expect("one that is known");
     let declared = |camera, directions: &[&str]| Declared {
         setup: Some(Setup::EyeToHand),
         camera,
-        directions: directions.iter().copied().map(direction).collect(),
+        directions: directions.iter().map(|name| direction(name)).collect(),
         sequence: Some("a".into()),
         length_unit: None,
     };
