@@ -48,6 +48,8 @@ pub enum Command {
     Init(InitArgs),
     /// Take over what another program recorded, and write a file of ours beside it.
     Import(ImportArgs),
+    /// Show what a ROS bag holds, or make a folder of captures of it.
+    Bag(Box<crate::bag::BagArgs>),
     /// Draw a board to print, in true scale.
     Target(Box<TargetArgs>),
     /// Compare several results of one cell: do they agree?

@@ -1,6 +1,7 @@
 //! The `handeye` program: from a folder of captures to a camera-to-robot transform to trust.
 
 mod args;
+mod bag;
 mod calibrate;
 mod check;
 mod demo;
@@ -61,6 +62,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Export(args) => export::run(args, &program.manners),
         Command::Init(args) => init::run(args, &program.manners),
         Command::Import(args) => import::run(args, &program.manners),
+        Command::Bag(args) => bag::run(args, &program.manners),
         Command::Target(args) => target::run(args, &program.manners),
         Command::Repeat(args) => repeat::run(args, &program.manners),
         Command::Tcp(args) => tcp::run(args, &program.manners),

@@ -6,8 +6,8 @@ use std::{
 };
 
 use handeye::{
-    Calibration, Config, Session, Setup, Verdict, Warning, calibrate, calibration::SceneKind,
-    refine::noise::KnownNoise,
+    Calibration, Config, Session, Setup, Verdict, Warning, calibrate, calibrate_moving,
+    calibration::SceneKind, refine::noise::KnownNoise,
 };
 
 use crate::{
@@ -39,7 +39,11 @@ pub fn calibrate_dataset(
         max_error_mm: dataset.limits.max_error.map(|m| m * 1e3),
         ..config.clone()
     };
-    let mut calibration = calibrate(&measured.session, &config)
+    let calibrated = match &dataset.motion {
+        Some(motion) => calibrate_moving(&measured.session, &motion.robot, &motion.times, &config),
+        None => calibrate(&measured.session, &config),
+    };
+    let mut calibration = calibrated
         .map_err(|source| Error::Values { place: Place::file(&dataset.manifest), source })?;
     explain(&mut calibration, &measured);
     Ok((calibration, measured.session))

@@ -5,6 +5,7 @@
 
 #![allow(clippy::result_large_err, reason = "an error ends the reading: its size costs nothing")]
 
+pub mod bag;
 pub mod calibrate;
 mod camera;
 pub mod checkup;

@@ -184,7 +184,10 @@ fn full() -> Calibration {
         }),
         tip: Some(TipResult { offset_mm: [0.0; 3], sigma_mm: [0.0; 3], frame: "flange".into() }),
         arm: Some(ArmResult {
-            model: Arm { convention: DhConvention::Standard, joints: vec![Joint::default()] },
+            model: Arm {
+                base_from_first_joint: Pose::claim(Isometry3::translation(0.1, 0.0, 0.0)),
+                ..Arm::new(DhConvention::Standard, vec![Joint::default()])
+            },
             deviations: vec![ArmDeviation {
                 joint: 1,
                 parameter: Parameter::A,

@@ -57,6 +57,10 @@ frames! {
     Camera = "camera";
     /// The calibration target.
     Target = "target";
+    /// Where the joints of an arm's model begin.
+    FirstJoint = "first joint";
+    /// Where they end.
+    LastLink = "last link";
 }
 
 /// Positions beyond this, m, are no robot's and no camera's: the number is wrong. Their squares would

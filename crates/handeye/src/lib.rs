@@ -44,7 +44,10 @@ pub use calibrate::{Config, Session, Unknown, calibrate, unjudged};
 pub use calibration::{Calibration, Verdict};
 pub use camera::{Distortion, Intrinsics};
 pub use error::{Error, Warning};
-pub use frame::{Anchor, Base, Camera, Flange, Frame, Mount, Point, Pose, Target, Tip, Tool};
+pub use frame::{
+    Anchor, Base, Camera, FirstJoint, Flange, Frame, LastLink, Mount, Point, Pose, Target, Tip,
+    Tool,
+};
 pub use image::GrayImage;
 pub use observation::{
     Correspondence, HandEye, ImageCorner, Observation, Placement, PosePair, Setup, SurfaceCorner,
@@ -53,7 +56,7 @@ pub use observation::{
 pub use scan::Scan;
 pub use sequence::calibrate_sequence;
 pub use solve::Method;
-pub use streams::{Stamped, Streams, calibrate_streams};
+pub use streams::{Stamped, Streams, calibrate_moving, calibrate_streams};
 pub use target::TargetModel;
 pub use triangle_mesh::TriangleMesh;
 pub use unscaled::calibrate_unscaled;

@@ -10,7 +10,7 @@ use super::shapes::{ObjectSpec, SceneSpec, TargetSpec};
 use crate::{
     camera::CameraSpec,
     error::{Error, Place, malformed, nearest},
-    robot::DhSpec,
+    robot::{DhSpec, UrdfSpec},
     table::{Column, Layout},
     units::{AngleUnit, LengthUnit},
 };
@@ -31,6 +31,7 @@ pub(crate) struct Manifest {
     pub(super) point_pairs: Option<PointPairsSpec>,
     #[serde(default)]
     pub(super) captures: CapturesSpec,
+    pub(super) motion: Option<MotionSpec>,
     #[serde(default)]
     pub(super) placements: Vec<PlacementSpec>,
     pub(super) touches: Option<TouchesSpec>,
@@ -91,7 +92,14 @@ pub(super) struct PoseTable {
     pub(super) rows: Option<String>,
     pub(super) columns: Vec<Column>,
     pub(super) skip_header: usize,
-    pub(super) dh: Option<FileOr<DhSpec>>,
+    pub(super) arm: Option<ArmSpec>,
+}
+
+/// The model of the arm that joint values are of.
+#[derive(Debug, Clone)]
+pub(super) enum ArmSpec {
+    Dh(FileOr<DhSpec>),
+    Urdf(UrdfSpec),
 }
 
 macro_rules! pose_table { ($Spec:ident { $($field:ident: $Kind:ty,)* }) => {
@@ -121,7 +129,7 @@ macro_rules! pose_table { ($Spec:ident { $($field:ident: $Kind:ty,)* }) => {
                 rows: self.rows.clone(),
                 columns: self.columns.clone(),
                 skip_header: self.skip_header,
-                dh: None,
+                arm: None,
             }
         }
     }
@@ -132,10 +140,26 @@ pose_table!(RobotSpec {
     frame: PoseFrame,
     tool: Option<ToolSpec>,
     dh: Option<FileOr<DhSpec>>,
+    urdf: Option<UrdfSpec>,
 });
 pose_table!(BoardPosesSpec {
     direction: Option<BoardDirection>,
 });
+
+impl RobotSpec {
+    /// The table with the model of the arm; a manifest names one, not two.
+    pub(super) fn with_arm(&self, source: &Source) -> Result<PoseTable, Error> {
+        let arm = match (&self.dh, &self.urdf) {
+            (Some(_), Some(_)) => {
+                let what = "two models of the arm, dh and urdf";
+                return Err(malformed(source.place("robot.urdf"), what, "leave one of them out"));
+            }
+            (Some(dh), None) => Some(ArmSpec::Dh(dh.clone())),
+            (None, urdf) => urdf.clone().map(ArmSpec::Urdf),
+        };
+        Ok(PoseTable { arm, ..self.table() })
+    }
+}
 
 /// Where the tool sits on the flange.
 #[derive(Debug, Clone, Deserialize)]
@@ -212,6 +236,13 @@ pub(super) struct CapturesSpec {
     pub(super) target: Option<String>,
     #[serde(default)]
     pub(super) exclude: Vec<String>,
+}
+
+/// A robot that did not stop for its captures.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MotionSpec {
+    pub(super) times: String,
 }
 
 #[derive(Debug, Clone, Deserialize)]

@@ -2,6 +2,7 @@
 
 mod corners;
 mod manifest;
+mod motion;
 mod opening;
 mod pairing;
 mod poses;
@@ -26,6 +27,8 @@ use crate::{
 };
 pub use manifest::PixelOrigin;
 pub(crate) use manifest::{Manifest, Source};
+pub use motion::Motion;
+pub(crate) use motion::TIMES;
 use opening::Opening;
 pub(crate) use rereading::{Rereading, rereadings};
 pub use robot_file::{RobotFile, RobotPoses, columns, read_robot_poses};
@@ -58,6 +61,8 @@ pub struct Dataset {
     pub pixel_origin: Option<PixelOrigin>,
     /// The captures, in order.
     pub captures: Vec<CaptureSource>,
+    /// Where robot and captures were when, where the robot did not stop for them.
+    pub motion: Option<Motion>,
     /// Boards that lay still and were touched.
     pub placements: Vec<PlacementSource>,
     /// Corners the robot touched.

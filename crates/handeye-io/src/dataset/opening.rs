@@ -12,9 +12,9 @@ use super::{
     CaptureSource, Dataset, Limits, Noise, PlacementSource, WorkspaceBox,
     corners::{CornerReading, Corners},
     manifest::{
-        KnownPositionSpec, LimitsSpec, Manifest, NoiseSpec, PlacementSpec, PoseTable, Source,
-        WorkspaceSpec,
+        KnownPositionSpec, LimitsSpec, Manifest, NoiseSpec, PlacementSpec, Source, WorkspaceSpec,
     },
+    motion,
     pairing::{self, Series},
     poses::{self, Named},
     shapes::TargetSpec,
@@ -61,6 +61,13 @@ impl Opening {
             None => vec![],
         };
         let placements = self.placements()?;
+        let mut captures = self.captures(&parts, &mut warnings)?;
+        let motion = match &m.motion {
+            Some(spec) => {
+                Some(motion::of(spec, &parts.robot, &mut captures, &self.source, &self.root)?)
+            }
+            None => None,
+        };
         Ok(Dataset {
             manifest: self.source.path.clone(),
             setup: m.setup,
@@ -71,7 +78,8 @@ impl Opening {
             lens: m.camera.as_ref().and_then(|spec| spec.calibrate),
             picture: m.camera.as_ref().and_then(|spec| spec.width.zip(spec.height)),
             pixel_origin: m.corners.as_ref().and_then(|spec| spec.pixel_origin),
-            captures: self.captures(&parts, &mut warnings)?,
+            captures,
+            motion,
             touches: self.touches(&placements)?,
             placements,
             correspondences,
@@ -191,11 +199,19 @@ impl Opening {
         parts: &Parts,
         warnings: &mut Vec<Warning>,
     ) -> Result<Vec<CaptureSource>, Error> {
-        let series = self.series(parts);
         if parts.robot.is_empty() {
             return Ok(vec![]);
         }
-        if series.len() < 2 {
+        let mut series = self.series(parts);
+        let alone = match self.manifest.motion {
+            None => series.len() < 2,
+            // the robot's poses belong to moments of their own
+            Some(_) => {
+                series.remove(0);
+                series.is_empty()
+            }
+        };
+        if alone {
             return match self.manifest.point_pairs {
                 Some(_) => Ok(vec![]),
                 None => Err(self.source.undeclared(
@@ -338,7 +354,7 @@ impl Opening {
             spec,
             &touches::TouchContext {
                 target: self.target()?,
-                robot: robot.map(|r| PoseTable { dh: r.dh.clone(), ..r.table() }),
+                robot: robot.map(|r| r.with_arm(&self.source)).transpose()?,
                 placements: placements.iter().map(|p| p.id.clone()).collect(),
                 source: &self.source,
                 root: &self.root,

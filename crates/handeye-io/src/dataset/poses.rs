@@ -6,12 +6,13 @@ use handeye::{Base, Camera, Flange, Pose, Target, Tool, Warning, kinematics::Arm
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::manifest::{
-    BoardDirection, BoardPosesSpec, FileOr, PoseFrame, PoseTable, RobotDirection, RobotSpec, Source,
+    ArmSpec, BoardDirection, BoardPosesSpec, FileOr, PoseFrame, PoseTable, RobotDirection,
+    RobotSpec, Source,
 };
 use crate::{
     error::{Error, Place, malformed},
     files,
-    robot::{DhModel, Notation, Rotation, Units, suspicious_values},
+    robot::{ArmModel, Notation, Rotation, Units, Urdf, suspicious_values},
     table::{self, Layout, Record},
     units::{AngleUnit, farthest, too_far},
 };
@@ -24,7 +25,12 @@ pub(super) struct Named<T> {
     pub(super) value: T,
     /// Joint values behind the pose (rad, m); none where it was given as a pose.
     pub(super) joints: Vec<f64>,
+    /// When it was (s), where the file says that.
+    pub(super) time_s: Option<f64>,
 }
+
+/// Usual names of the column of times, in seconds.
+pub(super) const TIME_NAMES: [&str; 5] = ["time_s", "time", "t", "timestamp", "stamp"];
 
 /// The poses of a table, and what looked suspicious about them.
 type Poses<T> = (Vec<Named<T>>, Vec<Warning>);
@@ -32,7 +38,7 @@ type Poses<T> = (Vec<Named<T>>, Vec<Warning>);
 /// How the numbers of a table become a pose.
 pub(super) enum Reading {
     Notation(Notation, Units),
-    Joints(DhModel, AngleUnit),
+    Joints(ArmModel, AngleUnit),
 }
 
 impl Reading {
@@ -114,12 +120,15 @@ impl Reading {
 
 fn joints(table: &PoseTable, at: &str, source: &Source, root: &Path) -> Result<Reading, Error> {
     let place = source.place(&format!("{at}.dh"));
-    let model = match &table.dh {
-        Some(FileOr::File(file)) => DhModel::read(&root.join(file))?,
-        Some(FileOr::Inline(spec)) => DhModel::from_spec(spec, &place)?,
+    let model = match &table.arm {
+        Some(ArmSpec::Dh(FileOr::File(file))) => ArmModel::read(&root.join(file))?,
+        Some(ArmSpec::Dh(FileOr::Inline(spec))) => ArmModel::from_spec(spec, &place)?,
+        Some(ArmSpec::Urdf(spec)) => {
+            ArmModel::of_urdf(&Urdf::read(&root.join(&spec.file), &spec.base, &spec.flange)?)
+        }
         None => {
-            let question =
-                "which Denavit-Hartenberg parameters has the robot? (a JSON file, or [robot.dh])";
+            let question = "which Denavit-Hartenberg parameters has the robot? (a JSON file, or [robot.dh]; or \
+                            urdf = { file, base, flange })";
             return Err(source.undeclared(&format!("{at}.dh"), question));
         }
     };
@@ -161,7 +170,8 @@ fn read(
     let pose = |(record, numbers): (Record, &Vec<f64>)| {
         let value = reading.pose(numbers, &record.place)?;
         let joints = reading.joints(numbers);
-        Ok(Named { id: record.id, place: record.place, value, joints })
+        let time_s = record.number_named(&TIME_NAMES);
+        Ok(Named { id: record.id, place: record.place, value, joints, time_s })
     };
     let poses = records.into_iter().zip(&numbers).map(pose).collect::<Result<_, Error>>()?;
     let warnings = match &reading {
@@ -177,7 +187,7 @@ pub(super) fn records_of_robot(
     source: &Source,
     root: &Path,
 ) -> Result<(Reading, Vec<Record>), Error> {
-    let table = PoseTable { dh: spec.dh.clone(), ..spec.table() };
+    let table = spec.with_arm(source)?;
     let reading = Reading::of(&table, "robot", source, root)?;
     let layout = table.layout(reading.is_matrix(), "robot", source)?;
     let records = records(&table.poses, &layout, root, &source.place("robot.poses"))?;
@@ -198,8 +208,7 @@ pub(super) fn of_robot(
         )
     })?;
     let flange_from_tool = tool(spec, source)?;
-    let (poses, warnings) =
-        read(&PoseTable { dh: spec.dh.clone(), ..spec.table() }, "robot", source, root)?;
+    let (poses, warnings) = read(&spec.with_arm(source)?, "robot", source, root)?;
     let convert = |named: Named<Isometry3<f64>>| {
         let iso = match direction {
             RobotDirection::BaseFromFlange => named.value,
@@ -211,6 +220,7 @@ pub(super) fn of_robot(
             id: named.id,
             place: named.place,
             joints: named.joints,
+            time_s: named.time_s,
         }
     };
     Ok((poses.into_iter().map(convert).collect(), warnings))
@@ -223,7 +233,7 @@ pub(super) fn arm(spec: &RobotSpec, source: &Source, root: &Path) -> Result<Opti
     if !of_flange || spec.table().notation.as_deref() != Some("joints") {
         return Ok(None);
     }
-    let table = PoseTable { dh: spec.dh.clone(), ..spec.table() };
+    let table = spec.with_arm(source)?;
     Ok(Reading::of(&table, "robot", source, root)?.arm().cloned())
 }
 
@@ -265,7 +275,7 @@ pub(super) fn of_board(
     let (poses, warnings) = read(&spec.table(), "board_poses", source, root)?;
     let convert = |n: Named<Isometry3<f64>>| {
         let value = board_pose(n.value, spec, source)?;
-        Ok(Named { value, id: n.id, place: n.place, joints: vec![] })
+        Ok(Named { value, id: n.id, place: n.place, joints: vec![], time_s: n.time_s })
     };
     Ok((poses.into_iter().map(convert).collect::<Result<_, Error>>()?, warnings))
 }

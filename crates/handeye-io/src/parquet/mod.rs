@@ -1,5 +1,5 @@
 //! Tables in Apache Parquet: columns of numbers and of texts, by their names. Lists and other nested columns are passed
-//! over. Compressed as gzip or zstd, or not; plain or by a dictionary.
+//! over. Compressed with zstd, snappy or gzip, or not; plain or by a dictionary.
 //!
 //! <https://parquet.apache.org/docs/file-format/>
 

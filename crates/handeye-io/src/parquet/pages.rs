@@ -3,7 +3,6 @@
 use std::io::Read;
 
 use flate2::read::GzDecoder;
-use ruzstd::decoding::StreamingDecoder;
 
 use super::{Broken, thrift::Value};
 
@@ -97,11 +96,17 @@ impl Chunk {
         let read = match self.codec {
             0 => packed.take(limit).read_to_end(&mut page),
             2 => GzDecoder::new(packed).take(limit).read_to_end(&mut page),
-            6 => StreamingDecoder::new(packed)
-                .map_err(|e| format!("a page is no zstd: {e}"))?
-                .take(limit)
-                .read_to_end(&mut page),
-            other => return Err(format!("is packed by codec {other}; write it with zstd or gzip")),
+            6 => zstd::Decoder::new(packed).and_then(|stream| stream.take(limit).read_to_end(&mut page)),
+            1 if snap::raw::decompress_len(packed).is_ok_and(|found| found == size) => {
+                page = snap::raw::Decoder::new()
+                    .decompress_vec(packed)
+                    .map_err(|e| format!("has a page that cannot be unpacked: {e}"))?;
+                Ok(size)
+            }
+            1 => return Err("has a page that cannot be unpacked".into()),
+            other => {
+                return Err(format!("is packed by codec {other}; write it with zstd, snappy or gzip"));
+            }
         };
         match read {
             Ok(found) if found == size => Ok(page),

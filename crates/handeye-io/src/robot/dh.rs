@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use handeye::{
-    Base, Flange, Pose,
+    Base, FirstJoint, Flange, LastLink, Pose,
     kinematics::{Arm, DhConvention, Joint},
 };
 use serde::{Deserialize, de::IgnoredAny};
@@ -13,6 +13,7 @@ use serde::{Deserialize, de::IgnoredAny};
 use crate::{
     error::{Error, Place, malformed},
     files,
+    robot::Urdf,
     table::Record,
     units::{AngleUnit, LengthUnit},
 };
@@ -30,6 +31,10 @@ pub(crate) struct DhSpec {
     #[serde(default)]
     units: Option<DhUnits>,
     joints: Vec<DhJoint>,
+    #[serde(default = "Pose::identity")]
+    base_from_first_joint: Pose<Base, FirstJoint>,
+    #[serde(default = "Pose::identity")]
+    last_link_from_flange: Pose<LastLink, Flange>,
     #[serde(default, rename = "robot_name")]
     _robot_name: IgnoredAny,
     #[serde(default, rename = "manufacturer")]
@@ -63,16 +68,26 @@ struct DhJoint {
     _name: IgnoredAny,
 }
 
-/// An arm, and the unit of the values of joints that slide.
+/// An arm, how its joints are called where they have names, and the unit of the values of those that slide.
 #[derive(Debug, Clone)]
-pub(crate) struct DhModel {
+pub(crate) struct ArmModel {
     pub(crate) arm: Arm,
+    names: Vec<String>,
     length: LengthUnit,
 }
 
-impl DhModel {
-    /// Reads a JSON file of parameters.
-    pub(crate) fn read(path: &Path) -> Result<DhModel, Error> {
+impl ArmModel {
+    /// The arm of a URDF: its joints slide in metres.
+    pub(crate) fn of_urdf(urdf: &Urdf) -> ArmModel {
+        ArmModel {
+            arm: urdf.arm().clone(),
+            names: urdf.joint_names().to_vec(),
+            length: LengthUnit::Metre,
+        }
+    }
+
+    /// Reads a JSON file of Denavit-Hartenberg parameters.
+    pub(crate) fn read(path: &Path) -> Result<ArmModel, Error> {
         let text = files::text(path)?;
         let spec: DhSpec = serde_json::from_str(&text).map_err(|e| {
             let place = Place::line(path, e.line());
@@ -82,7 +97,7 @@ impl DhModel {
     }
 
     /// Converts to metres and radians; the units must be said.
-    pub(crate) fn from_spec(spec: &DhSpec, place: &Place) -> Result<DhModel, Error> {
+    pub(crate) fn from_spec(spec: &DhSpec, place: &Place) -> Result<ArmModel, Error> {
         let missing = |key: &str, question: &str| Error::Undeclared {
             place: place.clone(),
             key: key.into(),
@@ -96,9 +111,13 @@ impl DhModel {
             missing("angle_unit", "are alpha and theta of the joints in \"rad\" or in \"deg\"?")
         })?;
         let joints = spec.joints.iter().map(|j| j.in_si(length, angle)).collect();
-        let arm = Arm { convention: spec.convention, joints };
+        let arm = Arm {
+            base_from_first_joint: spec.base_from_first_joint,
+            last_link_from_flange: spec.last_link_from_flange,
+            ..Arm::new(spec.convention, joints)
+        };
         arm.check().map_err(|source| Error::Values { place: place.clone(), source })?;
-        Ok(DhModel { arm, length })
+        Ok(ArmModel { arm, names: vec![], length })
     }
 
     /// Joint values in rad, and m for those that slide, from the given unit of angle.
@@ -114,9 +133,11 @@ impl DhModel {
         self.arm.base_from_flange(&self.in_si(values, unit))
     }
 
-    /// The joint values of a record: in order, or by names that end in the joint's number.
+    /// The joint values of a record: in order, by the model's names, or by names that end in the joint's number.
     pub(crate) fn values(&self, record: &Record) -> Result<Vec<f64>, Error> {
-        let names: Vec<Vec<String>> = (1..=self.arm.joints.len()).map(joint_names).collect();
+        let own = |k: usize| self.names.get(k - 1).cloned();
+        let names_of = |k| own(k).into_iter().chain(joint_names(k)).collect();
+        let names: Vec<Vec<String>> = (1..=self.arm.joints.len()).map(names_of).collect();
         let names: Vec<Vec<&str>> =
             names.iter().map(|n| n.iter().map(String::as_str).collect()).collect();
         let columns: Vec<&'static [&'static str]> = vec![&["a joint"]; names.len()];
@@ -171,16 +192,16 @@ pub fn arm_file(arm: &Arm) -> String {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
+    use nalgebra::{Isometry3, Vector3};
 
     use super::*;
 
-    fn model(convention: &str) -> DhModel {
+    fn model(convention: &str) -> ArmModel {
         let text = format!(
             r#"{{"convention": "{convention}", "units": {{"length": "mm", "angle": "deg"}},
                 "joints": [{{"a": 0, "alpha": 90, "d": 100}}, {{"a": 200, "alpha": 0, "d": 0}}]}}"#
         );
-        DhModel::from_spec(&serde_json::from_str(&text).unwrap(), &Place::default()).unwrap()
+        ArmModel::from_spec(&serde_json::from_str(&text).unwrap(), &Place::default()).unwrap()
     }
 
     #[test]
@@ -202,9 +223,10 @@ mod tests {
             prismatic: k > 1.5,
         };
         let convention = DhConvention::Modified;
-        let arm = Arm { convention, joints: vec![joint(1.0), joint(2.0)] };
+        let mut arm = Arm::new(convention, vec![joint(1.0), joint(2.0)]);
+        arm.base_from_first_joint = Pose::claim(Isometry3::translation(0.1, 0.2, 0.3));
         let spec: DhSpec = serde_json::from_str(&arm_file(&arm)).unwrap();
-        assert_eq!(DhModel::from_spec(&spec, &Place::default()).unwrap().arm, arm);
+        assert_eq!(ArmModel::from_spec(&spec, &Place::default()).unwrap().arm, arm);
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod makers;
 mod rotation;
 mod suspicion;
 mod universal_robots;
+mod urdf;
 
 use nalgebra::{Isometry3, Translation3};
 
@@ -18,10 +19,12 @@ use crate::{
     units::{AngleUnit, LengthUnit},
 };
 pub use dh::arm_file;
-pub(crate) use dh::{DhModel, DhSpec};
+pub(crate) use dh::{ArmModel, DhSpec};
 pub use euler::{Axes, Sense};
 pub use rotation::{Rotation, rotation_near};
 pub(crate) use suspicion::suspicious_values;
+pub use urdf::Urdf;
+pub(crate) use urdf::UrdfSpec;
 
 /// What a number of a notation measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

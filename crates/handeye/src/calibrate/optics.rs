@@ -19,7 +19,7 @@ use crate::{
     camera::PARAMETERS,
     detect::{
         self,
-        sight::{DEPTH_BIAS, DEPTH_SCALE, LENS, Sight, TARGET_SCALE, corrected},
+        sight::{CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, Sight, TARGET_SCALE, corrected},
     },
     evaluate,
     refine::{self, Extra, ExtraKind, JointFit, View},
@@ -373,7 +373,11 @@ pub(super) fn spread(
 ) -> Option<Matrix3<f64>> {
     let scanned = views.session.observations.iter().any(|o| !o.surface.is_empty());
     let camera = views.session.camera.as_ref();
-    let moves = |which: usize| which == TARGET_SCALE || scanned == (which < LENS);
+    let moves = |which: usize| match which {
+        TARGET_SCALE => true,
+        CLOCK => false,
+        other => scanned == (other < LENS),
+    };
     let mut free = more;
     for (k, extra) in extras.iter().enumerate() {
         let ExtraKind::Camera(which) = extra.kind else { continue };

@@ -18,7 +18,7 @@ use super::agreement::Views;
 use crate::{
     HandEye,
     calibration::Calibration,
-    detect::sight::{CAMERA, CLOCK, Sight, TARGET_SCALE},
+    detect::sight::{CLOCK, Sight, TARGET_SCALE},
     lie,
     refine::{Extra, ExtraKind, JointFit, View},
 };
@@ -65,7 +65,11 @@ impl Unknown {
     /// A view that moves with the unknowns.
     pub(crate) fn freed(&self, view: &View, velocity: Option<&Vector6<f64>>, at: &HandEye) -> View {
         let c = &view.pair.camera_from_target;
-        let mut by = SMatrix::<f64, 6, CAMERA>::zeros();
+        let known = match &view.sight {
+            Some(sight) => Sight::clone(sight),
+            None => Sight::moving(SMatrix::zeros()),
+        };
+        let mut by = known.by_camera;
         if self.scale {
             by.set_column(TARGET_SCALE, &Sight::by_size(c));
         }
@@ -73,7 +77,7 @@ impl Unknown {
             let target_from_mount = (at.mount_from_camera * *c).inverse();
             by.set_column(CLOCK, &(-lie::adjoint(target_from_mount.iso()) * velocity));
         }
-        View { sight: Some(Sight::moving(by).into()), ..view.clone() }
+        View { sight: Some(Sight { by_camera: by, ..known }.into()), ..view.clone() }
     }
 
     /// Reports what the fit found, as a change of what was given; `None` where the data leave it

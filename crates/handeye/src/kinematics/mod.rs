@@ -10,12 +10,19 @@
 //! standard  Rz(θ) Tz(d) Tx(a) Rx(α) Ry(β)        modified  Tx(a) Rx(α) Ry(β) Rz(θ) Tz(d)
 //! ```
 
+mod axes;
 mod inverse;
+
+pub use axes::Axis;
 
 use nalgebra::{DMatrix, Isometry3, Translation3, UnitQuaternion, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
-use crate::{Base, Error, Flange, Pose, lie};
+use crate::{
+    Base, Error, Flange, Pose,
+    frame::{FirstJoint, LastLink},
+    lie,
+};
 
 /// Which of a link's transforms comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -51,6 +58,16 @@ pub struct Arm {
     pub convention: DhConvention,
     /// From the base outwards.
     pub joints: Vec<Joint>,
+    /// Where the first joint's frame is; in the base itself, in most models.
+    #[serde(default = "Pose::identity", skip_serializing_if = "is_nothing")]
+    pub base_from_first_joint: Pose<Base, FirstJoint>,
+    /// Where the flange is behind the last joint; the last link itself, in most models.
+    #[serde(default = "Pose::identity", skip_serializing_if = "is_nothing")]
+    pub last_link_from_flange: Pose<LastLink, Flange>,
+}
+
+fn is_nothing<A, B>(pose: &Pose<A, B>) -> bool {
+    *pose.iso() == Isometry3::identity()
 }
 
 /// Which parameter of a joint deviates.
@@ -133,6 +150,16 @@ fn about(axis: Vector3<f64>, along: f64, angle: f64) -> Isometry3<f64> {
 }
 
 impl Arm {
+    /// An arm whose joints begin in the base and end in the flange.
+    pub fn new(convention: DhConvention, joints: Vec<Joint>) -> Arm {
+        Arm {
+            convention,
+            joints,
+            base_from_first_joint: Pose::identity(),
+            last_link_from_flange: Pose::identity(),
+        }
+    }
+
     /// # Errors
     /// [`Error::Invalid`] without joints, with more than [`MOST_JOINTS`], or with a parameter that
     /// is not finite.
@@ -162,7 +189,9 @@ impl Arm {
                 DhConvention::Standard => joint.turn(value) * joint.link(),
                 DhConvention::Modified => joint.link() * joint.turn(value),
             });
-        Pose::claim(steps.fold(Isometry3::identity(), |chain, step| chain * step))
+        let first_from_last = steps.fold(Isometry3::identity(), |chain, step| chain * step);
+        let first_from_last = Pose::<FirstJoint, LastLink>::claim(first_from_last);
+        self.base_from_first_joint * first_from_last * self.last_link_from_flange
     }
 
     /// How the flange moves with each of these parameters: a column each, rotation first, perturbed
@@ -193,7 +222,7 @@ impl Arm {
 
     /// Frames in the base in which the parameters of each joint act.
     fn places(&self, values: &[f64]) -> Vec<Place> {
-        let mut chain = Isometry3::identity();
+        let mut chain = *self.base_from_first_joint.iso();
         let mut all = Vec::with_capacity(self.joints.len());
         for (joint, value) in self.joints.iter().zip(padded(values)) {
             let (turn, link) = (joint.turn(value), joint.link());
@@ -319,8 +348,7 @@ pub(crate) mod tests {
         }
         let along = [0.15, 0.0, 0.01, 0.13, 0.1, 0.09];
         let joint = |((a, alpha), d)| Joint { a, alpha, d, ..Joint::default() };
-        let joints = links.into_iter().zip(along).map(joint).collect();
-        Arm { convention, joints }
+        Arm::new(convention, links.into_iter().zip(along).map(joint).collect())
     }
 
     fn values(random: &mut Random) -> Vec<f64> {
@@ -333,6 +361,8 @@ pub(crate) mod tests {
         for convention in [DhConvention::Standard, DhConvention::Modified] {
             let mut arm = arm(convention);
             arm.joints[2].beta = 0.2;
+            arm.base_from_first_joint = Pose::claim(about(Vector3::x(), 0.3, 0.7));
+            arm.last_link_from_flange = Pose::claim(about(Vector3::y(), 0.1, -0.4));
             let all: Vec<Deviation> = (0..6)
                 .flat_map(|joint| {
                     use Parameter::*;
@@ -374,7 +404,7 @@ pub(crate) mod tests {
 
     #[test]
     fn an_arm_of_nonsense_is_refused() {
-        let none = Arm { convention: DhConvention::Standard, joints: vec![] };
+        let none = Arm::new(DhConvention::Standard, vec![]);
         assert!(none.check().unwrap_err().to_string().contains("1 to 32 joints, not 0"));
         let mut broken = arm(DhConvention::Standard);
         broken.joints[3].a = f64::NAN;

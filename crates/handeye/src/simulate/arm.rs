@@ -63,7 +63,7 @@ pub fn usual_arm() -> Arm {
         joint(0.0, -FRAC_PI_2, 0.0, 0.0),
         joint(0.0, 0.0, 0.10, 0.0),
     ];
-    Arm { convention: DhConvention::Standard, joints }
+    Arm::new(DhConvention::Standard, joints)
 }
 
 impl BuiltArm {

@@ -82,6 +82,13 @@ impl Both {
         Some(Moment { robot, camera, velocity, camera_time_s: camera_time + self.camera.epoch })
     }
 
+    /// The robot at a time by its own clock (s); the camera's pose of that moment is not looked at.
+    pub fn robot_at(&self, time_s: f64) -> Option<Moment> {
+        let t = time_s - self.robot.epoch;
+        let (robot, velocity) = (self.robot.at(t)?, self.robot.velocity(t)?);
+        Some(Moment { robot, camera: Isometry3::identity(), velocity, camera_time_s: time_s })
+    }
+
     /// The pair of a moment.
     pub fn pair(&self, m: &Moment) -> PosePair {
         PosePair {

@@ -12,6 +12,7 @@
 //! The epochs of the two clocks need not have anything in common.
 
 mod choose;
+mod moving;
 mod offset;
 mod open;
 mod stream;
@@ -32,8 +33,8 @@ use crate::{
     unscaled,
 };
 use choose::Both;
-pub use stream::Stamped;
-use stream::Stream;
+pub use moving::calibrate_moving;
+pub use stream::{Stamped, Stream};
 
 /// Robot and camera poses, each by its own clock, in any order.
 #[derive(Debug, Clone, PartialEq)]

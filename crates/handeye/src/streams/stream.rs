@@ -27,16 +27,16 @@ pub struct Stamped<P> {
 
 /// Poses in the order of their times.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Stream {
+pub struct Stream {
     /// Time of the first sample, by the stream's own clock (s).
-    pub epoch: f64,
+    pub(super) epoch: f64,
     /// Times after the first (s), ascending.
-    pub times: Vec<f64>,
-    pub poses: Vec<Isometry3<f64>>,
+    pub(super) times: Vec<f64>,
+    pub(super) poses: Vec<Isometry3<f64>>,
     /// Median time between samples (s).
-    pub interval: f64,
+    pub(super) interval: f64,
     /// What was put right.
-    pub cleaned: Cleaned,
+    pub(super) cleaned: Cleaned,
 }
 
 /// What was put right in a stream.
@@ -62,7 +62,10 @@ const SAME: f64 = 1e-9;
 
 impl Stream {
     /// Sorts samples by time. Of the same sample twice one is kept; of different poses with the same
-    /// time none.
+    /// time none. Errors call the stream by `name`.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] on times that are no numbers.
     pub fn new(samples: &[Stamped<Isometry3<f64>>], name: &str) -> Result<Self, Error> {
         if let Some(k) = samples.iter().position(|s| !s.time_s.is_finite()) {
             return Err(Error::NotFinite { what: format!("time_s of {name} sample {}", k + 1) });
@@ -99,8 +102,18 @@ impl Stream {
         (1..self.times.len()).filter(|&k| !self.joined(k - 1)).count()
     }
 
+    /// Times of the samples by the stream's own clock, ascending (s).
+    pub fn times(&self) -> Vec<f64> {
+        self.times.iter().map(|t| t + self.epoch).collect()
+    }
+
+    /// The pose at a time by the stream's own clock (s); `None` outside, and in gaps.
+    pub fn at_time(&self, time_s: f64) -> Option<Isometry3<f64>> {
+        self.at(time_s - self.epoch)
+    }
+
     /// Time from the first sample to the last (s).
-    pub fn duration(&self) -> f64 {
+    pub(super) fn duration(&self) -> f64 {
         self.times.last().copied().unwrap_or(0.0)
     }
 
@@ -112,7 +125,7 @@ impl Stream {
     }
 
     /// The pose at a time after the first sample (s); `None` outside, and in gaps.
-    pub fn at(&self, t: f64) -> Option<Isometry3<f64>> {
+    pub(super) fn at(&self, t: f64) -> Option<Isometry3<f64>> {
         let after = self.times.partition_point(|&s| s <= t);
         let i = after.checked_sub(1)?;
         if self.times[i] == t {
@@ -146,7 +159,7 @@ impl Stream {
     }
 
     /// Velocity (rad/s, m/s) in the moving frame.
-    pub fn velocity(&self, t: f64) -> Option<Vector6<f64>> {
+    pub(super) fn velocity(&self, t: f64) -> Option<Vector6<f64>> {
         let step = 0.25 * self.interval;
         let ahead = self.at(t + step).map(|p| (step, p));
         let behind = self.at(t - step).map(|p| (-step, p));

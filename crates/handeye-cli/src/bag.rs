@@ -1,0 +1,181 @@
+//! `handeye bag`: what a ROS bag holds, or a folder of captures out of it.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use handeye_io::bag::{self, BagContents, BagOptions, Extracted, Motion, RobotSource, Stamps};
+use serde_json::json;
+
+use crate::{args::Manners, failure::Failure, output, simulate::SetupArg};
+
+/// Arguments of `bag`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye bag session.mcap\n  handeye bag session.mcap --out cell --target board.toml --setup eye-in-hand \\\n      --base base_link --flange tool0\n  handeye calibrate cell\n\nMCAP and SQLite bags of ROS 2 and bags of ROS 1 are read, of a file or a folder, and also those\nthat were not closed. The robot's pose is interpolated to the time of each picture, never over a gap.\nWhere the robot stood still, one picture of each place is taken; otherwise many of the motion, and the\ntime offset between camera and robot is estimated."
+)]
+pub struct BagArgs {
+    /// The bag: a file, or its folder.
+    pub bag: PathBuf,
+    /// Folder for the captures; without it, the bag's contents are shown.
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+    /// A TOML file with the `[target]` that the camera sees.
+    #[arg(long)]
+    pub target: Option<PathBuf>,
+    /// Who carries the camera.
+    #[arg(long, value_enum)]
+    pub setup: Option<SetupArg>,
+    /// Topic of the pictures, where there are several.
+    #[arg(long, value_name = "TOPIC")]
+    pub image: Option<String>,
+    /// Topic of the depth images or clouds, where there are several.
+    #[arg(long, value_name = "TOPIC")]
+    pub depth: Option<String>,
+    /// Topic of the camera's intrinsics, where it does not lie beside the pictures.
+    #[arg(long, value_name = "TOPIC")]
+    pub camera_info: Option<String>,
+    /// Frame (or link of the model) of the robot's base.
+    #[arg(long, value_name = "FRAME")]
+    pub base: Option<String>,
+    /// Frame (or link of the model) of the robot's flange.
+    #[arg(long, value_name = "FRAME")]
+    pub flange: Option<String>,
+    /// Topic of poses of the flange in the base, in place of transforms.
+    #[arg(long, value_name = "TOPIC", conflicts_with_all = ["base", "flange"])]
+    pub pose: Option<String>,
+    /// Joint values in place of transforms, of this topic where there are several; needs --base
+    /// and --flange, and a URDF or a robot_description in the bag.
+    #[arg(long, value_name = "TOPIC", num_args = 0..=1)]
+    pub joints: Option<Option<String>>,
+    /// The robot's model for --joints, where the bag has none.
+    #[arg(long, value_name = "FILE", requires = "joints")]
+    pub urdf: Option<PathBuf>,
+    /// Whether the robot stood still for its pictures.
+    #[arg(long, value_enum, default_value_t)]
+    pub motion: MotionArg,
+    /// Most pictures of a robot in motion.
+    #[arg(long, default_value_t = 150)]
+    pub most: usize,
+    /// Which time of a message counts: of its header, or of its recording.
+    #[arg(long, value_enum, default_value_t)]
+    pub stamps: StampsArg,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+pub enum MotionArg {
+    /// Still where the robot stood still at six places and more.
+    #[default]
+    Auto,
+    Still,
+    Moving,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+pub enum StampsArg {
+    #[default]
+    Header,
+    Recorded,
+}
+
+pub fn run(args: &BagArgs, manners: &Manners) -> Result<u8, Failure> {
+    let Some(out) = &args.out else {
+        show(&bag::contents(&args.bag)?, manners);
+        return Ok(0);
+    };
+    let options = options(args)?;
+    let done = bag::extract(&args.bag, out, &options)?;
+    if manners.json {
+        let Extracted { captures, moving, notes, questions } = &done;
+        output::json(&json!({
+            "folder": out, "captures": captures, "moving": moving, "notes": notes, "questions": questions
+        }));
+        return Ok(0);
+    }
+    let mut text = format!("{}: {} captures\n\n", out.display(), done.captures);
+    text += &done.notes.iter().map(|n| output::wrapped("  ", n)).collect::<String>();
+    text += &match done.questions.is_empty() {
+        true => format!("\nnext: handeye calibrate {}\n", out.display()),
+        false => {
+            let all: String = done.questions.iter().map(|q| output::wrapped("  ", q)).collect();
+            format!("\nanswer in {}:\n\n{all}", out.join(handeye_io::MANIFEST).display())
+        }
+    };
+    output::print(&text);
+    Ok(0)
+}
+
+fn options(args: &BagArgs) -> Result<BagOptions, Failure> {
+    Ok(BagOptions {
+        setup: args.setup.map(Into::into),
+        target: args.target.clone(),
+        image: args.image.clone(),
+        depth: args.depth.clone(),
+        camera: args.camera_info.clone(),
+        robot: robot(args)?,
+        urdf: args.urdf.clone(),
+        motion: match args.motion {
+            MotionArg::Auto => Motion::Auto,
+            MotionArg::Still => Motion::Still,
+            MotionArg::Moving => Motion::Moving,
+        },
+        most: args.most,
+        stamps: match args.stamps {
+            StampsArg::Header => Stamps::Header,
+            StampsArg::Recorded => Stamps::Recorded,
+        },
+    })
+}
+
+fn robot(args: &BagArgs) -> Result<RobotSource, Failure> {
+    if let Some(topic) = args.pose.clone() {
+        return Ok(RobotSource::Poses { topic });
+    }
+    let (Some(base), Some(flange)) = (args.base.clone(), args.flange.clone()) else {
+        let what = format!(
+            "say where the robot's poses are: --base FRAME and --flange FRAME, as --base base_link --flange tool0, or \
+             --pose TOPIC; `handeye bag {}` shows the frames and topics",
+            args.bag.display()
+        );
+        return Err(Failure::Usage(what));
+    };
+    Ok(match args.joints.clone() {
+        Some(topic) => RobotSource::Joints { topic, base, flange },
+        None => RobotSource::Frames { base, flange },
+    })
+}
+
+fn show(contents: &BagContents, manners: &Manners) {
+    let BagContents { topics, frames, joints, has_robot_description, broken } = contents;
+    if manners.json {
+        let topics: Vec<_> = topics
+            .iter()
+            .map(|(name, t)| {
+                json!({"name": name, "type": t.kind, "messages": t.messages, "frame": t.frame, "shape": t.shape})
+            })
+            .collect();
+        output::json(&json!({
+            "topics": topics, "frames": frames, "joints": joints,
+            "robot_description": has_robot_description, "broken": broken
+        }));
+        return;
+    }
+    let mut text = String::from("topics\n");
+    for (name, t) in topics {
+        let about: Vec<&str> =
+            [t.shape.as_deref(), t.frame.as_deref()].into_iter().flatten().collect();
+        let about =
+            if about.is_empty() { String::new() } else { format!(" ({})", about.join("; ")) };
+        text += &output::wrapped("  ", &format!("{name}  {} x {}{about}", t.messages, t.kind));
+    }
+    if !frames.is_empty() {
+        text += "\nframes\n";
+        text += &frames.iter().map(|line| format!("  {line}\n")).collect::<String>();
+    }
+    for (topic, names) in joints {
+        text += &format!("\njoints on {topic}\n{}", output::wrapped("  ", &names.join(", ")));
+    }
+    for what in broken {
+        text += &format!("\n{}", output::wrapped("broken: ", what));
+    }
+    output::print(&text);
+}

@@ -1,0 +1,272 @@
+//! From a bag to a dataset: pictures, scans and robot poses as files, and the manifest that describes them.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use handeye::Setup;
+
+use super::{
+    moments::{self, Moment},
+    robot::{Robot, RobotSource},
+    survey::{self, Shot, Stamps, Survey},
+    topics::{self, Asked, Chosen},
+    writing,
+};
+use crate::{
+    Targets,
+    error::{Error, unusable},
+    files, read_targets,
+    robot::Urdf,
+};
+
+/// Whether the robot stood still for its pictures.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Motion {
+    /// Still where it stood still at six places and more.
+    #[default]
+    Auto,
+    /// It stood still: one picture of each place.
+    Still,
+    /// It moved: many pictures, and the robot's poses over time.
+    Moving,
+}
+
+/// What of a bag becomes a dataset, and what the bag does not say.
+#[derive(Debug, Clone)]
+pub struct BagOptions {
+    /// Who carries the camera.
+    pub setup: Option<Setup>,
+    /// A file with the `[target]` that the camera sees.
+    pub target: Option<PathBuf>,
+    /// The topic of the pictures; may be left out where there is one only.
+    pub image: Option<String>,
+    /// The topic of depth images or clouds, likewise.
+    pub depth: Option<String>,
+    /// The topic of the camera's intrinsics; that beside the pictures unless said.
+    pub camera: Option<String>,
+    /// Where the robot's poses come from.
+    pub robot: RobotSource,
+    /// The model of the arm; the bag's own unless said.
+    pub urdf: Option<PathBuf>,
+    /// Whether it stood still.
+    pub motion: Motion,
+    /// Most pictures of a robot in motion.
+    pub most: usize,
+    /// Which times count.
+    pub stamps: Stamps,
+}
+
+/// What became of a bag.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Extracted {
+    /// How many captures there are.
+    pub captures: usize,
+    /// Whether the robot moved in them.
+    pub moving: bool,
+    /// What was done, and what is worth knowing.
+    pub notes: Vec<String>,
+    /// What the manifest does not say, and somebody must add.
+    pub questions: Vec<String>,
+}
+
+/// Places at which the robot must have stood still for the pictures to be taken there.
+const FEWEST_PLACES: usize = 6;
+/// Farthest in time (s) a scan may be from the picture of a robot that stands still, and that moves.
+const BESIDE_STILL_S: f64 = 0.5;
+const BESIDE_MOVING_S: f64 = 1e-3;
+
+/// Writes a dataset into a new folder.
+///
+/// # Errors
+/// A bag that cannot be read or lacks what is asked for; a folder that is there and not empty.
+pub fn extract(bag: &Path, out: &Path, options: &BagOptions) -> Result<Extracted, Error> {
+    if fs::read_dir(out).is_ok_and(|mut entries| entries.next().is_some()) {
+        return Err(unusable(out, "is there already: name a new folder, or remove it"));
+    }
+    let survey = survey::survey(bag, options.stamps)?;
+    let plan = Plan::new(&survey, bag, options)?;
+    let aside = out.with_file_name(format!(
+        ".{}.{}.part",
+        out.file_name().unwrap_or_default().to_string_lossy(),
+        std::process::id()
+    ));
+    let done = writing::write(plan, &aside).and_then(|extracted| {
+        fs::remove_dir(out).ok(); // an empty one is in the way
+        fs::rename(&aside, out).map_err(|source| Error::Write { path: out.into(), source })?;
+        Ok(extracted)
+    });
+    if done.is_err() {
+        fs::remove_dir_all(&aside).ok();
+    }
+    done
+}
+
+/// What is to be written.
+pub(super) struct Plan<'a> {
+    pub(super) bag: &'a Path,
+    pub(super) survey: &'a Survey,
+    pub(super) options: &'a BagOptions,
+    /// What the camera sees, and the text that describes it.
+    pub(super) target: Option<(Targets, String)>,
+    pub(super) chosen: Chosen,
+    pub(super) robot: Robot,
+    pub(super) moving: bool,
+    pub(super) captures: Vec<Capture>,
+    pub(super) notes: Vec<String>,
+}
+
+/// A picture, or a scan alone, and where the robot was.
+pub(super) struct Capture {
+    pub(super) name: String,
+    pub(super) moment: Moment,
+    /// The scan, where scans are used.
+    pub(super) scan: Option<Shot>,
+}
+
+impl<'a> Plan<'a> {
+    fn new(survey: &'a Survey, bag: &'a Path, options: &'a BagOptions) -> Result<Self, Error> {
+        let asked = Asked {
+            image: options.image.as_deref(),
+            scan: options.depth.as_deref(),
+            camera: options.camera.as_deref(),
+        };
+        let target = options.target.as_deref().map(target).transpose()?;
+        let mut chosen = topics::choose(survey, &asked, bag)?;
+        let urdf = urdf(survey, bag, options)?;
+        let robot = Robot::of(survey, &options.robot, urdf, bag)?;
+        let mut notes = std::mem::take(&mut chosen.notes);
+        notes.extend(survey.broken.iter().cloned());
+        notes.extend(robot.gaps());
+        for topic in &survey.unstamped {
+            notes.push(format!("{topic} has messages without a time; that of recording is taken"));
+        }
+        let mut plan = Plan {
+            bag,
+            survey,
+            options,
+            target,
+            chosen,
+            robot,
+            moving: false,
+            captures: vec![],
+            notes,
+        };
+        plan.take_moments()?;
+        plan.take_scans()?;
+        Ok(plan)
+    }
+
+    /// The topic that leads: of pictures, or else of scans.
+    fn leading(&self) -> &str {
+        self.chosen.image.as_ref().or(self.chosen.scan.as_ref()).map_or("", String::as_str)
+    }
+
+    fn take_moments(&mut self) -> Result<(), Error> {
+        let mut shots = self.survey.shots.get(self.leading()).cloned().unwrap_or_default();
+        shots.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        let known = shots.iter().filter(|s| self.robot.at(s.time_s).is_some()).count();
+        if known == 0 {
+            return Err(unusable(self.bag, self.never_together(&shots)));
+        }
+        if known < shots.len() {
+            let text = "pictures were taken where the robot's pose is not known (before, after, or in a gap)";
+            self.notes.push(format!("{} of {} {text}", shots.len() - known, shots.len()));
+        }
+        let still = moments::still(&shots, &self.robot);
+        self.moving = match self.options.motion {
+            Motion::Auto => still.len() < FEWEST_PLACES,
+            Motion::Still => false,
+            Motion::Moving => true,
+        };
+        if !self.moving && still.is_empty() {
+            let what = "has no picture at which the robot stood still; for pictures of a moving robot: --motion moving";
+            return Err(unusable(self.bag, what));
+        }
+        let found = if self.moving {
+            moments::moving(&shots, &self.robot, self.options.most)
+        } else {
+            still
+        };
+        self.notes.push(if self.moving {
+            format!(
+                "the robot moved: {} of {} pictures are taken, and the time offset of the clocks is estimated",
+                found.len(),
+                shots.len()
+            )
+        } else {
+            format!("the robot stood still at {} places; of each the middle picture is taken", found.len())
+        });
+        let numbered = found.into_iter().enumerate();
+        let capture = |(k, moment)| Capture { name: format!("{:04}", k + 1), moment, scan: None };
+        self.captures = numbered.map(capture).collect();
+        Ok(())
+    }
+
+    fn never_together(&self, shots: &[Shot]) -> String {
+        let range = |mut times: Vec<f64>| {
+            times.sort_by(f64::total_cmp);
+            match times[..] {
+                [] => "never".to_owned(),
+                [first, .., last] => format!("from {first:.3} to {last:.3} s"),
+                [one] => format!("at {one:.3} s"),
+            }
+        };
+        format!(
+            "tells the robot's pose at no picture: pictures are stamped {}, the robot {}, counted from {:.3} s. Were they \
+             recorded together? Where the camera stamps by a clock of its own: --stamps recorded",
+            range(shots.iter().map(|s| s.time_s).collect()),
+            range(self.robot.times()),
+            self.survey.epoch_s()
+        )
+    }
+
+    /// The scan of each capture; captures without one go, where scans are used.
+    fn take_scans(&mut self) -> Result<(), Error> {
+        let Some(topic) = &self.chosen.scan else { return Ok(()) };
+        if self.chosen.image.is_none() {
+            self.captures.iter_mut().for_each(|c| c.scan = Some(c.moment.shot));
+            return Ok(());
+        }
+        let limit = if self.moving { BESIDE_MOVING_S } else { BESIDE_STILL_S };
+        let shots = self.survey.shots.get(topic).cloned().unwrap_or_default();
+        for capture in &mut self.captures {
+            let taken = capture.moment.shot.time_s;
+            let away = |s: &Shot| (s.time_s - taken).abs();
+            capture.scan = shots
+                .iter()
+                .copied()
+                .min_by(|a, b| away(a).total_cmp(&away(b)))
+                .filter(|s| away(s) <= limit);
+        }
+        let with = self.captures.iter().filter(|c| c.scan.is_some()).count();
+        if with == 0 {
+            self.notes.push(format!(
+                "{topic} has no scan within {limit} s of a picture, and is not used"
+            ));
+            self.chosen.scan = None;
+        } else if with < self.captures.len() {
+            self.notes.push(format!(
+                "{} captures have no scan beside them and are left out",
+                self.captures.len() - with
+            ));
+            self.captures.retain(|c| c.scan.is_some());
+        }
+        Ok(())
+    }
+}
+
+fn target(path: &Path) -> Result<(Targets, String), Error> {
+    Ok((read_targets(path)?, files::text(path)?))
+}
+
+/// The model of the arm: the user's, or the one that the bag itself holds.
+fn urdf(survey: &Survey, bag: &Path, options: &BagOptions) -> Result<Option<Urdf>, Error> {
+    let RobotSource::Joints { base, flange, .. } = &options.robot else { return Ok(None) };
+    match (&options.urdf, &survey.robot_description) {
+        (Some(path), _) => Urdf::read(path, base, flange).map(Some),
+        (None, Some(text)) => Urdf::parse(text, bag, base, flange).map(Some),
+        (None, None) => Ok(None),
+    }
+}

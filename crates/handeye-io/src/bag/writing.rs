@@ -1,0 +1,354 @@
+//! The files of a dataset that comes from a bag, and the manifest that describes them.
+
+use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path};
+
+use super::{
+    Message,
+    extract::{Capture, Extracted, Plan},
+    messages::{self, CameraInfo},
+    pictures::{self, File},
+    read,
+    robot::{At, Robot},
+    survey::{CLOUD, COMPRESSED, IMAGE},
+    wire::Wire,
+};
+use crate::{
+    MANIFEST, Targets,
+    dataset::TIMES,
+    error::{Error, unusable},
+    target_toml, write_atomically,
+};
+
+const CAMERA: &str = "camera.yaml";
+const SCAN_CAMERA: &str = "scan_camera.yaml";
+const ROBOT: &str = "robot.csv";
+const URDF: &str = "robot.urdf";
+
+/// Pictures or scans: also the name of their folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Images,
+    Scans,
+}
+
+impl Kind {
+    fn folder(self) -> &'static str {
+        match self {
+            Kind::Images => "images",
+            Kind::Scans => "scans",
+        }
+    }
+}
+
+/// The ending of each file that was written, by capture and kind.
+type Written = BTreeMap<(String, Kind), &'static str>;
+
+/// Which cameras have files.
+#[derive(Default)]
+struct Cameras {
+    image: bool,
+    scan: bool,
+}
+
+pub(super) fn write(mut plan: Plan, folder: &Path) -> Result<Extracted, Error> {
+    let written = pictures(&mut plan, folder)?;
+    keep_whole(&mut plan, &written, folder)?;
+    let cameras = cameras(&mut plan, folder)?;
+    robot_files(&plan, folder)?;
+    let (text, questions) = manifest(&plan, &cameras, &written);
+    write_atomically(&folder.join(MANIFEST), text.as_bytes())?;
+    Ok(Extracted {
+        captures: plan.captures.len(),
+        moving: plan.moving,
+        notes: plan.notes,
+        questions,
+    })
+}
+
+/// Which captures want which message.
+type Wanted = BTreeMap<(String, usize), Vec<(String, Kind)>>;
+
+fn wanted(plan: &Plan) -> Wanted {
+    let mut all = Wanted::new();
+    for Capture { name, moment, scan } in &plan.captures {
+        if let Some(topic) = &plan.chosen.image {
+            all.entry((topic.clone(), moment.shot.index))
+                .or_default()
+                .push((name.clone(), Kind::Images));
+        }
+        if let (Some(topic), Some(scan)) = (&plan.chosen.scan, scan) {
+            all.entry((topic.clone(), scan.index)).or_default().push((name.clone(), Kind::Scans));
+        }
+    }
+    all
+}
+
+/// Writes all pictures and scans in one more pass.
+fn pictures(plan: &mut Plan, folder: &Path) -> Result<Written, Error> {
+    let wanted = wanted(plan);
+    let (mut counts, mut done, mut broken) =
+        (BTreeMap::<String, usize>::new(), Written::new(), vec![]);
+    read(plan.bag, &mut |message| {
+        let count = counts.entry(message.topic.into()).or_default();
+        let index = *count;
+        *count += 1;
+        for (name, kind) in wanted.get(&(message.topic.into(), index)).into_iter().flatten() {
+            match file(message, *kind) {
+                Ok((ending, bytes)) => {
+                    let path = folder.join(kind.folder()).join(format!("{name}.{ending}"));
+                    let made = fs::create_dir_all(folder.join(kind.folder()));
+                    made.map_err(|source| Error::Write { path: path.clone(), source })?;
+                    write_atomically(&path, &bytes)?;
+                    done.insert((name.clone(), *kind), ending);
+                }
+                Err(what) => {
+                    broken.push(format!("message {} of {} {what}", index + 1, message.topic))
+                }
+            }
+        }
+        Ok(())
+    })?;
+    let Some(first) = broken.first() else { return Ok(done) };
+    if done.is_empty() {
+        return Err(unusable(plan.bag, format!("has no picture that can be written: {first}")));
+    }
+    plan.notes.push(format!(
+        "{} pictures or scans cannot be read and are left out: {first}",
+        broken.len()
+    ));
+    Ok(done)
+}
+
+fn file(message: &Message, kind: Kind) -> Result<File, String> {
+    let mut wire = Wire::new(message.bytes, message.encoding)?;
+    match (message.kind, kind) {
+        (IMAGE, Kind::Images) => pictures::picture(&messages::image(&mut wire)?),
+        (COMPRESSED, Kind::Images) => pictures::packed(&messages::compressed_image(&mut wire)?),
+        (IMAGE, Kind::Scans) => pictures::depth(&messages::image(&mut wire)?),
+        (COMPRESSED, Kind::Scans) => {
+            pictures::packed_depth(&messages::compressed_image(&mut wire)?)
+        }
+        (CLOUD, Kind::Scans) => pictures::cloud(&messages::point_cloud(&mut wire)?),
+        _ => Err(format!("is a {}", message.kind)),
+    }
+}
+
+/// Leaves out captures of which not all could be written.
+fn keep_whole(plan: &mut Plan, written: &Written, folder: &Path) -> Result<(), Error> {
+    let kinds: Vec<Kind> = [(&plan.chosen.image, Kind::Images), (&plan.chosen.scan, Kind::Scans)]
+        .into_iter()
+        .filter_map(|(topic, kind)| topic.is_some().then_some(kind))
+        .collect();
+    let whole =
+        |c: &Capture| kinds.iter().all(|kind| written.contains_key(&(c.name.clone(), *kind)));
+    let (kept, dropped): (Vec<Capture>, Vec<Capture>) =
+        std::mem::take(&mut plan.captures).into_iter().partition(whole);
+    plan.captures = kept;
+    for capture in dropped {
+        for kind in &kinds {
+            let Some(ending) = written.get(&(capture.name.clone(), *kind)) else { continue };
+            let path = folder.join(kind.folder()).join(format!("{}.{ending}", capture.name));
+            fs::remove_file(&path).map_err(|source| Error::Write { path, source })?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes the cameras' files.
+fn cameras(plan: &mut Plan, folder: &Path) -> Result<Cameras, Error> {
+    let chosen = plan.chosen.clone();
+    let mut found = Cameras::default();
+    if let (Some(topic), Some(image)) = (&chosen.image_camera, &chosen.image) {
+        found.image = camera(plan, topic, image, &folder.join(CAMERA))?;
+    }
+    let is_own = chosen.scan_camera != chosen.image_camera;
+    if let (Some(topic), Some(scan), true) = (&chosen.scan_camera, &chosen.scan, is_own) {
+        found.scan = camera(plan, topic, scan, &folder.join(SCAN_CAMERA))?;
+    }
+    Ok(found)
+}
+
+fn camera(plan: &mut Plan, topic: &str, pictures: &str, path: &Path) -> Result<bool, Error> {
+    let info = &plan.survey.cameras[topic];
+    if info.matrix[0] == 0.0 {
+        plan.notes.push(format!("{topic} is of a camera that is not calibrated, and is not used"));
+        return Ok(false);
+    }
+    let rectified = pictures.split('/').any(|part| part.starts_with("image_rect"));
+    if rectified {
+        let text = format!(
+            "{pictures} is rectified, as its name says: of {topic} the projection holds, without distortion"
+        );
+        plan.notes.push(text);
+    }
+    write_atomically(path, camera_yaml(info, rectified).as_bytes())?;
+    Ok(true)
+}
+
+/// As ROS keeps its cameras in files, for the part of the sensor and the binning that the pictures have.
+fn camera_yaml(info: &CameraInfo, rectified: bool) -> String {
+    let [left, top, height, width] = info.region.map(f64::from);
+    let [bin_x, bin_y] = info.binning.map(|b| f64::from(b.max(1)));
+    let (p, k) = (&info.projection, &info.matrix);
+    let [fx, cx, fy, cy] =
+        if rectified { [p[0], p[2], p[5], p[6]] } else { [k[0], k[2], k[4], k[5]] };
+    let size = |whole: u32, part: f64, bin: f64| {
+        ((if part > 0.0 { part } else { f64::from(whole) }) / bin) as u32
+    };
+    // the centre of a pixel of several lies between theirs
+    let centre = |c: f64, start: f64, bin: f64| (c - start + 0.5) / bin - 0.5;
+    let matrix = [
+        fx / bin_x,
+        0.0,
+        centre(cx, left, bin_x),
+        0.0,
+        fy / bin_y,
+        centre(cy, top, bin_y),
+        0.0,
+        0.0,
+        1.0,
+    ];
+    let distortion = if rectified { vec![] } else { info.distortion.clone() };
+    let list = |all: &[f64]| all.iter().map(|v| format!("{v:?}")).collect::<Vec<_>>().join(", ");
+    format!(
+        "image_width: {}\nimage_height: {}\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [{}]\ndistortion_model: {}\n\
+         distortion_coefficients:\n  rows: 1\n  cols: {}\n  data: [{}]\n",
+        size(info.width, width, bin_x),
+        size(info.height, height, bin_y),
+        list(&matrix),
+        if distortion.is_empty() { "none" } else { &info.distortion_model },
+        distortion.len(),
+        list(&distortion)
+    )
+}
+
+/// Writes the robot's poses: one a capture, or, of a robot in motion, all there are beside the pictures' times.
+fn robot_files(plan: &Plan, folder: &Path) -> Result<(), Error> {
+    let columns = match plan.robot.urdf() {
+        Some(urdf) => urdf.joint_names().join(","),
+        None => "x,y,z,qx,qy,qz,qw".into(),
+    };
+    if let Some(urdf) = plan.robot.urdf() {
+        write_atomically(&folder.join(URDF), urdf.text().as_bytes())?;
+    }
+    let text = if plan.moving {
+        let times =
+            plan.captures.iter().map(|c| format!("{},{:.9}\n", c.name, c.moment.shot.time_s));
+        let times = format!("image,time_s\n{}", times.collect::<String>());
+        write_atomically(&folder.join(TIMES), times.as_bytes())?;
+        format!("time_s,{columns}\n{}", stream(&plan.robot))
+    } else {
+        let lines = plan.captures.iter().map(|c| format!("{},{}\n", c.name, numbers(&c.moment.at)));
+        format!("id,{columns}\n{}", lines.collect::<String>())
+    };
+    write_atomically(&folder.join(ROBOT), text.as_bytes())
+}
+
+fn stream(robot: &Robot) -> String {
+    let line = |time: f64| Some(format!("{time:.9},{}\n", numbers(&robot.at(time)?)));
+    robot.times().into_iter().filter_map(line).collect()
+}
+
+fn numbers(at: &At) -> String {
+    let pose = at.base_from_flange.iso();
+    let (t, q) = (pose.translation.vector, pose.rotation.coords);
+    let all = if at.joints.is_empty() {
+        vec![t.x, t.y, t.z, q.x, q.y, q.z, q.w]
+    } else {
+        at.joints.clone()
+    };
+    all.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
+}
+
+/// The manifest's text, and what it asks.
+fn manifest(plan: &Plan, cameras: &Cameras, written: &Written) -> (String, Vec<String>) {
+    let mut questions = vec![];
+    let bag = plan.bag.file_name().unwrap_or_default().to_string_lossy();
+    let mut text = format!("# ROS bag {bag}\n");
+    for (what, topic) in [("pictures", &plan.chosen.image), ("scans", &plan.chosen.scan)] {
+        let Some((topic, about)) =
+            topic.as_ref().and_then(|t| Some((t, plan.survey.topics.get(t)?)))
+        else {
+            continue;
+        };
+        let frame = about.frame.as_deref().unwrap_or("?");
+        let _ = writeln!(text, "# {what}: {topic}, in the frame {frame}");
+    }
+    let _ = writeln!(text, "# robot: {}", plan.options.robot);
+    match plan.options.setup {
+        Some(setup) => text += &format!("setup = \"{}\"\n", setup.name()),
+        None => {
+            let question =
+                "who carries the camera: the robot (eye-in-hand), or the cell (eye-to-hand)?";
+            text += &format!("# {question}\n# setup = \"eye-in-hand\"\n");
+            questions.push(question.into());
+        }
+    }
+    text += &target(plan, &mut questions);
+    if cameras.image {
+        text += &format!("\n[camera]\nfile = \"{CAMERA}\"\n");
+    }
+    text += &robot(plan);
+    text += &series(plan, cameras, written);
+    (text, questions)
+}
+
+fn target(plan: &Plan, questions: &mut Vec<String>) -> String {
+    match &plan.target {
+        Some((Targets::One(model), _)) => format!("\n{}", target_toml(model)),
+        Some((Targets::Several(_), text)) => {
+            questions.push("which of the targets is it? ([captures] target = \"NAME\")".into());
+            format!("\n{}\n", text.trim())
+        }
+        None => {
+            let question = "which board does the camera see? ([target] kind = ...)";
+            questions.push(question.into());
+            format!("\n# {question}\n# [target]\n")
+        }
+    }
+}
+
+fn robot(plan: &Plan) -> String {
+    let mut text = format!("\n[robot]\nposes = \"{ROBOT}\"\ndirection = \"base_from_flange\"\n");
+    text += &match plan.robot.urdf() {
+        Some(urdf) => {
+            let (base, flange) = urdf.links();
+            let quoted = |name: &str| toml::Value::String(name.into()).to_string();
+            format!(
+                "notation = \"joints\"\nangle_unit = \"rad\"\nurdf = {{ file = \"{URDF}\", base = {}, flange = {} }}\n",
+                quoted(base),
+                quoted(flange)
+            )
+        }
+        None => "notation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n".into(),
+    };
+    text
+}
+
+/// Pictures, scans, and what belongs together.
+fn series(plan: &Plan, cameras: &Cameras, written: &Written) -> String {
+    let ending = |kind: Kind| {
+        written.iter().find(|((_, k), _)| *k == kind).map_or("png", |(_, ending)| ending)
+    };
+    let mut text = String::new();
+    if plan.chosen.image.is_some() {
+        text += &format!("\n[images]\nfiles = \"images/*.{}\"\n", ending(Kind::Images));
+    }
+    if plan.chosen.scan.is_some() {
+        let ending = ending(Kind::Scans);
+        text += &format!("\n[scans]\nfiles = \"scans/*.{ending}\"\n");
+        text += &match ending {
+            "png" => format!("depth_scale = {:?}\n", pictures::DEPTH_SCALE),
+            _ => "length_unit = \"m\"\n".into(),
+        };
+        if cameras.scan {
+            text += &format!("camera = {{ file = \"{SCAN_CAMERA}\" }}\n");
+        }
+    }
+    if plan.moving {
+        text += &format!(
+            "\n# the robot moved: robot and camera keep time, each by its own clock\n[motion]\ntimes = \"{TIMES}\"\n"
+        );
+    }
+    text
+}

@@ -1,0 +1,300 @@
+//! An arm out of a URDF (wiki.ros.org/urdf/XML): the chain of joints from one link to another.
+//!
+//! `<origin xyz rpy>` places a joint in its parent link, `R = Rz(yaw) Ry(pitch) Rx(roll)`; the joint turns or slides
+//! about its `<axis>`, given in its own frame.
+
+use std::{collections::BTreeMap, path::Path};
+
+use handeye::{
+    Pose,
+    kinematics::{Arm, Axis, MOST_JOINTS},
+};
+use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
+use roxmltree::{Document, Node};
+use serde::Deserialize;
+
+use crate::{
+    error::{Error, Place, malformed, nearest},
+    files,
+};
+
+/// A model of an arm as a manifest names it.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct UrdfSpec {
+    pub(crate) file: String,
+    pub(crate) base: String,
+    pub(crate) flange: String,
+}
+
+/// The joints between two links of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Urdf {
+    arm: Arm,
+    joints: Vec<String>,
+    text: String,
+    links: (String, String),
+}
+
+/// A joint as the file has it.
+struct Joint {
+    name: String,
+    kind: String,
+    parent: String,
+    parent_from_joint: Isometry3<f64>,
+    axis: Vector3<f64>,
+    mimics: bool,
+    line: usize,
+}
+
+/// By the child link.
+type Joints = BTreeMap<String, Joint>;
+
+impl Urdf {
+    /// Reads the chain from the link `base` to the link `flange`.
+    ///
+    /// # Errors
+    /// What is no URDF, links that it does not have or that no chain joins, joints that move in more than one way.
+    pub fn read(path: &Path, base: &str, flange: &str) -> Result<Urdf, Error> {
+        Self::parse(&files::text(path)?, path, base, flange)
+    }
+
+    /// The same of its text; errors call it by this name.
+    ///
+    /// # Errors
+    /// As [`Urdf::read`].
+    pub fn parse(text: &str, path: &Path, base: &str, flange: &str) -> Result<Urdf, Error> {
+        let document = Document::parse(text).map_err(|e| {
+            let place = Place::line(path, e.pos().row as usize);
+            malformed(place, format!("is not XML: {e}"), "give the URDF of the robot")
+        })?;
+        let root = document.root_element();
+        if !root.has_tag_name("robot") {
+            let what = format!("is no URDF: its root is <{}>, not <robot>", root.tag_name().name());
+            return Err(malformed(Place::file(path), what, "give the URDF of the robot"));
+        }
+        if root.children().any(|c| c.tag_name().namespace().is_some_and(|n| n.contains("xacro"))) {
+            let advice = "expand it first: xacro robot.urdf.xacro > robot.urdf";
+            return Err(malformed(Place::file(path), "is a xacro, not a URDF", advice));
+        }
+        let joints = joints(&root, path)?;
+        let chain = chain(&joints, base, flange, path)?;
+        let (arm, names) = arm(&chain, path)?;
+        let links = (base.to_owned(), flange.to_owned());
+        Ok(Urdf { arm, joints: names, text: text.into(), links })
+    }
+
+    /// The arm; joint values are in rad and m.
+    pub fn arm(&self) -> &Arm {
+        &self.arm
+    }
+
+    /// The names of its joints, from the base outwards.
+    pub fn joint_names(&self) -> &[String] {
+        &self.joints
+    }
+
+    /// The file's text.
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Base and flange.
+    pub(crate) fn links(&self) -> (&str, &str) {
+        (&self.links.0, &self.links.1)
+    }
+}
+
+fn joints(root: &Node, path: &Path) -> Result<Joints, Error> {
+    let mut all = Joints::new();
+    for node in root.children().filter(|c| c.has_tag_name("joint")) {
+        let line = root.document().text_pos_at(node.range().start).row as usize;
+        let (child, joint) = joint(&node, line, path)?;
+        if let Some(other) = all.get(&child) {
+            let what =
+                format!("the link {child} hangs on two joints, {} and {}", other.name, joint.name);
+            return Err(malformed(Place::line(path, line), what, "correct the model"));
+        }
+        all.insert(child, joint);
+    }
+    Ok(all)
+}
+
+fn joint(node: &Node, line: usize, path: &Path) -> Result<(String, Joint), Error> {
+    let name = node.attribute("name").unwrap_or("?").to_owned();
+    let wrong = |what: &str| {
+        malformed(Place::line(path, line), format!("joint {name}: {what}"), "correct the model")
+    };
+    let part = |tag: &str| node.children().find(|c| c.has_tag_name(tag));
+    let link = |tag: &str| part(tag).and_then(|c| c.attribute("link")).map(str::to_owned);
+    let parent = link("parent").ok_or_else(|| wrong("has no <parent link=...>"))?;
+    let child = link("child").ok_or_else(|| wrong("has no <child link=...>"))?;
+    let vector = |tag: &str, key: &str, otherwise: [f64; 3]| -> Result<Vector3<f64>, Error> {
+        let Some(text) = part(tag).and_then(|c| c.attribute(key)) else {
+            return Ok(otherwise.into());
+        };
+        three(text).ok_or_else(|| wrong(&format!("{key} = \"{text}\" are not three numbers")))
+    };
+    let (xyz, rpy) = (vector("origin", "xyz", [0.0; 3])?, vector("origin", "rpy", [0.0; 3])?);
+    let joint = Joint {
+        kind: node.attribute("type").unwrap_or_default().into(),
+        parent,
+        parent_from_joint: Isometry3::from_parts(
+            Translation3::from(xyz),
+            UnitQuaternion::from_euler_angles(rpy.x, rpy.y, rpy.z),
+        ),
+        axis: vector("axis", "xyz", [1.0, 0.0, 0.0])?,
+        mimics: part("mimic").is_some(),
+        line,
+        name,
+    };
+    Ok((child, joint))
+}
+
+fn three(text: &str) -> Option<Vector3<f64>> {
+    let numbers: Option<Vec<f64>> = text.split_whitespace().map(|w| w.parse().ok()).collect();
+    match numbers?[..] {
+        [x, y, z] if [x, y, z].iter().all(|v: &f64| v.is_finite()) => Some(Vector3::new(x, y, z)),
+        _ => None,
+    }
+}
+
+/// The joints from the base outwards.
+fn chain<'a>(
+    joints: &'a Joints,
+    base: &str,
+    flange: &str,
+    path: &Path,
+) -> Result<Vec<&'a Joint>, Error> {
+    let links = || joints.iter().flat_map(|(child, joint)| [child.as_str(), joint.parent.as_str()]);
+    for link in [base, flange] {
+        if !links().any(|l| l == link) {
+            let advice = match nearest(link, links()) {
+                Some(near) => format!("did you mean {near}?"),
+                None => format!("its links: {}", in_order(links())),
+            };
+            return Err(malformed(Place::file(path), format!("there is no link {link}"), advice));
+        }
+    }
+    let (mut all, mut here) = (vec![], flange);
+    while here != base {
+        let Some(joint) = joints.get(here).filter(|_| all.len() <= joints.len()) else {
+            let what = format!("no chain of joints leads from {base} out to {flange}");
+            let advice = "base is the link nearer to the ground, flange the one at the far end";
+            return Err(malformed(Place::file(path), what, advice));
+        };
+        all.push(joint);
+        here = &joint.parent;
+    }
+    all.reverse();
+    Ok(all)
+}
+
+fn in_order<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.collect::<std::collections::BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(", ")
+}
+
+/// The arm of a chain, and the names of the joints that move.
+fn arm(chain: &[&Joint], path: &Path) -> Result<(Arm, Vec<String>), Error> {
+    let (mut here, mut axes, mut names) = (Isometry3::identity(), vec![], vec![]);
+    for joint in chain {
+        here *= joint.parent_from_joint;
+        if joint.kind == "fixed" {
+            continue;
+        }
+        axes.push(axis(joint, &here, path)?);
+        names.push(joint.name.clone());
+    }
+    if axes.is_empty() || axes.len() > MOST_JOINTS {
+        let what = format!("{} joints move between the two links", axes.len());
+        return Err(malformed(Place::file(path), what, format!("an arm has 1 to {MOST_JOINTS}")));
+    }
+    let arm = Arm::of_axes(&axes, &Pose::claim(here));
+    arm.check().map_err(|source| Error::Values { place: Place::file(path), source })?;
+    Ok((arm, names))
+}
+
+fn axis(joint: &Joint, base_from_joint: &Isometry3<f64>, path: &Path) -> Result<Axis, Error> {
+    let wrong = |what: &str, advice: &str| {
+        Err(malformed(
+            Place::line(path, joint.line),
+            format!("joint {}: {what}", joint.name),
+            advice,
+        ))
+    };
+    let prismatic = match joint.kind.as_str() {
+        "revolute" | "continuous" => false,
+        "prismatic" => true,
+        other => {
+            return wrong(
+                &format!("the type \"{other}\" is no joint of an arm"),
+                "choose links between which joints turn or slide",
+            );
+        }
+    };
+    if joint.mimics {
+        return wrong(
+            "follows another joint",
+            "a chain with <mimic> is not read: give its poses instead",
+        );
+    }
+    let Some(direction) = Unit::try_new(joint.axis, 1e-9) else {
+        return wrong("its axis has no direction", "correct the model");
+    };
+    let direction = Unit::new_normalize(base_from_joint.rotation * direction.into_inner());
+    Ok(Axis { through: Point3::from(base_from_joint.translation.vector), direction, prismatic })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ARM: &str = r#"<robot name="r">
+        <link name="world"/><link name="base_link"/><link name="one"/><link name="two"/><link name="tool0"/>
+        <joint name="stand" type="fixed"><parent link="world"/><child link="base_link"/><origin xyz="0 0 1"/></joint>
+        <joint name="pan" type="revolute"><parent link="base_link"/><child link="one"/>
+          <origin xyz="0 0 0.5" rpy="0 0 0"/><axis xyz="0 0 1"/></joint>
+        <joint name="slide" type="prismatic"><parent link="one"/><child link="two"/>
+          <origin xyz="0.2 0 0" rpy="0 1.5707963267948966 0"/><axis xyz="0 0 2"/></joint>
+        <joint name="end" type="fixed"><parent link="two"/><child link="tool0"/><origin xyz="0 0 0.1"/></joint>
+      </robot>"#;
+
+    fn read(text: &str, base: &str, flange: &str) -> Result<Urdf, String> {
+        Urdf::parse(text, Path::new("arm.urdf"), base, flange).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn an_arm_reaches_where_a_ruler_says() {
+        let urdf = read(ARM, "base_link", "tool0").unwrap();
+        assert_eq!(urdf.joint_names(), ["pan", "slide"]);
+        let pose = urdf.arm().base_from_flange(&[std::f64::consts::FRAC_PI_2, 0.3]);
+        assert!((pose.translation() - Vector3::new(0.0, 0.6, 0.5)).norm() < 1e-12, "{pose:?}");
+        let higher = read(ARM, "world", "tool0").unwrap().arm().base_from_flange(&[0.0, 0.0]);
+        assert!((higher.translation() - Vector3::new(0.3, 0.0, 1.5)).norm() < 1e-12, "{higher:?}");
+    }
+
+    #[test]
+    fn wrong_links_and_joints_are_named_with_what_to_do() {
+        let wrong = |text: &str, base: &str, flange: &str| read(text, base, flange).unwrap_err();
+        assert!(
+            wrong(ARM, "base_link", "tool").contains("there is no link tool; did you mean tool0?")
+        );
+        assert!(wrong(ARM, "tool0", "base_link").contains("no chain of joints leads from tool0"));
+        assert!(wrong(ARM, "world", "base_link").contains("0 joints move"));
+        let floating = ARM.replace("prismatic", "floating");
+        assert!(
+            wrong(&floating, "base_link", "tool0").starts_with("arm.urdf:6: joint slide: the type")
+        );
+        let crooked = ARM.replace("0.2 0 0", "0.2 0");
+        assert!(wrong(&crooked, "base_link", "tool0").contains("are not three numbers"));
+        assert!(wrong("<sdf/>", "a", "b").contains("its root is <sdf>"));
+    }
+
+    #[test]
+    fn a_circle_of_links_is_no_chain() {
+        let circle = r#"<robot><joint name="a" type="fixed"><parent link="x"/><child link="y"/></joint>
+          <joint name="b" type="fixed"><parent link="y"/><child link="x"/></joint>
+          <joint name="c" type="fixed"><parent link="z"/><child link="w"/></joint></robot>"#;
+        assert!(read(circle, "z", "x").unwrap_err().contains("no chain"));
+    }
+}
