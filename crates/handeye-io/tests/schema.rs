@@ -42,6 +42,7 @@ fn the_schema_and_the_manifest_have_the_same_keys() {
         "corners",
         "point_pairs",
         "captures",
+        "motion",
         "touches",
         "workspace",
         "noise",
