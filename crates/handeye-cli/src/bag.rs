@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use handeye_io::bag::{self, BagContents, BagOptions, Extracted, Motion, RobotSource, Stamps};
-use serde_json::json;
+use handeye_io::{
+    bag::{self, BagContents, BagOptions, Motion, RobotSource, Stamps},
+    read_targets,
+};
 
 use crate::{args::Manners, failure::Failure, output, simulate::SetupArg};
 
@@ -85,10 +87,7 @@ pub fn run(args: &BagArgs, manners: &Manners) -> Result<u8, Failure> {
     let options = options(args)?;
     let done = bag::extract(&args.bag, out, &options)?;
     if manners.json {
-        let Extracted { captures, moving, notes, questions } = &done;
-        output::json(&json!({
-            "folder": out, "captures": captures, "moving": moving, "notes": notes, "questions": questions
-        }));
+        output::json(&done);
         return Ok(0);
     }
     let mut text = format!("{}: {} captures\n\n", out.display(), done.captures);
@@ -107,7 +106,7 @@ pub fn run(args: &BagArgs, manners: &Manners) -> Result<u8, Failure> {
 fn options(args: &BagArgs) -> Result<BagOptions, Failure> {
     Ok(BagOptions {
         setup: args.setup.map(Into::into),
-        target: args.target.clone(),
+        target: args.target.as_deref().map(read_targets).transpose()?,
         image: args.image.clone(),
         depth: args.depth.clone(),
         camera: args.camera_info.clone(),
@@ -145,20 +144,11 @@ fn robot(args: &BagArgs) -> Result<RobotSource, Failure> {
 }
 
 fn show(contents: &BagContents, manners: &Manners) {
-    let BagContents { topics, frames, joints, has_robot_description, broken } = contents;
     if manners.json {
-        let topics: Vec<_> = topics
-            .iter()
-            .map(|(name, t)| {
-                json!({"name": name, "type": t.kind, "messages": t.messages, "frame": t.frame, "shape": t.shape})
-            })
-            .collect();
-        output::json(&json!({
-            "topics": topics, "frames": frames, "joints": joints,
-            "robot_description": has_robot_description, "broken": broken
-        }));
+        output::json(contents);
         return;
     }
+    let BagContents { topics, frames, joints, has_robot_description, broken } = contents;
     let mut text = String::from("topics\n");
     for (name, t) in topics {
         let about: Vec<&str> =
@@ -173,6 +163,9 @@ fn show(contents: &BagContents, manners: &Manners) {
     }
     for (topic, names) in joints {
         text += &format!("\njoints on {topic}\n{}", output::wrapped("  ", &names.join(", ")));
+    }
+    if *has_robot_description {
+        text += "\nholds a model of the robot (robot_description)\n";
     }
     for what in broken {
         text += &format!("\n{}", output::wrapped("broken: ", what));

@@ -306,10 +306,7 @@ fn zero_if(exact: bool, value: f64) -> f64 {
 
 /// An arm's errors take the place of those of a robot that only gives poses.
 fn arm(args: &SimulateArgs) -> ArmErrors {
-    if args.exact {
-        return ArmErrors { length_m: 0.0, angle_rad: 0.0, gear_rad: 0.0, bending_rad: 0.0 };
-    }
-    ArmErrors::default()
+    if args.exact { ArmErrors::NONE } else { ArmErrors::default() }
 }
 
 fn noise(args: &SimulateArgs) -> CellNoise {

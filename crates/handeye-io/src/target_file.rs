@@ -74,6 +74,19 @@ impl Targets {
         }
     }
 
+    /// The lines of a manifest that describe them.
+    pub fn toml(&self) -> String {
+        let lines = |target: &NamedTarget| {
+            let name = toml::Value::String(target.name.clone());
+            let table = target_toml(&target.model);
+            table.replacen("[target]\n", &format!("[[target]]\nname = {name}\n"), 1)
+        };
+        match self {
+            Self::One(model) => target_toml(model),
+            Self::Several(targets) => targets.iter().map(lines).collect::<Vec<_>>().join("\n"),
+        }
+    }
+
     /// Refuses dimensions that no target has, and targets that cannot be told apart.
     ///
     /// # Errors

@@ -16,7 +16,7 @@ use handeye::{
     kinematics::{Arm, DhConvention, Joint, Parameter},
     predict::{PredictedTre, TreMap, TreSlice},
 };
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 use serde_json::Value;
 
 /// A result in which nothing is missing.

@@ -5,6 +5,7 @@
 #![allow(clippy::result_large_err, reason = "an error ends the work: its size costs nothing")]
 
 mod arrays;
+mod bags;
 mod calibration;
 mod closed_form;
 mod errors;
@@ -22,6 +23,7 @@ mod _core {
     use super::{Bound, PyModule, PyModuleMethods, PyResult};
     #[pymodule_export]
     use super::{
+        bags::{bag_contents, extract_bag},
         calibration::{Calibrated, calibrate, solve, solve_streams},
         closed_form::closed_form,
         errors::{HandEyeError, InputError, NotDetermined, Rejected},

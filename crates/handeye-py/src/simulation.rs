@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use handeye::{
     Intrinsics, TargetModel,
-    simulate::{Cell, CellNoise, DepthSensor, Optics},
+    simulate::{ArmErrors, Cell, CellNoise, DepthSensor, Optics},
 };
 use handeye_io::simulated::{self, ScanFormat, Writing};
 use pyo3::prelude::*;
@@ -20,7 +20,7 @@ const FOCAL: f64 = 0.9375;
 
 /// Writes a dataset and its truth; names of the files.
 #[pyfunction]
-#[pyo3(signature = (out, setup_name, *, seed=1, captures=15, width=1920, height=1200, target_json=None, images=true, scans=false, exact=false, force=false))]
+#[pyo3(signature = (out, setup_name, *, seed=1, captures=15, width=1920, height=1200, target_json=None, images=true, scans=false, arm=false, exact=false, force=false))]
 #[allow(clippy::too_many_arguments, reason = "each is one of Python's keywords")]
 pub fn simulate(
     py: Python<'_>,
@@ -33,6 +33,7 @@ pub fn simulate(
     target_json: Option<&str>,
     images: bool,
     scans: bool,
+    arm: bool,
     exact: bool,
     force: bool,
 ) -> PyResult<Vec<String>> {
@@ -49,6 +50,7 @@ pub fn simulate(
     let usual = Cell::new(setup(setup_name)?, seed);
     let cell = Cell { target, intrinsics: camera(width, height), captures, ..usual };
     let cell = with_noise(cell, exact, scans);
+    let cell = if arm { with_arm(cell, exact) } else { cell };
     if let Some(foreign) = simulated::foreign(&out).filter(|_| !force) {
         return Err(errors::input(format!(
             "{}: was not written by `simulate`, or was edited since: name another folder, or say force=True",
@@ -83,6 +85,12 @@ fn with_noise(cell: Cell, exact: bool, scans: bool) -> Cell {
         depth: scans.then_some(DepthSensor { sigma_at_1m: 0.0, ..sensor }),
         ..cell
     }
+}
+
+/// With an arm that gives joint values; its errors take the place of those of a robot that only gives poses.
+fn with_arm(cell: Cell, exact: bool) -> Cell {
+    let noise = CellNoise { robot_absolute_m: 0.0, robot_absolute_rad: 0.0, ..cell.noise };
+    Cell { arm: Some(if exact { ArmErrors::NONE } else { ArmErrors::default() }), noise, ..cell }
 }
 
 /// Where it went wrong.

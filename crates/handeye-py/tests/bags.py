@@ -54,7 +54,7 @@ def quaternion(m):
 class Bag:
     """One writer for both generations of ROS."""
 
-    def __init__(self, path, kind):
+    def __init__(self, path, kind, packing=None):
         self.ros1 = kind == "ros1"
         self.types = get_typestore(Stores.ROS1_NOETIC if self.ros1 else Stores.ROS2_JAZZY)
         if self.ros1:
@@ -64,6 +64,8 @@ class Bag:
         else:
             plugin = StoragePlugin.MCAP if kind == "mcap" else StoragePlugin.SQLITE3
             self.writer = Ros2Writer(path, version=9, storage_plugin=plugin)
+            if packing:
+                self.writer.set_compression(CompressionMode[packing.upper()], CompressionFormat.ZSTD)
         self.connections = {}
         self.count = 0
         self.messages = []
@@ -109,9 +111,9 @@ class Bag:
     def transforms(self, topic, recorded, all_of_them):
         self.add(topic, "tf2_msgs/msg/TFMessage", recorded, transforms=all_of_them)
 
-    def picture(self, topic, stamp, frame, image, late=0, jpeg=False):
+    def picture(self, topic, stamp, frame, image, late=0, packed=False):
         header = self.header(stamp, frame)
-        if jpeg:
+        if packed:
             data = cv2.imencode(".png", image)[1].ravel()
             kind = "sensor_msgs/msg/CompressedImage"
             self.add(topic, kind, stamp + late, header=header, format="png", data=data)
@@ -182,6 +184,13 @@ def read_cell(folder):
     truth = json.loads((folder / "truth.json").read_text())
     images = [cv2.imread(str(p), cv2.IMREAD_GRAYSCALE) for p in sorted(folder.glob("images/*.png"))]
     return rows, truth, images
+
+
+def organised(path, size):
+    """The points of a cloud (PLY), H x W x 3."""
+    head, body = path.read_bytes().split(b"end_header\n", 1)
+    columns = sum(line.startswith(b"property float") for line in head.splitlines())
+    return np.frombuffer(body, "<f4").reshape(size[1], size[0], columns)[..., :3]
 
 
 def between(a, b, part):
@@ -269,9 +278,7 @@ class Cell:
         height, width = self.images[0].shape
         self.size = (width, height)
         self.k = [[float(k), 0, (width - 1) / 2], [0, float(k), (height - 1) / 2], [0, 0, 1]]
-        self.depths = [
-            cv2.imread(str(p), cv2.IMREAD_UNCHANGED) for p in sorted(folder.glob("scans/*.png"))
-        ]
+        self.clouds = [organised(p, self.size) for p in sorted(folder.glob("scans/*.ply"))]
 
     def step(self, k, part):
         """The flange, and the joints, on the way from capture k to the next."""
@@ -301,10 +308,10 @@ def record_robot(bag, stamp, pose, q):
         )
 
 
-def record_still(cell, path, kind, rest_s=1.5, move_s=1.0, rate=50, depth=None, jpeg=False, gap=None):
+def record_still(cell, path, kind, rest_s=1.5, move_s=1.0, rate=50, depth=None, packed=False, gap=None, packing=None):
     """A robot that stops at every capture. While it moves, the camera shows the last picture, which is wrong there."""
-    bag = Bag(path, kind)
-    topic = "/camera/color/image_raw" + ("/compressed" if jpeg else "")
+    bag = Bag(path, kind, packing)
+    topic = "/camera/color/image_raw" + ("/compressed" if packed else "")
     static = [("world", "base_link", WORLD_FROM_BASE), ("wrist", "tool0", WRIST_FROM_TOOL0)]
     static.append(("wrist", CAMERA, matrix([0.3, 0, 0], [0, 0, 0, 1])))  # where somebody thinks it is
     bag.transforms("/tf_static", START, [bag.transform(START, p, c, m) for p, c, m in static])
@@ -323,22 +330,14 @@ def record_still(cell, path, kind, rest_s=1.5, move_s=1.0, rate=50, depth=None, 
             if gap is None or k not in gap:
                 record_robot(bag, now, pose, q)
             if tick % (rate // 5) == 3:
-                bag.picture(topic, now + 1_234_567, CAMERA, cell.images[k], 30_000_000, jpeg)
+                bag.picture(topic, now + 1_234_567, CAMERA, cell.images[k], 30_000_000, packed)
                 if depth == "depth":
-                    image = np.round(cell.depths[k] / 10.0).astype(np.uint16)
+                    image = np.round(1e3 * np.nan_to_num(cell.clouds[k][..., 2])).astype(np.uint16)
                     bag.picture("/camera/aligned_depth/image_raw", now + 2_000_000, CAMERA, image)
                 elif depth == "cloud":
-                    bag.cloud("/camera/points", now + 2_000_000, CAMERA, cloud_of(cell, k))
+                    bag.cloud("/camera/points", now + 2_000_000, CAMERA, cell.clouds[k])
             now += 10**9 // rate
     bag.close()
-
-
-def cloud_of(cell, k):
-    z = cell.depths[k] * 1e-4
-    z[z == 0] = np.nan
-    v, u = np.indices(z.shape)
-    f, cx, cy = cell.k[0][0], cell.k[0][2], cell.k[1][2]
-    return np.stack([(u - cx) / f * z, (v - cy) / f * z, z], axis=-1)
 
 
 def order_of_least_way(poses):

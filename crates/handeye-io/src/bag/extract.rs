@@ -6,6 +6,7 @@ use std::{
 };
 
 use handeye::Setup;
+use serde::Serialize;
 
 use super::{
     moments::{self, Moment},
@@ -17,7 +18,6 @@ use super::{
 use crate::{
     Targets,
     error::{Error, unusable},
-    files, read_targets,
     robot::Urdf,
 };
 
@@ -38,8 +38,8 @@ pub enum Motion {
 pub struct BagOptions {
     /// Who carries the camera.
     pub setup: Option<Setup>,
-    /// A file with the `[target]` that the camera sees.
-    pub target: Option<PathBuf>,
+    /// What the camera sees.
+    pub target: Option<Targets>,
     /// The topic of the pictures; may be left out where there is one only.
     pub image: Option<String>,
     /// The topic of depth images or clouds, likewise.
@@ -59,7 +59,7 @@ pub struct BagOptions {
 }
 
 /// What became of a bag.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Extracted {
     /// How many captures there are.
     pub captures: usize,
@@ -108,8 +108,6 @@ pub(super) struct Plan<'a> {
     pub(super) bag: &'a Path,
     pub(super) survey: &'a Survey,
     pub(super) options: &'a BagOptions,
-    /// What the camera sees, and the text that describes it.
-    pub(super) target: Option<(Targets, String)>,
     pub(super) chosen: Chosen,
     pub(super) robot: Robot,
     pub(super) moving: bool,
@@ -132,7 +130,6 @@ impl<'a> Plan<'a> {
             scan: options.depth.as_deref(),
             camera: options.camera.as_deref(),
         };
-        let target = options.target.as_deref().map(target).transpose()?;
         let mut chosen = topics::choose(survey, &asked, bag)?;
         let urdf = urdf(survey, bag, options)?;
         let robot = Robot::of(survey, &options.robot, urdf, bag)?;
@@ -142,17 +139,8 @@ impl<'a> Plan<'a> {
         for topic in &survey.unstamped {
             notes.push(format!("{topic} has messages without a time; that of recording is taken"));
         }
-        let mut plan = Plan {
-            bag,
-            survey,
-            options,
-            target,
-            chosen,
-            robot,
-            moving: false,
-            captures: vec![],
-            notes,
-        };
+        let mut plan =
+            Plan { bag, survey, options, chosen, robot, moving: false, captures: vec![], notes };
         plan.take_moments()?;
         plan.take_scans()?;
         Ok(plan)
@@ -255,10 +243,6 @@ impl<'a> Plan<'a> {
         }
         Ok(())
     }
-}
-
-fn target(path: &Path) -> Result<(Targets, String), Error> {
-    Ok((read_targets(path)?, files::text(path)?))
 }
 
 /// The model of the arm: the user's, or the one that the bag itself holds.

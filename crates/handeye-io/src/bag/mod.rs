@@ -16,8 +16,10 @@ mod wire;
 mod writing;
 
 use std::{
-    io::Read,
+    fs::File,
+    io::{BufWriter, Read, Write},
     path::{Path, PathBuf},
+    sync::atomic::{AtomicUsize, Ordering},
 };
 
 use crate::{
@@ -54,11 +56,13 @@ const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
 /// The ends of the names of bags.
 const ENDINGS: [&str; 3] = ["bag", "mcap", "db3"];
+/// What follows them where the recorder packed whole files.
+const PACKED: &str = "zstd";
 
 /// Whether it is a bag, or a folder of one that was split.
 pub fn is_bag(path: &Path) -> bool {
     if path.is_file() {
-        return ENDINGS.contains(&files::extension(path).as_str());
+        return has_ending(path);
     }
     !parts(path).is_empty()
 }
@@ -93,8 +97,13 @@ fn read_file(file: &Path, take: &mut Take) -> Result<Cut, Error> {
         "mcap" => mcap::read(file, take),
         "db3" => sqlite::read(file, take),
         "bag" => ros1::read(file, take),
-        "zstd" | "zst" => {
-            Err(unusable(file, "is packed as a whole: unpack it first, with zstd -d"))
+        PACKED => {
+            let (unpacked, cut) = Unpacked::new(file)?;
+            let found = read_file(&unpacked.file, take);
+            found.map(|more| cut.or(more)).map_err(|error| match error {
+                Error::Unusable { what, .. } => unusable(file, what),
+                other => other,
+            })
         }
         _ => Err(unusable(file, "is no bag: its name ends in neither .mcap nor .db3 nor .bag")),
     }
@@ -104,9 +113,57 @@ fn read_file(file: &Path, take: &mut Take) -> Result<Cut, Error> {
 fn parts(folder: &Path) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return vec![] };
     let mut all: Vec<PathBuf> = entries.flatten().map(|e| e.path()).collect();
-    all.retain(|p| p.is_file() && ENDINGS.contains(&files::extension(p).as_str()));
+    all.retain(|p| p.is_file() && has_ending(p));
     all.sort_by(|a, b| files::natural(&a.to_string_lossy(), &b.to_string_lossy()));
     all
+}
+
+fn has_ending(path: &Path) -> bool {
+    let ending = match files::extension(path).as_str() {
+        PACKED => files::extension(&path.with_extension("")),
+        other => other.to_owned(),
+    };
+    ENDINGS.contains(&ending.as_str())
+}
+
+/// A file that was packed as a whole, unpacked among the temporary ones.
+struct Unpacked {
+    file: PathBuf,
+}
+
+impl Unpacked {
+    /// As far as it can be unpacked, and why no farther.
+    fn new(packed: &Path) -> Result<(Self, Cut), Error> {
+        let source = |source| Error::Read { path: packed.into(), source };
+        let name = packed.file_stem().unwrap_or_default().to_string_lossy();
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let file = std::env::temp_dir().join(format!("handeye-{process}-{count}-{name}"));
+        let this = Self { file };
+        let target = |source| Error::Write { path: this.file.clone(), source };
+        let mut into = BufWriter::new(File::create(&this.file).map_err(target)?);
+        let mut from = zstd::Decoder::new(File::open(packed).map_err(source)?).map_err(source)?;
+        let (mut piece, mut unpacked) = (vec![0; 1 << 20], 0);
+        let cut = loop {
+            match from.read(&mut piece) {
+                Ok(0) => break None,
+                Ok(count) => {
+                    into.write_all(&piece[..count]).map_err(target)?;
+                    unpacked += count as u64;
+                    bounded(unpacked, packed)?;
+                }
+                Err(error) => break Some(format!("cannot be unpacked to its end: {error}")),
+            }
+        };
+        into.flush().map_err(target)?;
+        Ok((this, cut))
+    }
+}
+
+impl Drop for Unpacked {
+    fn drop(&mut self) {
+        std::fs::remove_file(&self.file).ok();
+    }
 }
 
 /// A type's name without what ROS 2 puts in its middle.

@@ -20,6 +20,9 @@ const CONNECTION: u8 = 7;
 /// Topic and type by the number of the connection.
 type Connections = BTreeMap<u32, (String, String)>;
 
+/// What was read, what is wrong with the bytes, or why none could be read.
+type Found<T> = std::io::Result<Result<T, String>>;
+
 /// One record: what its header says, and its data.
 struct Record {
     fields: BTreeMap<String, Vec<u8>>,
@@ -74,7 +77,7 @@ fn fill(from: &mut impl Read, into: &mut [u8]) -> std::io::Result<usize> {
 }
 
 /// The next record; `None` at the end, and what is wrong where it is none.
-fn record(from: &mut impl Read) -> std::io::Result<Result<Option<Record>, String>> {
+fn record(from: &mut impl Read) -> Found<Option<Record>> {
     let (header, cut) = match block(from)? {
         Ok(Some(block)) => block,
         Ok(None) => return Ok(Ok(None)),
@@ -95,7 +98,7 @@ fn record(from: &mut impl Read) -> std::io::Result<Result<Option<Record>, String
 }
 
 /// Bytes with their number before them, and whether they end too early.
-fn block(from: &mut impl Read) -> std::io::Result<Result<Option<(Vec<u8>, bool)>, String>> {
+fn block(from: &mut impl Read) -> Found<Option<(Vec<u8>, bool)>> {
     let mut length = [0; 4];
     match fill(from, &mut length)? {
         0 => return Ok(Ok(None)),

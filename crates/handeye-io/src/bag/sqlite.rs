@@ -18,6 +18,8 @@ pub(super) fn read(path: &Path, take: &mut Take) -> Result<Cut, Error> {
     let wrong = |error: rusqlite::Error| unusable(path, format!("is no bag in SQLite: {error}"));
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let database = Connection::open_with_flags(path, flags).map_err(wrong)?;
+    // SQLite refuses a file that is shorter than its header says, but where its schema could be repaired
+    database.pragma_update(None, "writable_schema", true).map_err(wrong)?;
     let tables: i64 = database.query_row(TABLES, [], |row| row.get(0)).map_err(wrong)?;
     if tables != 2 {
         return Err(unusable(path, "is no bag: it has no tables `topics` and `messages`"));
@@ -32,7 +34,10 @@ pub(super) fn read(path: &Path, take: &mut Take) -> Result<Cut, Error> {
                 }
             }
             Ok(None) => return Ok(None),
-            Err(error) => return Ok(Some(format!("is broken: {error}"))),
+            Err(error) => {
+                let what = "is broken, or was not copied whole";
+                return Ok(Some(format!("{what}: messages are read as far as it goes ({error})")));
+            }
         }
     }
 }

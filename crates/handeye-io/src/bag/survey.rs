@@ -6,6 +6,7 @@ use std::{
 };
 
 use nalgebra::Isometry3;
+use serde::Serialize;
 
 use super::{
     Message,
@@ -26,9 +27,10 @@ pub enum Stamps {
 }
 
 /// A topic of a bag.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Topic {
     /// Its type, as `sensor_msgs/Image`.
+    #[serde(rename = "type")]
     pub kind: String,
     /// How many messages it has.
     pub messages: usize,
@@ -74,7 +76,7 @@ pub(crate) struct Survey {
 }
 
 /// What a bag holds, for people.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BagContents {
     /// By name.
     pub topics: BTreeMap<String, Topic>,

@@ -51,7 +51,7 @@ pub(super) fn choose(survey: &Survey, asked: &Asked, bag: &Path) -> Result<Chose
         let known = listed(survey, |t| t.kind == "sensor_msgs/CameraInfo");
         return Err(unusable(bag, format!("has no sensor_msgs/CameraInfo on {name}: {known}")));
     }
-    let camera = |topic: &String| camera_beside(survey, topic);
+    let camera = |topic: &String| camera_beside(survey, topic.as_str());
     chosen.image_camera =
         asked.camera.map(String::from).or_else(|| chosen.image.as_ref().and_then(camera));
     chosen.scan_camera = chosen.scan.as_ref().and_then(camera);
@@ -145,8 +145,8 @@ fn scan_beside(survey: &Survey, chosen: &mut Chosen) -> Option<String> {
 }
 
 /// The camera's topic beside one of its pictures: the nearest `camera_info` upwards.
-fn camera_beside(survey: &Survey, topic: &String) -> Option<String> {
-    let mut above = topic.as_str();
+fn camera_beside(survey: &Survey, topic: &str) -> Option<String> {
+    let mut above = topic;
     while let Some(end) = above.rfind('/') {
         above = &above[..end];
         let name = format!("{above}/camera_info");

@@ -16,7 +16,7 @@ use crate::{
     MANIFEST, Targets,
     dataset::TIMES,
     error::{Error, unusable},
-    target_toml, write_atomically,
+    write_atomically,
 };
 
 const CAMERA: &str = "camera.yaml";
@@ -294,11 +294,12 @@ fn manifest(plan: &Plan, cameras: &Cameras, written: &Written) -> (String, Vec<S
 }
 
 fn target(plan: &Plan, questions: &mut Vec<String>) -> String {
-    match &plan.target {
-        Some((Targets::One(model), _)) => format!("\n{}", target_toml(model)),
-        Some((Targets::Several(_), text)) => {
-            questions.push("which of the targets is it? ([captures] target = \"NAME\")".into());
-            format!("\n{}\n", text.trim())
+    match &plan.options.target {
+        Some(targets) => {
+            if matches!(targets, Targets::Several(_)) {
+                questions.push("which of the targets is it? ([captures] target = \"NAME\")".into());
+            }
+            format!("\n{}", targets.toml())
         }
         None => {
             let question = "which board does the camera see? ([target] kind = ...)";

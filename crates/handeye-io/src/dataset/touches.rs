@@ -31,7 +31,7 @@ pub(super) struct TouchContext<'a> {
 
 enum Position {
     Tip(LengthUnit),
-    Flange(Reading, Point<Flange>),
+    Flange(Box<Reading>, Point<Flange>),
 }
 
 pub(super) fn read(spec: &TouchesSpec, context: &TouchContext) -> Result<Vec<Touch>, Error> {
@@ -89,7 +89,8 @@ fn position(spec: &TouchesSpec, context: &TouchContext) -> Result<Position, Erro
         ..table
     };
     let [x, y, z] = tip.in_flange_mm.map(|t| t / 1000.0);
-    Ok(Position::Flange(Reading::of(&table, at, source, context.root)?, Point::new(x, y, z)))
+    let reading = Box::new(Reading::of(&table, at, source, context.root)?);
+    Ok(Position::Flange(reading, Point::new(x, y, z)))
 }
 
 /// A touch of the manifest as if it were a record of a file.

@@ -96,7 +96,8 @@ impl Chunk {
         let read = match self.codec {
             0 => packed.take(limit).read_to_end(&mut page),
             2 => GzDecoder::new(packed).take(limit).read_to_end(&mut page),
-            6 => zstd::Decoder::new(packed).and_then(|stream| stream.take(limit).read_to_end(&mut page)),
+            6 => zstd::Decoder::new(packed)
+                .and_then(|stream| stream.take(limit).read_to_end(&mut page)),
             1 if snap::raw::decompress_len(packed).is_ok_and(|found| found == size) => {
                 page = snap::raw::Decoder::new()
                     .decompress_vec(packed)
@@ -105,7 +106,9 @@ impl Chunk {
             }
             1 => return Err("has a page that cannot be unpacked".into()),
             other => {
-                return Err(format!("is packed by codec {other}; write it with zstd, snappy or gzip"));
+                return Err(format!(
+                    "is packed by codec {other}; write it with zstd, snappy or gzip"
+                ));
             }
         };
         match read {

@@ -18,9 +18,11 @@ __all__ = [
     "NotDetermined",
     "Rejected",
     "__version__",
+    "bag_contents",
     "calibrate",
     "closed_form",
     "detect",
+    "extract_bag",
     "hand_eye",
     "register",
     "robot_world_hand_eye",
@@ -57,6 +59,26 @@ class Calibrated:
     def write(self, out: _Path, title: str) -> Path: ...
     def export(self, format: str, child: str) -> Tuple[str, bytes]: ...
 
+def bag_contents(bag: _Path) -> str: ...
+def extract_bag(
+    bag: _Path,
+    out: _Path,
+    *,
+    base: Optional[str] = None,
+    flange: Optional[str] = None,
+    pose: Optional[str] = None,
+    joints: Union[bool, str, None] = None,
+    urdf: Optional[_Path] = None,
+    setup_name: Optional[str] = None,
+    target_json: Optional[str] = None,
+    target_file: Optional[_Path] = None,
+    image: Optional[str] = None,
+    depth: Optional[str] = None,
+    camera_info: Optional[str] = None,
+    motion: str = "auto",
+    most: int = 150,
+    stamps: str = "header",
+) -> str: ...
 def calibrate(
     dataset: _Path,
     *,
@@ -112,6 +134,7 @@ def simulate(
     target_json: Optional[str] = None,
     images: bool = True,
     scans: bool = False,
+    arm: bool = False,
     exact: bool = False,
     force: bool = False,
 ) -> list[str]: ...

@@ -27,6 +27,11 @@ pub struct ArmErrors {
     pub bending_rad: f64,
 }
 
+impl ArmErrors {
+    /// An arm as its model says.
+    pub const NONE: Self = Self { length_m: 0.0, angle_rad: 0.0, gear_rad: 0.0, bending_rad: 0.0 };
+}
+
 impl Default for ArmErrors {
     /// Half a millimetre at the flange, once base and flange are fitted.
     fn default() -> Self {

@@ -1,0 +1,203 @@
+"""ROS bags that another writer wrote: whole, cut, without an index, with noise in them."""
+
+import json
+import struct
+
+import numpy as np
+import pytest
+from bags import Cell, off, record_moving, record_still
+
+import handeye
+
+FRAMES = {"base": "base_link", "flange": "tool0"}
+BOARD = {"kind": "checkerboard", "columns": 9, "rows": 6, "square_mm": 30.0}
+KINDS = ["mcap", "sqlite", "ros1"]
+COUNT = 9
+SMALL = {"width": 480, "height": 300}
+
+
+@pytest.fixture(scope="module")
+def cell(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("still") / "cell"
+    handeye.simulate(folder, captures=COUNT, scans=True, **SMALL)
+    return Cell(folder)
+
+
+@pytest.fixture(scope="module")
+def bags(cell, tmp_path_factory):
+    """One bag of each kind: pictures packed or not, depth images or clouds beside them or none."""
+    folder = tmp_path_factory.mktemp("bags")
+    paths = {kind: folder / (f"{kind}.bag" if kind == "ros1" else kind) for kind in KINDS}
+    record_still(cell, paths["mcap"], "mcap", depth="depth")
+    record_still(cell, paths["sqlite"], "sqlite", depth="cloud")
+    record_still(cell, paths["ros1"], "ros1", packed=True)
+    return paths
+
+
+def file_of(bag):
+    return bag if bag.is_file() else next(p for p in bag.iterdir() if p.suffix in (".mcap", ".db3"))
+
+
+def extract(bag, out, **options):
+    return handeye.extract_bag(bag, out, setup="eye-in-hand", target=BOARD, **{**FRAMES, **options})
+
+
+def error_of(calibration, cell):
+    assert calibration.accepted, calibration.reasons
+    return off(json.loads(calibration.to_json()), cell.truth)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_robot_that_stops_for_its_pictures(kind, bags, cell, tmp_path):
+    contents = handeye.bag_contents(bags[kind])
+    assert contents.broken == []
+    pictures = [t for t in contents.topics.values() if t.type.endswith("Image") and t.frame]
+    assert pictures and all(p.messages > COUNT for p in pictures)
+    assert [line.strip() for line in contents.frames][:1] == ["world"]
+    done = extract(bags[kind], tmp_path / "out")
+    assert (done.captures, done.moving, done.questions) == (COUNT, False, [])
+    mm, degrees = error_of(handeye.calibrate(tmp_path / "out"), cell)
+    assert mm < 1.0 and degrees < 0.1
+    has_scans = kind != "ros1"
+    assert (tmp_path / "out" / "scans").is_dir() == has_scans
+
+
+def test_poses_are_interpolated_to_the_time_of_the_picture(bags, cell, tmp_path):
+    """Where the robot stands still, its pose is that of the cell."""
+    extract(bags["mcap"], tmp_path / "out")
+    rows = np.genfromtxt(tmp_path / "out" / "robot.csv", delimiter=",", skip_header=1)[:, 1:]
+    for row, pose in zip(rows, cell.poses):
+        found = handeye.Pose("base", "flange", rotation=row[3:], translation=row[:3]).matrix
+        assert np.abs(found - pose).max() < 1e-6
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_bag_that_ends_too_early_is_read_as_far_as_it_goes(kind, bags, cell, tmp_path):
+    whole = file_of(bags[kind])
+    cut = tmp_path / f"cut{whole.suffix}"
+    cut.write_bytes(whole.read_bytes()[: int(0.7 * whole.stat().st_size)])
+    assert len(handeye.bag_contents(cut).broken) == 1
+    done = extract(cut, tmp_path / "out", motion="still")
+    assert COUNT // 2 <= done.captures < COUNT
+    assert any("cut" in note for note in done.notes), done.notes
+    rows = np.genfromtxt(tmp_path / "out" / "robot.csv", delimiter=",", skip_header=1)[:, 1:]
+    assert np.abs(rows[:, :3] - [p[:3, 3] for p in cell.poses[: len(rows)]]).max() < 1e-6
+
+
+def test_an_index_is_not_needed(bags, tmp_path):
+    """As `rosbag record` leaves a bag that it could not close: no index, and its place is 0."""
+    data = bytearray(bags["ros1"].read_bytes())
+    place = data.index(b"index_pos=") + 10
+    (end,) = struct.unpack("<Q", data[place : place + 8])
+    data[place : place + 8] = bytes(8)
+    (tmp_path / "unindexed.bag").write_bytes(data[:end])
+    assert extract(tmp_path / "unindexed.bag", tmp_path / "a").captures == COUNT
+    extract(bags["ros1"], tmp_path / "b")
+    same = [(tmp_path / f / "robot.csv").read_text() for f in "ab"]
+    assert same[0] == same[1]
+    # MCAP: the summary behind the data is where its index is
+    whole = file_of(bags["mcap"]).read_bytes()
+    (summary,) = struct.unpack("<Q", whole[-28:-20])
+    (tmp_path / "unindexed.mcap").write_bytes(whole[:summary])
+    assert extract(tmp_path / "unindexed.mcap", tmp_path / "c").captures == COUNT
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_noise_in_a_bag_is_an_error_or_a_note(kind, bags, tmp_path):
+    whole = file_of(bags[kind])
+    random = np.random.default_rng(1)
+    for k in range(6):
+        data = bytearray(whole.read_bytes())
+        at = int(random.integers(100, len(data) - 4000))
+        data[at : at + 4000] = random.bytes(4000)
+        noisy = tmp_path / f"noisy{k}{whole.suffix}"
+        noisy.write_bytes(data)
+        try:
+            done = extract(noisy, tmp_path / f"out{k}", motion="still")
+        except handeye.InputError as error:
+            assert "noisy" in str(error)
+            continue
+        assert done.captures <= COUNT
+        noisy.unlink()
+
+
+@pytest.mark.parametrize("mode", ["message", "file"])
+def test_what_the_recorder_packed(mode, cell, tmp_path):
+    record_still(cell, tmp_path / "bag", "sqlite", packing=mode)
+    assert extract(tmp_path / "bag", tmp_path / "out").captures == COUNT
+
+
+def test_nothing_is_interpolated_over_a_gap(cell, tmp_path):
+    record_still(cell, tmp_path / "bag", "mcap", gap=(3, 4))
+    done = extract(tmp_path / "bag", tmp_path / "out")
+    assert done.captures == COUNT - 2
+    assert any("gap" in note or "pause" in note for note in done.notes), done.notes
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("arm") / "cell"
+    handeye.simulate(folder, captures=14, arm=True, **SMALL)
+    return folder
+
+
+def test_joint_values_and_a_model_are_as_good_as_the_arm_of_the_manifest(arm, tmp_path):
+    record_still(Cell(arm), tmp_path / "bag", "mcap")
+    done = extract(tmp_path / "bag", tmp_path / "out", joints=True)
+    assert done.captures == 14
+    manifest = (arm / "handeye.toml").read_text().split("[touches]")[0]
+    (arm / "untouched.toml").write_text(manifest)
+    found, direct = (handeye.calibrate(p) for p in (tmp_path / "out", arm / "untouched.toml"))
+    apart = found.pose.inverse() @ direct.pose
+    assert np.abs(apart.matrix - np.eye(4)).max() < 1e-6
+    with pytest.raises(handeye.InputError, match="link_9"):
+        extract(tmp_path / "bag", tmp_path / "wrong", joints=True, flange="link_9")
+
+
+@pytest.fixture(scope="module")
+def many(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("many") / "cell"
+    handeye.simulate(folder, captures=60, **SMALL)
+    return Cell(folder)
+
+
+@pytest.mark.parametrize("offset_s", [0.0, 0.08])
+def test_a_robot_that_never_stops(offset_s, many, tmp_path):
+    record_moving(many, tmp_path / "bag", "mcap", offset_s=offset_s)
+    done = extract(tmp_path / "bag", tmp_path / "out")
+    assert done.moving and done.captures > 50
+    calibration = handeye.calibrate(tmp_path / "out")
+    mm, degrees = error_of(calibration, many)
+    assert mm < 1.5 and degrees < 0.15
+    assert abs(calibration.to_dict()["time_offset_s"] - offset_s) < 1e-3
+
+
+def test_pictures_in_a_gap_of_the_motion_are_left_out(many, tmp_path):
+    record_moving(many, tmp_path / "bag", "sqlite", gap=(10, 14))
+    done = extract(tmp_path / "bag", tmp_path / "out")
+    assert done.moving and 45 < done.captures < 55
+    assert any("gap" in note for note in done.notes), done.notes
+
+
+def test_what_a_bag_lacks_is_named(bags, tmp_path):
+    bag, out = bags["mcap"], tmp_path / "out"
+    for options, match in [
+        ({"flange": "tool1"}, "tool0"),
+        ({"base": None, "flange": None}, "bag_contents"),
+        ({"image": "/foo"}, "/camera/color/image_raw"),
+        ({"joints": True}, "--urdf FILE"),
+        ({"motion": "slow"}, "moving"),
+        ({"pose": "/pose", "base": None, "flange": None}, "no poses on /pose"),
+    ]:
+        with pytest.raises(handeye.InputError, match=match):
+            extract(bag, out, **options)
+    assert not out.exists() and not list(tmp_path.iterdir())
+    extract(bag, out)
+    with pytest.raises(handeye.InputError, match="is there already"):
+        extract(bag, out)
+    for name in ["x.mcap", "x.db3", "x.bag", "x.txt"]:
+        (tmp_path / name).write_bytes(b"hello")
+        with pytest.raises(handeye.InputError, match=name):
+            handeye.bag_contents(tmp_path / name)
+    with pytest.raises(handeye.InputError, match="nothing.bag"):
+        handeye.bag_contents(tmp_path / "nothing.bag")
