@@ -23,7 +23,7 @@ trap 'rm -rf "$HANDEYE_FUZZ_FOLDER"' EXIT
 # What is allocated and never touched is no resident memory, and found by this limit alone.
 ulimit -v 2097152 2>/dev/null || echo "memory that is not used is not limited here"
 
-for target in image scan camera poses touches manifest import detect lift; do
+for target in image scan camera poses touches manifest import bag detect lift; do
   mkdir -p "artifacts/$target"
   if ! "$built/$target" "corpus/$target" -artifact_prefix="artifacts/$target/" \
     -max_total_time="$seconds" -max_len=65536 -timeout=20 -rss_limit_mb=1536 \

@@ -56,6 +56,7 @@ pub use pairs_file::{MeasuredPoses, PosesFile, poses_from_json, read_poses};
 pub use problem::Problem;
 pub use registration::{RegistrationResult, Transform};
 pub use result_file::read_result;
+pub use robot::Urdf;
 pub use scan::{ScanOptions, read_scan, scan_size, scan_unit};
 pub use target_file::{NamedTarget, Targets, read_target, read_targets, target_toml};
 pub use touch_file::{TouchedPoint, read_touched_points};

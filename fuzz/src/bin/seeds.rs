@@ -32,6 +32,7 @@ fn main() {
     scans(target);
     texts();
     imports();
+    bags();
 }
 
 fn scene(target: &TargetModel) -> Scene {
@@ -230,4 +231,16 @@ fn put(target: &str, name: &str, bytes: &[u8]) {
     let folder = Path::new(CORPUS).join(target);
     fs::create_dir_all(&folder).expect("a folder can be made");
     fs::write(folder.join(name), bytes).expect("a file can be written");
+}
+
+/// Of six pictures and two places, as other programs write them.
+fn bags() {
+    for (k, bytes) in [
+        (0, &include_bytes!("../../bags/small.mcap")[..]),
+        (1, include_bytes!("../../bags/small.db3")),
+        (2, include_bytes!("../../bags/small.bag")),
+        (3, include_bytes!("../../bags/small.urdf")),
+    ] {
+        put("bag", &format!("kind{k}"), &[&[k][..], bytes].concat());
+    }
 }

@@ -129,6 +129,13 @@ pub fn check(
         let advice = "take some captures of a board, or of an object of known shape";
         return Err(malformed(Place::file(manifest), what, advice));
     }
+    if dataset.motion.is_some() {
+        let what = "the robot moved while these captures were taken, and only poses in which it stood \
+                    still tell mistakes apart";
+        let advice =
+            "take some captures of a robot that stands still; `handeye calibrate` judges these";
+        return Err(malformed(Place::file(manifest), what, advice));
+    }
     let measured = measure::measure(&dataset, progress)?;
     let session = measured.session;
     let robot = rereadings(manifest, root, &dataset)?;
