@@ -7,6 +7,7 @@ mod mcap;
 mod messages;
 mod moments;
 mod pictures;
+mod pieces;
 mod robot;
 mod ros1;
 mod sqlite;

@@ -171,10 +171,9 @@ impl Robot {
     pub(super) fn gaps(&self) -> Vec<String> {
         let said = |name: &str, stream: &Stream| {
             (stream.gaps() > 0).then(|| {
+                let (count, limit) = (stream.gaps(), stream.limit());
                 format!(
-                    "{name} has {} gaps longer than {:.3} s; no pose is made up within",
-                    stream.gaps(),
-                    stream.limit()
+                    "{name} has {count} gaps, pauses longer than {limit:.3} s or jumps; no pose is made up within"
                 )
             })
         };
@@ -190,7 +189,7 @@ impl Robot {
             Robot::Joints { values: JointStream { times, limit, .. }, .. } => {
                 let gaps = times.windows(2).filter(|w| w[1] - w[0] > *limit).count();
                 let what = format!(
-                    "joint values have {gaps} gaps longer than {limit:.3} s; none are made up within"
+                    "joint values have {gaps} gaps, pauses longer than {limit:.3} s; none are made up within"
                 );
                 (gaps > 0).then_some(what).into_iter().collect()
             }

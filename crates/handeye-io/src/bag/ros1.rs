@@ -8,7 +8,10 @@ use std::{
     path::Path,
 };
 
-use super::{Cut, Encoding, LARGEST, Message, Take, bounded};
+use super::{
+    Cut, Encoding, LARGEST, Message, Take, bounded,
+    pieces::{early, fill, unpacked, up_to},
+};
 use crate::error::{Error, unusable};
 
 const MAGIC: &[u8; 13] = b"#ROSBAG V2.0\n";
@@ -42,7 +45,7 @@ pub(super) fn read(path: &Path, take: &mut Take) -> Result<Cut, Error> {
     if &magic != MAGIC {
         return Err(unusable(path, "is no bag of ROS 1"));
     }
-    let (mut connections, mut unpacked) = (Connections::new(), 0);
+    let (mut connections, mut bytes_unpacked) = (Connections::new(), 0);
     loop {
         let record = match record(&mut file).map_err(failed)? {
             Ok(Some(record)) => record,
@@ -50,7 +53,7 @@ pub(super) fn read(path: &Path, take: &mut Take) -> Result<Cut, Error> {
             Err(what) => return Ok(Some(what)),
         };
         let what = match record.op() {
-            Some(CHUNK) => chunk(&record, &mut connections, &mut unpacked, path, take)?,
+            Some(CHUNK) => chunk(&record, &mut connections, &mut bytes_unpacked, path, take)?,
             _ if record.cut => None,
             _ => one(&record, &mut connections, take)?,
         };
@@ -58,22 +61,6 @@ pub(super) fn read(path: &Path, take: &mut Take) -> Result<Cut, Error> {
             return Ok(Some(what.unwrap_or_else(early)));
         }
     }
-}
-
-fn early() -> String {
-    "ends too early: the recording was not closed, or not copied whole".into()
-}
-
-/// Reads as much as there is.
-fn fill(from: &mut impl Read, into: &mut [u8]) -> std::io::Result<usize> {
-    let mut found = 0;
-    while found < into.len() {
-        match from.read(&mut into[found..])? {
-            0 => break,
-            n => found += n,
-        }
-    }
-    Ok(found)
 }
 
 /// The next record; `None` at the end, and what is wrong where it is none.
@@ -109,10 +96,7 @@ fn block(from: &mut impl Read) -> Found<Option<(Vec<u8>, bool)>> {
     if length > LARGEST {
         return Ok(Err(format!("is broken: a record of {length} bytes")));
     }
-    let mut bytes = vec![];
-    from.take(length as u64).read_to_end(&mut bytes)?;
-    let cut = bytes.len() < length;
-    Ok(Ok(Some((bytes, cut))))
+    Ok(Ok(Some(up_to(from, length as u64)?)))
 }
 
 fn fields(mut header: &[u8]) -> Option<BTreeMap<String, Vec<u8>>> {
@@ -188,16 +172,18 @@ fn one(record: &Record, connections: &mut Connections, take: &mut Take) -> Resul
 fn chunk(
     chunk: &Record,
     connections: &mut Connections,
-    unpacked: &mut u64,
+    bytes_unpacked: &mut u64,
     path: &Path,
     take: &mut Take,
 ) -> Result<Cut, Error> {
-    let (bytes, mut cut) = match unpack(chunk) {
+    let compression = chunk.text("compression").unwrap_or_default();
+    let (bytes, what) = match unpacked(&compression, &chunk.data) {
         Ok(found) => found,
         Err(what) => return Ok(Some(what)),
     };
-    *unpacked += bytes.len() as u64;
-    bounded(*unpacked, path)?;
+    let mut cut = if chunk.cut { Some(early()) } else { what };
+    *bytes_unpacked += bytes.len() as u64;
+    bounded(*bytes_unpacked, path)?;
     let mut rest = bytes.as_slice();
     loop {
         match record(&mut rest) {
@@ -212,30 +198,4 @@ fn chunk(
             Err(source) => return Err(Error::Read { path: path.into(), source }),
         }
     }
-}
-
-/// A chunk's bytes, and what was wrong where they are not all of them.
-fn unpack(chunk: &Record) -> Result<(Vec<u8>, Cut), String> {
-    let mut bytes = vec![];
-    let compression = chunk.text("compression").unwrap_or_default();
-    let all = match compression.as_str() {
-        "none" => {
-            bytes.extend(&chunk.data);
-            Ok(bytes.len())
-        }
-        "bz2" => bzip2::read::BzDecoder::new(chunk.data.as_slice())
-            .take(LARGEST as u64)
-            .read_to_end(&mut bytes),
-        "lz4" => match lz4::Decoder::new(chunk.data.as_slice()) {
-            Ok(decoder) => decoder.take(LARGEST as u64).read_to_end(&mut bytes),
-            Err(error) => Err(error),
-        },
-        other => return Err(format!("has a chunk compressed by \"{other}\", which is not read")),
-    };
-    let cut = match all {
-        _ if chunk.cut => Some(early()),
-        Err(error) => Some(format!("is broken: a chunk cannot be unpacked ({error})")),
-        Ok(_) => None,
-    };
-    Ok((bytes, cut))
 }

@@ -57,7 +57,9 @@ impl<'a> Wire<'a> {
     }
 
     number!(u8, u8);
+    number!(u16, u16);
     number!(u32, u32);
+    number!(u64, u64);
     number!(i32, i32);
     number!(f64, f64);
 
@@ -77,6 +79,11 @@ impl<'a> Wire<'a> {
         let found = &self.bytes[self.at..end];
         self.at = end;
         Ok(found)
+    }
+
+    /// All that was not read.
+    pub(super) fn rest(&self) -> &'a [u8] {
+        &self.bytes[self.at..]
     }
 
     pub(super) fn text(&mut self) -> Result<String, Broken> {
