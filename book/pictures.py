@@ -16,6 +16,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import zlib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -113,11 +114,8 @@ def measure():
             24,
         ),
         "touches": series(
-            [0, 1, 2, 3, 4, 6, 9, 12, 24],
-            lambda k: many(15)
-            + ["--touches", k, "--setup", "eye-to-hand", "--placements", 1 if k < 3 else 3]
-            if k >= 3 or k == 0
-            else many(15) + ["--touches", k, "--setup", "eye-to-hand", "--placements", 1],
+            [0, 3, 4, 6, 9, 12, 24],
+            lambda k: many(15) + ["--touches", k, "--setup", "eye-to-hand", "--placements", 3],
             24,
         ),
         "pixel": series(
@@ -360,8 +358,8 @@ def setups():
         d.line(left, 330, left + 340, 330, PALE, 2)
     # the camera on the flange
     flange, _ = robot(d, 80, 330, [(72, 210), (165, 120), (235, 165)])
-    camera(d, 262, 182, 1.15)(128, 52)
-    d.line(*flange, 255, 172, INK, 4)
+    camera(d, 262, 182, 1.3)(128, 40)
+    d.line(*flange, 257, 170, INK, 4)
     board(d, 296, 314, 0.0, 7, 14)
     d.text(214, 148, "flange", 13, PALE)
     d.text(286, 176, "camera", 13, BLUE)
@@ -385,28 +383,28 @@ def setups():
 
 
 def loop():
-    d = Drawing(640, 236)
+    d = Drawing(760, 236)
     box = lambda x, y, t, c: (
         d.rectangle(x - 56, y - 20, 112, 40, "#ffffff", c, 2, 6),
         d.text(x, y + 5, t, 15, c, "middle", "bold"),
     )
     box(110, 190, "anchor", INK)
     box(110, 50, "mount", INK)
-    box(530, 50, "camera", BLUE)
-    box(530, 190, "target", INK)
+    box(650, 50, "camera", BLUE)
+    box(650, 190, "target", INK)
     d.line(110, 168, 110, 74, GREEN, 2.5, arrow=True)
     d.text(124, 118, "A = anchor_from_mount", 14, GREEN)
     d.text(124, 136, "robot, measured", 12, PALE)
-    d.line(168, 50, 470, 50, RED, 2.5, arrow=True)
-    d.text(320, 38, "X = mount_from_camera", 14, RED, "middle", "bold")
-    d.text(320, 68, "wanted, always the same", 12, PALE, "middle")
-    d.line(168, 190, 470, 190, AMBER, 2.5, arrow=True)
-    d.text(320, 178, "Y = anchor_from_target", 14, AMBER, "middle", "bold")
-    d.text(320, 208, "unknown, always the same", 12, PALE, "middle")
-    d.line(530, 168, 530, 74, GREEN, 2.5, arrow=True)
-    d.text(516, 118, "B = target_from_camera", 14, GREEN, "end")
-    d.text(516, 136, "picture, measured", 12, PALE, "end")
-    d.text(320, 128, "A X = Y B", 22, INK, "middle", "bold")
+    d.line(168, 50, 590, 50, RED, 2.5, arrow=True)
+    d.text(380, 38, "X = mount_from_camera", 14, RED, "middle", "bold")
+    d.text(380, 68, "wanted, always the same", 12, PALE, "middle")
+    d.line(168, 190, 590, 190, AMBER, 2.5, arrow=True)
+    d.text(380, 178, "Y = anchor_from_target", 14, AMBER, "middle", "bold")
+    d.text(380, 208, "unknown, always the same", 12, PALE, "middle")
+    d.line(650, 168, 650, 74, GREEN, 2.5, arrow=True)
+    d.text(636, 118, "B = target_from_camera", 14, GREEN, "end")
+    d.text(636, 136, "picture, measured", 12, PALE, "end")
+    d.text(380, 128, "A X = Y B", 22, INK, "middle", "bold")
     d.save("loop")
 
 
@@ -417,7 +415,7 @@ def poses():
     for (title, left), (tilt, spin, size, side) in zip(titles, angles):
         x = left + 70
         d.text(x, 30, title, 14, INK, "middle", "bold")
-        cx, cy = x + 95 * math.sin(tilt), 225 - 150 * math.cos(tilt)
+        cx, cy = x + 128 * math.sin(tilt), 228 - 140 * math.cos(tilt)
         if spin:
             camera(d, x, 75, math.pi / 2)(140, 44)
             arc = [(x + 30 * math.cos(t / 10), 110 + 9 * math.sin(t / 10)) for t in range(-2, 52)]
@@ -430,9 +428,9 @@ def poses():
             camera(d, x - 34, 82, math.pi / 2 - 0.08)(150, 26)
             camera(d, x + 38, 82, math.pi / 2 + 0.02)(150, 26)
         else:
-            camera(d, cx, cy, math.pi / 2 + tilt)(140, 44)
+            camera(d, cx, cy, math.pi / 2 + tilt)(130, 36)
             d.line(x, 225, x, 90, PALE, 1, "4 4")
-            d.text(x + 24 * (1 if tilt > 0 else -1), 120, "30°", 13, RED, "middle")
+            d.text(x + 19 * (1 if tilt > 0 else -1), 112, "30°", 13, RED, "middle")
         board(d, x, 235, 0, 6, 15)
     d.text(690, 150, "and a second", 13, PALE, "middle")
     d.text(690, 168, "tilt axis: towards", 13, PALE, "middle")
@@ -463,9 +461,9 @@ def pivot():
 
 
 def touches():
-    d = Drawing(640, 320)
+    d = Drawing(640, 340)
     d.text(320, 28, "Touch the outermost inner corners, where two black squares meet", 15, INK, "middle", "bold")
-    x0, y0, s, columns, rows = 150, 60, 34, 10, 6
+    x0, y0, s, columns, rows = 150, 50, 34, 10, 7
     for i in range(columns):
         for k in range(rows):
             d.rectangle(x0 + i * s, y0 + k * s, s, s, INK if (i + k) % 2 == 0 else "#ffffff", INK, 0.6)
@@ -476,14 +474,69 @@ def touches():
         d.dot(x, y, RED, 7)
         d.text(x + dx * 78, y + dy * 2 + 5, name, 17, RED, "middle", "bold")
         d.line(x + dx * 12, y, x + dx * 60, y, RED, 1.4)
-    d.text(320, 296, f"A board of {wide} x {high} inner corners: id = row * {wide} + column", 14, PALE, "middle")
+    d.text(320, 320, f"A board of {wide} x {high} inner corners: id = row * {wide} + column", 14, PALE, "middle")
     d.save("touches")
+
+
+def rows_of(png):
+    """Rows of bytes of an RGB picture of 8 bits."""
+    at, data = 8, b""
+    while at < len(png):
+        length, kind = int.from_bytes(png[at : at + 4], "big"), png[at + 4 : at + 8]
+        body = png[at + 8 : at + 8 + length]
+        if kind == b"IHDR":
+            width, height, form = int.from_bytes(body[:4], "big"), int.from_bytes(body[4:8], "big"), body[8:]
+        data += body if kind == b"IDAT" else b""
+        at += length + 12
+    if form != bytes([8, 2, 0, 0, 0]):
+        sys.exit("a picture of another kind than RGB of 8 bits")
+    data, wide = zlib.decompress(data), 3 * width
+    before, rows = bytearray(wide), []
+    for k in range(height):
+        kind = data[k * (wide + 1)]
+        row = bytearray(data[k * (wide + 1) + 1 : (k + 1) * (wide + 1)])
+        for i in range(wide):
+            a, b, c = (row[i - 3], before[i], before[i - 3]) if i >= 3 else (0, before[i], 0)
+            near = [abs(b - c), abs(a - c), abs(a + b - 2 * c)]
+            paeth = (a, b, c)[near.index(min(near))]
+            row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
+        rows.append(row)
+        before = row
+    return rows
+
+
+def png_of(rows):
+    part = lambda kind, body: (
+        len(body).to_bytes(4, "big") + kind + body + zlib.crc32(kind + body).to_bytes(4, "big")
+    )
+    size = (len(rows[0]) // 3).to_bytes(4, "big") + len(rows).to_bytes(4, "big")
+    data = zlib.compress(b"".join(b"\0" + bytes(row) for row in rows), 9)
+    head = b"\x89PNG\r\n\x1a\n" + part(b"IHDR", size + bytes([8, 2, 0, 0, 0]))
+    return head + part(b"IDAT", data) + part(b"IEND", b"")
+
+
+def found():
+    """A picture of the tutorial with its corners, as `detect --draw` makes it, half as large."""
+    with tempfile.TemporaryDirectory() as folder:
+        run = lambda words: subprocess.run(
+            [PROGRAM, *words.split()], cwd=folder, check=True, stdout=subprocess.DEVNULL
+        )
+        run("simulate cell --captures 4 --width 640 --height 400 --touches 0 --image-noise 0.5 --quiet")
+        run("detect cell/images/004.png --target cell/handeye.toml --draw found --quiet")
+        rows = rows_of(next(Path(folder, "found").glob("*.png")).read_bytes())
+    half = []
+    for up, down in zip(rows[::2], rows[1::2]):
+        sums = [a + b for a, b in zip(up, down)]
+        half.append(
+            [(sums[6 * i + k] + sums[6 * i + 3 + k] + 2) // 4 for i in range(len(sums) // 6) for k in range(3)]
+        )
+    (PICTURES / "found.png").write_bytes(png_of(half))
 
 
 def draw(measured):
     PICTURES.mkdir(parents=True, exist_ok=True)
-    mm = [0.05, 0.1, 0.2, 0.5, 1, 2, 5]
-    curves("captures", measured["captures"], [3, 4, 5, 6, 8, 10, 15, 20, 30, 45], mm, "captures")
+    mm = [0.1, 0.2, 0.5, 1, 2, 5]
+    curves("captures", measured["captures"], [3, 4, 5, 6, 8, 10, 15, 20, 30, 45], mm + [10], "captures")
     curves("tilt", measured["tilt"], [1, 2, 4, 7, 10, 15, 20, 30, 45], [0.1, 0.2, 0.5, 1, 2, 5, 10, 20],
            "largest tilt, degrees")
     curves("spin", measured["spin"], [0, 30, 60, 90, 180], [0, 0.2, 0.4, 0.6, 0.8, 1], "largest spin, degrees",
@@ -495,6 +548,7 @@ def draw(measured):
     curves("pixel", measured["pixel"], [0.02, 0.05, 0.1, 0.2, 0.5, 1], [0.1, 0.2, 0.5, 1, 2],
            "error of a corner, px", key=(90, 45))
     scatter(measured["scatter"])
+    found()
     for drawing in (setups, loop, poses, pivot, touches):
         drawing()
 
