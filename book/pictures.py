@@ -410,7 +410,7 @@ def loop():
 
 def poses():
     d = Drawing(760, 300)
-    titles = [("tilt one way", 12), ("tilt the other way", 138), ("spin", 264), ("near and far", 390), ("to the sides", 516)]
+    titles = [("tilt one way", 26), ("tilt the other way", 152), ("spin", 276), ("near and far", 400), ("to the sides", 522)]
     angles = [(-0.55, 0, 1.0, 0), (0.55, 0, 1.0, 0), (0, 1, 1.0, 0), (0, 0, 0.55, 0), (0, 0, 1.0, 1)]
     for (title, left), (tilt, spin, size, side) in zip(titles, angles):
         x = left + 70
@@ -432,9 +432,9 @@ def poses():
             d.line(x, 225, x, 90, PALE, 1, "4 4")
             d.text(x + 19 * (1 if tilt > 0 else -1), 112, "30°", 13, RED, "middle")
         board(d, x, 235, 0, 6, 15)
-    d.text(690, 150, "and a second", 13, PALE, "middle")
-    d.text(690, 168, "tilt axis: towards", 13, PALE, "middle")
-    d.text(690, 186, "you and away", 13, PALE, "middle")
+    d.text(698, 150, "and a second", 13, PALE, "middle")
+    d.text(698, 168, "tilt axis: towards", 13, PALE, "middle")
+    d.text(698, 186, "you and away", 13, PALE, "middle")
     d.text(380, 284, "The robot turns about two axes at least; without tilt one direction stays unknown.", 14, PALE, "middle")
     d.save("poses")
 

@@ -235,22 +235,30 @@ class Page:
             self.problem(block.line, error["message"])
 
     def rust(self):
-        """rustdoc takes pages as they are."""
-        if not any(b.language == "rust" and "norun" not in b.options for b in self.blocks):
+        """By rustdoc, against the libraries of the last build."""
+        rust = [b for b in self.blocks if b.language == "rust" and "norun" not in b.options]
+        if not rust:
             return
         library = self.program.parent / "libhandeye.rlib"
         if not shutil.which("rustdoc") or not library.exists():
             print(f"{self.name}: no rustdoc, or no {library}: its Rust blocks are skipped")
             return
-        self.count += 1
-        run = subprocess.run(
-            ["rustdoc", "--test", "--edition", "2024", "--extern", f"handeye={library}"]
-            + ["-L", f"dependency={library.parent / 'deps'}", str(self.path)],
-            capture_output=True,
-            encoding="utf-8",
-        )
-        if run.returncode:
-            self.problem(1, "Rust blocks fail:\n" + run.stdout + run.stderr)
+        self.count += len(rust)
+        beside = library.parent / "deps"
+        # several builds of one library may lie there; one of them is the program's
+        for algebra in sorted(beside.glob("libnalgebra-*.rlib"), key=lambda f: -f.stat().st_mtime):
+            with tempfile.TemporaryDirectory(prefix="book") as folder:
+                page = Path(folder, "page.md")
+                page.write_text("".join(f"```rust\n{block.text}```\n\n" for block in rust), encoding="utf-8")
+                run = subprocess.run(
+                    ["rustdoc", "--test", "--edition", "2024", "--extern", f"handeye={library}"]
+                    + ["--extern", f"nalgebra={algebra}", "-L", f"dependency={beside}", str(page)],
+                    capture_output=True,
+                    encoding="utf-8",
+                )
+            if run.returncode == 0:
+                return
+        self.problem(rust[0].line, "Rust blocks fail:\n" + run.stdout + run.stderr)
 
     def write(self):
         lines = list(self.lines)
@@ -298,7 +306,7 @@ def links():
     anchors = {
         p: {slug(h) for h in re.findall(r"^#+ (.*)$", included(p), re.MULTILINE)} for p in pages
     }
-    problems = []
+    problems = keys_of_the_manifest()
     for page in pages:
         name, text = page.relative_to(SOURCE), page.read_text(encoding="utf-8")
         for target in re.findall(r"\{\{#include ([^}]+)\}\}", text):
@@ -322,6 +330,25 @@ def links():
         if name != "SUMMARY.md" and name not in summary:
             problems.append(f"{name}: not in SUMMARY.md")
     return problems
+
+
+def keys_of_the_manifest():
+    """Keys of the schema that the page of the manifest does not name."""
+    page = SOURCE / "files" / "manifest.md"
+    schema = json.loads((ROOT / "crates/handeye-io/schema/handeye.schema.json").read_text(encoding="utf-8"))
+    named = set(re.findall(r"[a-z_]+", page.read_text(encoding="utf-8")))
+
+    def keys(part):
+        if isinstance(part, dict):
+            yield from (k for k in part.get("properties", {}))
+            for value in part.values():
+                yield from keys(value)
+        elif isinstance(part, list):
+            for value in part:
+                yield from keys(value)
+
+    missing = sorted({k for k in keys(schema) if k not in named})
+    return [f"{page.relative_to(SOURCE)}: the key {k} is not explained" for k in missing]
 
 
 def codes_of_the_program():
