@@ -333,10 +333,11 @@ def links():
 
 
 def keys_of_the_manifest():
-    """Keys of the schema that the page of the manifest does not name."""
-    page = SOURCE / "files" / "manifest.md"
+    """Keys of the schema that neither the page of the manifest nor that of joint values names."""
+    page, joints = SOURCE / "files" / "manifest.md", SOURCE / "robots" / "joints.md"
     schema = json.loads((ROOT / "crates/handeye-io/schema/handeye.schema.json").read_text(encoding="utf-8"))
-    named = set(re.findall(r"[a-z_]+", page.read_text(encoding="utf-8")))
+    text = page.read_text(encoding="utf-8") + joints.read_text(encoding="utf-8")
+    named = set(re.findall(r"[a-z_]+", text))
 
     def keys(part):
         if isinstance(part, dict):
