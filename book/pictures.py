@@ -11,7 +11,7 @@ import argparse
 import json
 import math
 import os
-import random
+import shutil
 import statistics
 import subprocess
 import sys
@@ -533,6 +533,20 @@ def found():
     (PICTURES / "found.png").write_bytes(png_of(half))
 
 
+def report():
+    """The upper part of the tutorial's report."""
+    browser = shutil.which("chromium") or shutil.which("google-chrome")
+    if browser is None:
+        return print("no chromium: report.png stays as it is")
+    with tempfile.TemporaryDirectory() as folder:
+        run = lambda words: subprocess.run(words, cwd=folder, check=True, capture_output=True)
+        run([PROGRAM, *"simulate cell --captures 12 --width 640 --height 400 --touches 0 --quiet".split()])
+        run([PROGRAM, *"calibrate cell --out result --quiet".split()])
+        options = "--headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1000,790".split()
+        run([browser, *options, "--screenshot=report.png", f"file://{folder}/result/report.html"])
+        (PICTURES / "report.png").write_bytes(Path(folder, "report.png").read_bytes())
+
+
 def draw(measured):
     PICTURES.mkdir(parents=True, exist_ok=True)
     mm = [0.1, 0.2, 0.5, 1, 2, 5]
@@ -549,6 +563,7 @@ def draw(measured):
            "error of a corner, px", key=(90, 45))
     scatter(measured["scatter"])
     found()
+    report()
     for drawing in (setups, loop, poses, pivot, touches):
         drawing()
 
