@@ -121,6 +121,13 @@ def measure():
         "pixel": series(
             [0.02, 0.05, 0.1, 0.2, 0.5, 1.0], lambda px: many(15) + ["--corner-px", px] + still, 24
         ),
+        "size": series(
+            [5, 8, 12, 20, 30],
+            lambda mm: many(15)
+            + ["--square-mm", mm, "--robot-mm", 0.05, "--robot-deg", 0.003]
+            + still,
+            24,
+        ),
         "scatter": series(
             [6, 8, 10, 15, 20, 30],
             lambda n: many(n)
@@ -561,6 +568,10 @@ def draw(measured):
            "touches on each of three placements", (False, False), False)
     curves("pixel", measured["pixel"], [0.02, 0.05, 0.1, 0.2, 0.5, 1], [0.1, 0.2, 0.5, 1, 2],
            "error of a corner, px", key=(90, 45))
+    # 9 x 6 corners 0.9 m away in a picture 1920 px wide, f = 1800 px: width of 10 squares
+    size = [{**r, "value": round(100 * 10 * r["value"] * 1800 / 900 / 1920, 1)} for r in measured["size"]]
+    curves("size", size, [5, 8, 12, 20, 32], [0.02, 0.05, 0.1, 0.2, 0.5, 1],
+           "width of the board, % of the picture")
     scatter(measured["scatter"])
     found()
     report()
