@@ -252,6 +252,7 @@ class Page:
                 page.write_text("".join(f"```rust\n{block.text}```\n\n" for block in rust), encoding="utf-8")
                 run = subprocess.run(
                     ["rustdoc", "--test", "--edition", "2024", "--extern", f"handeye={library}"]
+                    + ["--extern", f"handeye_io={library.with_name('libhandeye_io.rlib')}"]
                     + ["--extern", f"nalgebra={algebra}", "-L", f"dependency={beside}", str(page)],
                     capture_output=True,
                     encoding="utf-8",
