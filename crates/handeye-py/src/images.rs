@@ -67,35 +67,38 @@ pub fn target_from_json(text: &str) -> PyResult<TargetModel> {
     Ok(target)
 }
 
-/// Grey values of H x W, or of H x W x 3 in the order of OpenCV or its reverse; 8 or 16 bits, or floating.
+/// Grey values of H x W, or of H x W x 3 in the order of OpenCV or its reverse, or of H x W x 4 with what the fourth says
+/// left out; 8 or 16 bits, or floating.
 fn picture(image: &Bound<'_, PyAny>) -> PyResult<GrayImage> {
     let wrong = |shape: &[usize]| {
-        errors::input(format!("the image has the shape {shape:?}: H x W or H x W x 3 is needed"))
+        errors::input(format!("the image has the shape {shape:?}: H x W, H x W x 3 or H x W x 4 is needed"))
     };
-    fn grey<T: numpy::Element + Copy + Into<f32>>(
+    fn grey<T: numpy::Element + Copy>(
         array: &Bound<'_, PyArrayDyn<T>>,
-        scale: f32,
+        value: impl Fn(T) -> f32,
     ) -> Option<GrayImage> {
         let shape = array.shape().to_vec();
         let read = array.readonly();
-        let numbers = read.as_array();
-        let mut numbers = numbers.iter().map(|v| (*v).into() * scale);
-        match shape[..] {
-            [height, width] => GrayImage::new(width, height, numbers.collect()),
-            [height, width, 3] => {
-                let mut values = Vec::with_capacity(height * width);
-                while let (Some(a), Some(b), Some(c)) =
-                    (numbers.next(), numbers.next(), numbers.next())
-                {
-                    values.push(0.25 * a + 0.5 * b + 0.25 * c);
-                }
-                GrayImage::new(width, height, values)
-            }
-            _ => None,
+        let mut numbers = read.as_array().into_iter().map(|v| value(*v));
+        let (height, width, channels) = match shape[..] {
+            [height, width] => (height, width, 1),
+            [height, width, channels @ (3 | 4)] => (height, width, channels),
+            _ => return None,
+        };
+        if channels == 1 {
+            return GrayImage::new(width, height, numbers.collect());
         }
+        let mut values = Vec::with_capacity(height * width);
+        while let (Some(a), Some(b), Some(c)) = (numbers.next(), numbers.next(), numbers.next()) {
+            values.push(0.25 * a + 0.5 * b + 0.25 * c);
+            if channels == 4 {
+                numbers.next();
+            }
+        }
+        GrayImage::new(width, height, values)
     }
     if let Ok(array) = image.cast::<PyArrayDyn<u8>>() {
-        return grey(array, 1.0).ok_or_else(|| wrong(array.shape()));
+        return grey(array, f32::from).ok_or_else(|| wrong(array.shape()));
     }
     if let Ok(array) = image.cast::<PyArrayDyn<u16>>() {
         // 10, 12 and 14 bits are kept in 16 as well
@@ -104,10 +107,13 @@ fn picture(image: &Bound<'_, PyAny>) -> PyResult<GrayImage> {
         let bits =
             [8, 10, 12, 14].into_iter().find(|bits| u32::from(largest) < 1 << bits).unwrap_or(16);
         let scale = 255.0 / ((1u32 << bits) - 1) as f32;
-        return grey(array, scale).ok_or_else(|| wrong(array.shape()));
+        return grey(array, |v| f32::from(v) * scale).ok_or_else(|| wrong(array.shape()));
     }
     if let Ok(array) = image.cast::<PyArrayDyn<f32>>() {
-        return grey(array, 1.0).ok_or_else(|| wrong(array.shape()));
+        return grey(array, |v| v).ok_or_else(|| wrong(array.shape()));
     }
-    Err(errors::input("the image must be an array of uint8, uint16 or float32 (0 to 255)"))
+    if let Ok(array) = image.cast::<PyArrayDyn<f64>>() {
+        return grey(array, |v| v as f32).ok_or_else(|| wrong(array.shape()));
+    }
+    Err(errors::input("the image must be an array of uint8, uint16, float32 or float64 (0 to 255)"))
 }

@@ -131,6 +131,12 @@ class TestWhatOpenCvAnswersWrongly:
         r, t = hand_eye(robot, camera, name)
         assert apart((r, t), (HALF_TURN[:3, :3], HALF_TURN[:3, 3:])) < 1e-6
 
+    def test_scripts_that_catch_errors_of_opencv_go_on(self, name):
+        robot, camera = about_one_axis()
+        with pytest.raises(cv2.error, match="axis") as caught:
+            hand_eye(robot, camera, name)
+        assert isinstance(caught.value, handeye.NotDetermined)
+
     def test_two_poses_are_too_few(self, name):
         robot, camera = cell(2)
         with pytest.raises(handeye.NotDetermined, match="at least 3"):

@@ -189,7 +189,9 @@ def test_corners_are_found_in_a_picture():
     expected = np.array(
         [(99.5 + square * (c + 1), 59.5 + square * (r + 1)) for r in range(rows) for c in range(columns)]
     )
-    for picture in [image, np.stack([image] * 3, axis=2), (image.astype(np.uint16) << 8), image.astype(np.float32)]:
+    transparent = np.dstack([image, image, image, np.arange(image.size).reshape(image.shape) % 256]).astype(np.uint8)
+    pictures = [image, np.dstack([image] * 3), transparent, image.astype(np.uint16) << 8]
+    for picture in [*pictures, image.astype(np.float32), image.astype(np.float64)]:
         found = handeye.detect(picture, target)
         assert found.found and sorted(found.ids.tolist()) == list(range(35))
         assert found.covariances.shape == (35, 2, 2)

@@ -287,7 +287,7 @@ def closed_form(
 def detect(image: Any, target: Union[Mapping[str, Any], Path]) -> Corners:
     """The corners of a calibration target in a picture, to about a hundredth of a pixel.
 
-    :param image: H x W or H x W x 3; uint8, uint16, or float32 from 0 to 255.
+    :param image: H x W, H x W x 3 or x 4 (alpha is left out); uint8, uint16, or floating from 0 to 255.
     :param target: ``{"kind": "checkerboard", "columns": 11, "rows": 8, "square_mm": 30.0}`` and the like, as under
         ``[target]`` of a manifest, or a TOML file with these keys.
     """

@@ -1,22 +1,25 @@
 """OpenCV's ``calibrateHandEye`` and ``calibrateRobotWorldHandEye``, with a look at their answers.
 
 Signatures, shapes, flags and results are those of OpenCV 4, and every other name is looked up in ``cv2`` itself, so that
-``from handeye import cv2_compat as cv2`` is all that a script needs. Where OpenCV returns NaN, throws without a reason or answers wrongly without a word, an error says why:
+``from handeye import cv2_compat as cv2`` is all that a script needs. Where OpenCV returns NaN, throws without a reason or
+answers wrongly without a word, an error says why:
 
 * :class:`handeye.NotDetermined`: the poses leave part of the answer free (one axis of rotation, too few).
 * :class:`handeye.Rejected`: poses contradict each other, or the method fails on them.
 * :class:`handeye.InputError`: an array is no rotation, has another shape, or lists differ in length.
 
-All three are a ``ValueError``, and not a ``cv2.error``. What is only worth knowing comes as a
+All three are a ``ValueError``, and where OpenCV is imported a ``cv2.error`` as well: scripts that catch that go on. What is only worth knowing comes as a
 :class:`HandEyeWarning`. Lengths may be metres or millimetres, the same for all. Translations of the shape 1 x 3 are
 read as they are meant, where OpenCV goes wrong.
 """
 
+import functools as _functools
+import sys as _sys
 import warnings as _warnings
-from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, cast
+from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Tuple, Type, TypeVar, cast
 
 from . import _core
-from ._core import InputError
+from ._core import HandEyeError, InputError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -57,6 +60,32 @@ class HandEyeWarning(UserWarning):
     """Something to know about an answer that still stands."""
 
 
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def _raising(function: _Function) -> _Function:
+    """Its errors are errors of OpenCV as well, where that is imported."""
+
+    @_functools.wraps(function)
+    def call(*args: Any, **keywords: Any) -> Any:
+        try:
+            return function(*args, **keywords)
+        except HandEyeError as error:
+            opencv = getattr(_sys.modules.get("cv2"), "error", None)
+            if opencv is None:
+                raise
+            raise _both(type(error), opencv)(*error.args) from None
+
+    return cast(_Function, call)
+
+
+@_functools.lru_cache(maxsize=None)
+def _both(kind: Type[HandEyeError], opencv: Type[Exception]) -> Type[HandEyeError]:
+    about = {"__doc__": kind.__doc__, "__module__": kind.__module__}
+    return cast("Type[HandEyeError]", type(kind.__name__, (kind, opencv), about))
+
+
+@_raising
 def calibrateHandEye(
     R_gripper2base: Any,
     t_gripper2base: Any,
@@ -88,6 +117,7 @@ def calibrateHandEye(
     return _given(R_cam2gripper, r), _given(t_cam2gripper, t)
 
 
+@_raising
 def calibrateRobotWorldHandEye(
     R_world2cam: Any,
     t_world2cam: Any,
@@ -155,7 +185,7 @@ def _given(output: Optional[Any], result: "Array") -> "Array":
 
 def _tell(told: Sequence[str]) -> None:
     for message in told:
-        _warnings.warn(message, HandEyeWarning, stacklevel=3)
+        _warnings.warn(message, HandEyeWarning, stacklevel=4)
 
 
 def __getattr__(name: str) -> Any:
