@@ -71,7 +71,9 @@ pub fn target_from_json(text: &str) -> PyResult<TargetModel> {
 /// left out; 8 or 16 bits, or floating.
 fn picture(image: &Bound<'_, PyAny>) -> PyResult<GrayImage> {
     let wrong = |shape: &[usize]| {
-        errors::input(format!("the image has the shape {shape:?}: H x W, H x W x 3 or H x W x 4 is needed"))
+        errors::input(format!(
+            "the image has the shape {shape:?}: H x W, H x W x 3 or H x W x 4 is needed"
+        ))
     };
     fn grey<T: numpy::Element + Copy>(
         array: &Bound<'_, PyArrayDyn<T>>,

@@ -55,6 +55,10 @@ const LARGEST: usize = 1 << 30;
 /// How a message begins that was packed alone.
 const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
+/// What to do with a bag where something else is needed.
+pub(crate) const ADVICE: &str =
+    "is a ROS bag: `handeye bag` shows what it holds, and makes a folder of captures out of it";
+
 /// The ends of the names of bags.
 const ENDINGS: [&str; 3] = ["bag", "mcap", "db3"];
 /// What follows them where the recorder packed whole files.

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 use handeye::Setup;
 
-use crate::{Error, MANIFEST, error::unusable};
+use crate::{Error, MANIFEST, bag, error::unusable};
 pub use declared::{Declared, Direction};
 
 /// What was recognised, and the file that belongs beside it.
@@ -87,6 +87,9 @@ const KNOWN: &str = "samples of easy_handeye2 (samples with `robot` and `trackin
 pub fn import(source: &Path, declared: &Declared) -> Result<Imported, Error> {
     std::fs::metadata(source)
         .map_err(|error| Error::Read { path: source.into(), source: error })?;
+    if bag::is_bag(source) {
+        return Err(unusable(source, bag::ADVICE));
+    }
     let sets: &[Layout] = if declared.camera.is_some() { &[] } else { &SETS };
     for layout in sets {
         if let Some(described) = layout(source, declared)? {

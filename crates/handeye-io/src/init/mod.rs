@@ -7,7 +7,10 @@ mod sections;
 
 use std::path::Path;
 
-use crate::error::Error;
+use crate::{
+    bag,
+    error::{Error, unusable},
+};
 use groups::Group;
 use kind::Kind;
 
@@ -45,6 +48,9 @@ pub fn first_manifest(folder: &Path) -> Result<FirstManifest, Error> {
         .collect();
     let useful = |kind: &Kind| !matches!(kind, Kind::Nothing | Kind::Camera | Kind::Target(_));
     if !kinds.iter().any(|(_, kind)| useful(kind)) {
+        if bag::is_bag(folder) {
+            return Err(unusable(folder, bag::ADVICE));
+        }
         return Err(Error::NothingFound { folder: folder.into() });
     }
     let mut page = Page::default();

@@ -144,3 +144,16 @@ fn what_is_not_known_is_told_what_is() {
     assert_eq!(error.code(), "cannot-read");
     fs::remove_dir_all(folder).ok();
 }
+
+#[test]
+fn bags_have_a_command_of_their_own() {
+    let folder = folder("bag");
+    let bag = folder.join("session.mcap");
+    fs::write(&bag, [0x89, b'M']).unwrap();
+    for source in [&bag, &folder] {
+        let error = import(source, &Declared::default()).unwrap_err().to_string();
+        assert!(error.contains("`handeye bag`"), "{error}");
+    }
+    let error = crate::first_manifest(&folder).unwrap_err().to_string();
+    assert!(error.contains("`handeye bag`"), "{error}");
+}
