@@ -181,12 +181,18 @@ impl DhJoint {
 
 /// An arm as a file that `dh = "..."` of a manifest reads: metres and radians.
 pub fn arm_file(arm: &Arm) -> String {
-    let model = serde_json::json!({
+    let mut model = serde_json::json!({
         "convention": arm.convention,
         "length_unit": "m",
         "angle_unit": "rad",
         "joints": arm.joints,
     });
+    if arm.base_from_first_joint != Pose::identity() {
+        model["base_from_first_joint"] = serde_json::json!(arm.base_from_first_joint);
+    }
+    if arm.last_link_from_flange != Pose::identity() {
+        model["last_link_from_flange"] = serde_json::json!(arm.last_link_from_flange);
+    }
     format!("{model:#}\n")
 }
 
@@ -225,6 +231,7 @@ mod tests {
         let convention = DhConvention::Modified;
         let mut arm = Arm::new(convention, vec![joint(1.0), joint(2.0)]);
         arm.base_from_first_joint = Pose::claim(Isometry3::translation(0.1, 0.2, 0.3));
+        arm.last_link_from_flange = Pose::claim(Isometry3::rotation(Vector3::z()));
         let spec: DhSpec = serde_json::from_str(&arm_file(&arm)).unwrap();
         assert_eq!(ArmModel::from_spec(&spec, &Place::default()).unwrap().arm, arm);
     }
