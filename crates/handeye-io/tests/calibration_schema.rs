@@ -186,6 +186,7 @@ fn full() -> Calibration {
         arm: Some(ArmResult {
             model: Arm {
                 base_from_first_joint: Pose::claim(Isometry3::translation(0.1, 0.0, 0.0)),
+                last_link_from_flange: Pose::claim(Isometry3::translation(0.0, 0.0, 0.1)),
                 ..Arm::new(DhConvention::Standard, vec![Joint::default()])
             },
             deviations: vec![ArmDeviation {
