@@ -20,7 +20,7 @@ fuzz_target!(|data: &[u8]| {
         told(Urdf::read(&path, &base, &flange));
         return;
     }
-    if told(contents(&path)).is_none() {
+    if told(contents(&path, &|| ())).is_none() {
         return;
     }
     let frames = RobotSource::Frames { base: base.clone(), flange: flange.clone() };
@@ -39,7 +39,7 @@ fuzz_target!(|data: &[u8]| {
             most: 4,
             stamps: Stamps::Header,
         };
-        if told(extract(&path, &out, &options)).is_some() {
+        if told(extract(&path, &out, &options, &|| ())).is_some() {
             told(Dataset::open(&out));
         }
         fs::remove_dir_all(&out).ok();

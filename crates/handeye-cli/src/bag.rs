@@ -56,8 +56,8 @@ pub struct BagArgs {
     #[arg(long, value_enum, default_value_t)]
     pub motion: MotionArg,
     /// Most pictures of a robot in motion.
-    #[arg(long, default_value_t = 150)]
-    pub most: usize,
+    #[arg(long, default_value_t = 150, value_parser = clap::value_parser!(u16).range(2..))]
+    pub most: u16,
     /// Which time of a message counts: of its header, or of its recording.
     #[arg(long, value_enum, default_value_t)]
     pub stamps: StampsArg,
@@ -81,11 +81,11 @@ pub enum StampsArg {
 
 pub fn run(args: &BagArgs, manners: &Manners) -> Result<u8, Failure> {
     let Some(out) = &args.out else {
-        show(&bag::contents(&args.bag)?, manners);
+        show(&bag::contents(&args.bag, &|| ())?, manners);
         return Ok(0);
     };
     let options = options(args)?;
-    let done = bag::extract(&args.bag, out, &options)?;
+    let done = bag::extract(&args.bag, out, &options, &|| ())?;
     if manners.json {
         output::json(&done);
         return Ok(0);
@@ -117,7 +117,7 @@ fn options(args: &BagArgs) -> Result<BagOptions, Failure> {
             MotionArg::Still => Motion::Still,
             MotionArg::Moving => Motion::Moving,
         },
-        most: args.most,
+        most: usize::from(args.most),
         stamps: match args.stamps {
             StampsArg::Header => Stamps::Header,
             StampsArg::Recorded => Stamps::Recorded,

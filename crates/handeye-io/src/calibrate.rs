@@ -40,7 +40,10 @@ pub fn calibrate_dataset(
         ..config.clone()
     };
     let calibrated = match &dataset.motion {
-        Some(motion) => calibrate_moving(&measured.session, &motion.robot, &motion.times, &config),
+        Some(motion) => {
+            let crate::dataset::Motion { robot, joints, times } = motion;
+            calibrate_moving(&measured.session, robot, joints, times, &config)
+        }
         None => calibrate(&measured.session, &config),
     };
     let mut calibration = calibrated

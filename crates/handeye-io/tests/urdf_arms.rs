@@ -8,7 +8,7 @@ use std::{fs, process::Command};
 use handeye_io::Urdf;
 
 /// Writes chains of joints of every kind, each with a branch that does not belong to it, and prints joint values and
-/// matrices: arm, number of joints, values, 16 numbers by rows.
+/// matrices: arm, base, number of joints, values, 16 numbers by rows.
 const WRITE: &str = "
 import sys, numpy, yourdfpy
 random = numpy.random.default_rng(1)
@@ -23,14 +23,15 @@ for k in range(40):
     axes = [random.normal(size=3) if random.random() < .5 else numpy.eye(3)[random.integers(3)] for _ in kinds]
     text = ''.join(joint(f'j{i}', kind, links[i], links[i + 1], a / numpy.linalg.norm(a))
         for i, (kind, a) in enumerate(zip(kinds, axes)))
-    text += joint('mount', 'fixed', 'link0', 'camera', [0, 0, 1])
+    text += joint('mount', 'fixed', 'link0', 'camera', [0, 0, 1]) + joint('side', 'fixed', 'base_link', 'base', [0, 0, 1])
     path = f'{sys.argv[1]}/{k}.urdf'
-    open(path, 'w').write('<robot name=\"arm\">' + ''.join(f'<link name=\"{l}\"/>' for l in [*links, 'camera']) + text + '</robot>')
+    open(path, 'w').write('<robot name=\"arm\">' + ''.join(f'<link name=\"{l}\"/>' for l in [*links, 'camera', 'base']) + text + '</robot>')
     arm = yourdfpy.URDF.load(path, load_meshes=False, build_scene_graph=True)
     for _ in range(4):
         q = random.uniform(-3, 3, len(arm.actuated_joint_names))
         arm.update_cfg(dict(zip(arm.actuated_joint_names, q)))
-        print(k, len(q), words(q), words(arm.get_transform('tool0', 'base_link').ravel()))
+        for base in ['base_link', 'base']:
+            print(k, base, len(q), words(q), words(arm.get_transform('tool0', base).ravel()))
 ";
 
 #[test]
@@ -50,10 +51,11 @@ fn arms_reach_where_another_reader_says() {
     for line in said.lines() {
         let mut words = line.split_whitespace();
         let path = folder.join(format!("{}.urdf", words.next().unwrap()));
+        let base = words.next().unwrap();
         let joints: usize = words.next().unwrap().parse().unwrap();
         let numbers: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
         let (values, theirs) = numbers.split_at(joints);
-        let urdf = Urdf::read(&path, "base_link", "tool0").unwrap();
+        let urdf = Urdf::read(&path, base, "tool0").unwrap();
         assert_eq!(urdf.joint_names().len(), joints, "{}", path.display());
         let ours = urdf.arm().base_from_flange(values).iso().to_homogeneous();
         for (k, value) in theirs.iter().enumerate() {
@@ -62,6 +64,6 @@ fn arms_reach_where_another_reader_says() {
         count += 1;
     }
     println!("{count} poses of 40 arms differ by at most {most:.1e}");
-    assert!(count == 160 && most < 1e-9, "{count}: {most}");
+    assert!(count == 320 && most < 1e-9, "{count}: {most}");
     fs::remove_dir_all(folder).unwrap();
 }

@@ -16,7 +16,7 @@ use crate::{closed_form::setup, errors, images::target_from_json, working};
 #[pyfunction]
 #[pyo3(signature = (bag))]
 pub fn bag_contents(py: Python<'_>, bag: PathBuf) -> PyResult<String> {
-    let found = working::run(py, None, move |_| bag::contents(&bag))?;
+    let found = working::run(py, None, move |tell| bag::contents(&bag, &|| tell(0, 0)))?;
     found.map_err(|error| errors::of_files(py, &error)).and_then(|found| json(&found))
 }
 
@@ -72,7 +72,8 @@ pub fn extract_bag(
     let camera = camera_info;
     let options =
         BagOptions { setup, target, image, depth, camera, robot, urdf, motion, most, stamps };
-    let done = working::run(py, None, move |_| bag::extract(&bag, &out, &options))?;
+    let done =
+        working::run(py, None, move |tell| bag::extract(&bag, &out, &options, &|| tell(0, 0)))?;
     done.map_err(|error| errors::of_files(py, &error)).and_then(|done| json(&done))
 }
 

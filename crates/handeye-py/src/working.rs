@@ -3,18 +3,21 @@
 use std::{
     panic,
     sync::{
-        Arc,
+        Arc, Mutex,
         atomic::{AtomicBool, Ordering},
-        mpsc::{self, RecvTimeoutError},
+        mpsc::{self, Receiver, RecvTimeoutError},
     },
     thread,
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 
 /// How often signals are looked for.
 const PATIENCE: Duration = Duration::from_millis(50);
+
+/// How long a worker that was stopped is waited for.
+const CLEARING: Duration = Duration::from_secs(2);
 
 /// What the worker sends.
 enum News<T> {
@@ -24,6 +27,18 @@ enum News<T> {
 
 /// Ends the worker where it tells its progress.
 struct Stopped;
+
+/// Lets the worker clear up behind itself, for a while: the interpreter may end after it.
+fn await_end<T>(receiver: &Mutex<Receiver<News<T>>>) {
+    let Ok(receiver) = receiver.lock() else { return };
+    let began = Instant::now();
+    while began.elapsed() < CLEARING {
+        match receiver.recv_timeout(PATIENCE) {
+            Ok(News::Progress(..)) | Err(RecvTimeoutError::Timeout) => {}
+            Ok(News::Done(_)) | Err(RecvTimeoutError::Disconnected) => return,
+        }
+    }
+}
 
 /// The result of work that is told how to tell its progress; `progress` is called with what is done, and all.
 pub fn run<T: Send + 'static>(
@@ -62,7 +77,7 @@ pub fn run<T: Send + 'static>(
             Err(RecvTimeoutError::Timeout) => Ok(None),
         }
     };
-    let receiver = std::sync::Mutex::new(receiver);
+    let receiver = Mutex::new(receiver);
     loop {
         let news = py.detach(|| match receiver.lock() {
             Ok(receiver) => receiver.recv_timeout(PATIENCE),
@@ -73,6 +88,7 @@ pub fn run<T: Send + 'static>(
             Ok(None) => {}
             Err(error) => {
                 stop.store(true, Ordering::Relaxed);
+                py.detach(|| await_end(&receiver));
                 return Err(error);
             }
         }

@@ -308,7 +308,7 @@ def record_robot(bag, stamp, pose, q):
         )
 
 
-def record_still(cell, path, kind, rest_s=1.5, move_s=1.0, rate=50, depth=None, packed=False, gap=None, packing=None):
+def record_still(cell, path, kind, rest_s=1.5, move_s=1.0, rate=50, depth=None, packed=False, gap=None, packing=None, before=None):
     """A robot that stops at every capture. While it moves, the camera shows the last picture, which is wrong there."""
     bag = Bag(path, kind, packing)
     topic = "/camera/color/image_raw" + ("/compressed" if packed else "")
@@ -337,6 +337,8 @@ def record_still(cell, path, kind, rest_s=1.5, move_s=1.0, rate=50, depth=None, 
                 elif depth == "cloud":
                     bag.cloud("/camera/points", now + 2_000_000, CAMERA, cell.clouds[k])
             now += 10**9 // rate
+    if before is not None:
+        before(bag)
     bag.close()
 
 
@@ -363,6 +365,9 @@ def record_moving(cell, path, kind, offset_s=0.0, step_s=0.5, rate=100, gap=None
     places = CubicSpline(times, [p[:3, 3] for p in poses])
     turns = RotationSpline(times, Rotation.from_matrix([p[:3, :3] for p in poses]))
     bag = Bag(path, kind)
+    if cell.arm is not None:
+        values = CubicSpline(times, [cell.joints[k] for k in way])
+        bag.add("/robot_description", "std_msgs/msg/String", START, data=urdf(cell.arm))
     bag.transforms("/tf_static", START, [bag.transform(START, "wrist", "tool0", WRIST_FROM_TOOL0)])
     bag.camera("/camera/camera_info", START, CAMERA, cell.size, cell.k, [0.0] * 5)
     for t in np.arange(times[0] - 0.2, times[-1] + 0.2, 1 / rate):
@@ -370,7 +375,11 @@ def record_moving(cell, path, kind, offset_s=0.0, step_s=0.5, rate=100, gap=None
             continue
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = turns(t).as_matrix(), places(t)
-        record_robot(bag, START + round(t * 1e9), pose, None)
+        q = None
+        if cell.arm is not None:
+            q = values(t)
+            pose = forward(cell.arm, q)
+        record_robot(bag, START + round(t * 1e9), pose, q)
     for t, k in zip(times, way):
         bag.picture("/camera/image_raw", START + round((t + offset_s) * 1e9), CAMERA, cell.images[k])
     bag.close()

@@ -1,11 +1,16 @@
 """ROS bags that another writer wrote: whole, cut, without an index, with noise in them."""
 
 import json
+import shutil
+import signal
 import struct
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
-from bags import Cell, off, record_moving, record_still
+from bags import CAMERA, START, WORLD_FROM_BASE, Bag, Cell, off, quaternion, record_moving, record_still, smooth
 
 import handeye
 
@@ -201,3 +206,158 @@ def test_what_a_bag_lacks_is_named(bags, tmp_path):
             handeye.bag_contents(tmp_path / name)
     with pytest.raises(handeye.InputError, match="nothing.bag"):
         handeye.bag_contents(tmp_path / "nothing.bag")
+
+
+def poses_of(folder):
+    rows = np.genfromtxt(folder / "robot.csv", delimiter=",", skip_header=1)[:, 1:]
+    return [handeye.Pose("base", "flange", rotation=r[3:], translation=r[:3]).matrix for r in rows]
+
+
+def places_of(poses, cell):
+    """Of each pose, the place of the cell that it is nearest to, and how far that is (m)."""
+    away = np.array([[np.linalg.norm(p[:3, 3] - q[:3, 3]) for q in cell.poses] for p in poses])
+    return away.argmin(axis=1), away.min(axis=1)
+
+
+def pose_message(bag, topic, stamp, pose):
+    kind = bag.type("geometry_msgs/msg/Pose")
+    point, quaternion_of = bag.type("geometry_msgs/msg/Point"), bag.type("geometry_msgs/msg/Quaternion")
+    x, y, z, w = (float(v) for v in quaternion(pose))
+    value = kind(position=point(*(float(v) for v in pose[:3, 3])), orientation=quaternion_of(x=x, y=y, z=z, w=w))
+    bag.add(topic, "geometry_msgs/msg/PoseStamped", stamp, header=bag.header(stamp, "base"), pose=value)
+
+
+def test_many_pictures_of_one_place_are_one(bags, cell, tmp_path):
+    """Else they would count as independent, and the answer as surer than it is."""
+    done = extract(bags["mcap"], tmp_path / "out", motion="moving")
+    times = np.genfromtxt(tmp_path / "out" / "times.csv", delimiter=",", skip_header=1)[:, 1]
+    stream = np.genfromtxt(tmp_path / "out" / "robot.csv", delimiter=",", skip_header=1)
+    at = np.array([np.interp(times, stream[:, 0], stream[:, k]) for k in (1, 2, 3)]).T
+    assert done.captures == len(times) and np.linalg.norm(np.diff(at, axis=0), axis=1).min() > 5e-4
+
+
+@pytest.mark.parametrize("later_ms", [1, 30])
+def test_a_pose_and_a_picture_at_each_stop(later_ms, cell, tmp_path):
+    """Five seconds apart nothing can be interpolated, and nobody sees that the robot stood still but who was there."""
+    bag = Bag(tmp_path / "bag", "mcap")
+    bag.camera("/camera_info", START, CAMERA, cell.size, cell.k, [0.0] * 5)
+    for k, pose in enumerate(cell.poses):
+        pose_message(bag, "/pose", START + 5 * k * 10**9, pose)
+        bag.picture("/image", START + 5 * k * 10**9 + later_ms * 10**6, CAMERA, cell.images[k])
+    bag.close()
+    poses = {"base": None, "flange": None, "pose": "/pose"}
+    with pytest.raises(handeye.InputError, match="--motion still"):
+        extract(tmp_path / "bag", tmp_path / "out", **poses)
+    done = extract(tmp_path / "bag", tmp_path / "out", motion="still", **poses)
+    assert done.captures == COUNT and any("nearest pose" in note for note in done.notes)
+    assert np.abs(np.array(poses_of(tmp_path / "out")) - cell.poses).max() < 1e-9
+
+
+def test_a_scan_taken_on_the_way_belongs_to_no_picture(cell, tmp_path):
+    bag = Bag(tmp_path / "bag", "mcap")
+    bag.camera("/camera/camera_info", START, CAMERA, cell.size, cell.k, [0.0] * 5)
+    now = START
+    for k in range(COUNT):
+        for tick in range(100 if k + 1 < COUNT else 60):
+            pose = cell.poses[k] if tick < 60 else cell.step(k, smooth((tick - 60) / 40))[0]
+            bag.transforms("/tf", now, [bag.transform(now, "base_link", "tool0", pose)])
+            if tick in (20, 40):
+                bag.picture("/camera/image_raw", now, CAMERA, cell.images[k])
+            if tick == 80 or k < 3 and tick == 50:
+                bag.cloud("/camera/points", now, CAMERA, cell.clouds[k])
+            now += 20_000_000
+    bag.close()
+    done = extract(tmp_path / "bag", tmp_path / "out")
+    assert done.captures == COUNT and any("only 3 of 9" in note for note in done.notes), done.notes
+    assert not (tmp_path / "out" / "scans").exists()
+    assert extract(tmp_path / "bag", tmp_path / "asked", depth="/camera/points").captures == 3
+
+
+def test_frames_between_which_nothing_moves_are_refused(bags, tmp_path):
+    for frames in [{"flange": "world"}, {"base": "wrist"}]:
+        with pytest.raises(handeye.InputError, match="never moves"):
+            extract(bags["mcap"], tmp_path / "out", **frames)
+
+
+def test_what_is_wrong_with_one_sender_does_not_spoil_the_rest(cell, tmp_path):
+    bag = Bag(tmp_path / "bag", "mcap")
+    bag.camera("/camera_info", START, "another_camera", cell.size, [[800, 0, 1], [0, 800, 1], [0, 0, 1]], [0.0] * 5)
+    bag.camera("/calibrated", START, CAMERA, cell.size, cell.k, [0.0] * 5)
+    now = START
+    for k in range(COUNT):
+        for tick in range(60 if k + 1 == COUNT else 100):
+            pose = cell.poses[k] if tick < 60 else cell.step(k, smooth((tick - 60) / 40))[0]
+            lost = bag.transform(now, "base_link", "lost", pose)
+            lost.transform.rotation.w = lost.transform.rotation.x = 0.0
+            bag.transforms("/tf", now, [lost, bag.transform(now, "base_link", "tool0", pose)])
+            for above in ["map", "world"]:
+                bag.transforms("/tf", now, [bag.transform(now, above, "base_link", WORLD_FROM_BASE)])
+            if tick == 30:
+                bag.picture("/camera/image_raw", now, CAMERA, cell.images[k])
+            now += 20_000_000
+    bag.close()
+    done = extract(tmp_path / "bag", tmp_path / "out")
+    assert done.captures == COUNT
+    assert any("cannot be read" in note and "lost" in note for note in done.notes), done.notes
+    assert any("--camera-info" in note and "/calibrated" in note for note in done.notes), done.notes
+    named = extract(tmp_path / "bag", tmp_path / "named", camera_info="/calibrated")
+    assert named.questions == []
+    mm, degrees = error_of(handeye.calibrate(tmp_path / "named"), cell)
+    assert mm < 1.0 and degrees < 0.1
+
+
+def test_a_robot_on_two_topics_is_not_mixed(cell, tmp_path):
+    bag = Bag(tmp_path / "bag", "mcap")
+    for tick in range(100):
+        now = START + tick * 20_000_000
+        for robot in (1, 2):
+            pose = cell.poses[robot] + 0.0
+            pose[0, 3] += 1e-3 * tick
+            bag.transforms(f"/robot{robot}/tf", now, [bag.transform(now, "base_link", "tool0", pose)])
+        bag.picture("/image", now, CAMERA, cell.images[0])
+    bag.close()
+    with pytest.raises(handeye.InputError, match="/robot1/tf and /robot2/tf"):
+        extract(tmp_path / "bag", tmp_path / "out")
+
+
+def test_a_bag_that_is_still_open(bags, tmp_path):
+    (tmp_path / "session.bag.active").write_bytes(bags["ros1"].read_bytes()[:-5000])
+    assert extract(tmp_path / "session.bag.active", tmp_path / "out", motion="still").captures > 5
+
+
+def test_joint_values_that_are_no_numbers_are_left_out(arm, tmp_path):
+    def broken(bag):
+        for recorded, _, topic, _, fields in bag.messages:
+            if topic == "/joint_states" and recorded < START + 10**8:
+                fields["position"][:] = np.nan
+
+    record_still(Cell(arm), tmp_path / "bag", "mcap", before=broken)
+    done = extract(tmp_path / "bag", tmp_path / "out", joints=True)
+    assert done.captures == 14 and any("not finite" in note for note in done.notes)
+
+
+def test_joint_values_of_a_robot_in_motion(arm, tmp_path):
+    """The arm's own errors are found from them, as of one that stands still."""
+    folder = tmp_path / "cell"
+    handeye.simulate(folder, captures=50, arm=True, **SMALL)
+    cell = Cell(folder)
+    record_moving(cell, tmp_path / "bag", "mcap", offset_s=0.04)
+    done = extract(tmp_path / "bag", tmp_path / "out", joints=True)
+    assert done.moving and done.captures > 40
+    calibration = handeye.calibrate(tmp_path / "out")
+    assert calibration.to_dict()["arm"] is not None
+    mm, degrees = error_of(calibration, cell)
+    assert mm < 1.5 and degrees < 0.15
+    assert abs(calibration.to_dict()["time_offset_s"] - 0.04) < 2e-3
+
+
+def test_ctrl_c_leaves_nothing_behind(bags, tmp_path):
+    code = f"import handeye; handeye.extract_bag({str(bags['sqlite'])!r}, {str(tmp_path / 'out')!r}, base='base_link', flange='tool0')"
+    for after_s in (0.3, 0.5, 0.8):
+        process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
+        time.sleep(after_s)
+        process.send_signal(signal.SIGINT)
+        process.wait(timeout=20)
+        if process.returncode != 0:
+            assert not list(tmp_path.iterdir())
+        shutil.rmtree(tmp_path / "out", ignore_errors=True)

@@ -5,10 +5,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::Setup;
+use handeye::{Setup, TargetModel};
 use serde::Serialize;
 
 use super::{
+    Tick,
     moments::{self, Moment},
     robot::{Robot, RobotSource},
     survey::{self, Shot, Stamps, Survey},
@@ -73,34 +74,51 @@ pub struct Extracted {
 
 /// Places at which the robot must have stood still for the pictures to be taken there.
 const FEWEST_PLACES: usize = 6;
-/// Farthest in time (s) a scan may be from the picture of a robot that stands still, and that moves.
-const BESIDE_STILL_S: f64 = 0.5;
+/// Farthest in time (s) a scan may be from the picture of a robot that moves, and of one that was still for each of them.
 const BESIDE_MOVING_S: f64 = 1e-3;
+const BESIDE_TRIGGERED_S: f64 = 0.5;
+/// Scans that nobody asked for are not used where more captures than this share would be lost for lack of one.
+const MOST_WITHOUT_SCAN: f64 = 0.2;
 
 /// Writes a dataset into a new folder.
 ///
 /// # Errors
 /// A bag that cannot be read or lacks what is asked for; a folder that is there and not empty.
-pub fn extract(bag: &Path, out: &Path, options: &BagOptions) -> Result<Extracted, Error> {
+pub fn extract(
+    bag: &Path,
+    out: &Path,
+    options: &BagOptions,
+    tick: &Tick,
+) -> Result<Extracted, Error> {
     if fs::read_dir(out).is_ok_and(|mut entries| entries.next().is_some()) {
         return Err(unusable(out, "is there already: name a new folder, or remove it"));
     }
-    let survey = survey::survey(bag, options.stamps)?;
+    let survey = survey::survey(bag, options.stamps, tick)?;
     let plan = Plan::new(&survey, bag, options)?;
-    let aside = out.with_file_name(format!(
-        ".{}.{}.part",
-        out.file_name().unwrap_or_default().to_string_lossy(),
-        std::process::id()
-    ));
-    let done = writing::write(plan, &aside).and_then(|extracted| {
-        fs::remove_dir(out).ok(); // an empty one is in the way
-        fs::rename(&aside, out).map_err(|source| Error::Write { path: out.into(), source })?;
-        Ok(extracted)
-    });
-    if done.is_err() {
-        fs::remove_dir_all(&aside).ok();
+    let aside = Aside::new(out);
+    let extracted = writing::write(plan, &aside.folder, tick)?;
+    fs::remove_dir(out).ok(); // an empty one is in the way
+    fs::rename(&aside.folder, out).map_err(|source| Error::Write { path: out.into(), source })?;
+    Ok(extracted)
+}
+
+/// A folder beside the one that is wanted, until all is written; whatever happens, it does not stay.
+struct Aside {
+    folder: PathBuf,
+}
+
+impl Aside {
+    fn new(out: &Path) -> Self {
+        let name = out.file_name().unwrap_or_default().to_string_lossy();
+        let folder = out.with_file_name(format!(".{name}.{}.part", std::process::id()));
+        Self { folder }
     }
-    done
+}
+
+impl Drop for Aside {
+    fn drop(&mut self) {
+        fs::remove_dir_all(&self.folder).ok();
+    }
 }
 
 /// What is to be written.
@@ -135,7 +153,7 @@ impl<'a> Plan<'a> {
         let robot = Robot::of(survey, &options.robot, urdf, bag)?;
         let mut notes = std::mem::take(&mut chosen.notes);
         notes.extend(survey.broken.iter().cloned());
-        notes.extend(robot.gaps());
+        notes.extend(robot.notes());
         for topic in &survey.unstamped {
             notes.push(format!("{topic} has messages without a time; that of recording is taken"));
         }
@@ -143,6 +161,11 @@ impl<'a> Plan<'a> {
             Plan { bag, survey, options, chosen, robot, moving: false, captures: vec![], notes };
         plan.take_moments()?;
         plan.take_scans()?;
+        if let (None, Some(Targets::One(target))) = (&plan.chosen.image, &options.target)
+            && !matches!(target, TargetModel::Sphere { .. })
+        {
+            plan.notes.push("there are no pictures, and of scans alone only a ball can be found (kind = \"sphere\")".into());
+        }
         Ok(plan)
     }
 
@@ -154,17 +177,45 @@ impl<'a> Plan<'a> {
     fn take_moments(&mut self) -> Result<(), Error> {
         let mut shots = self.survey.shots.get(self.leading()).cloned().unwrap_or_default();
         shots.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        if !self.robot.moves() {
+            let source = &self.options.robot;
+            let what = format!(
+                "never moves by {source}: these are other frames than those of the arm, or it stood still throughout"
+            );
+            return Err(unusable(self.bag, what));
+        }
+        let sparse = self.robot.is_sparse();
+        let found = if sparse && self.options.motion == Motion::Still {
+            self.notes.push("the robot's poses come too seldom to see that it stood still: that is taken from --motion still, and of each picture the nearest pose".into());
+            moments::triggered(&shots, &self.robot)
+        } else {
+            self.interpolated(&shots, sparse)?
+        };
+        let numbered = found.into_iter().enumerate();
+        let capture = |(k, moment)| Capture { name: format!("{:04}", k + 1), moment, scan: None };
+        self.captures = numbered.map(capture).collect();
+        Ok(())
+    }
+
+    /// The moments at which the robot's pose can be interpolated.
+    fn interpolated(&mut self, shots: &[Shot], sparse: bool) -> Result<Vec<Moment>, Error> {
+        if sparse {
+            let what = "has poses of the robot too seldom to interpolate between them, less than two a second: record ten \
+                        a second or more; where it stood still at every picture: --motion still";
+            return Err(unusable(self.bag, what));
+        }
         let known = shots.iter().filter(|s| self.robot.at(s.time_s).is_some()).count();
         if known == 0 {
-            return Err(unusable(self.bag, self.never_together(&shots)));
+            return Err(unusable(self.bag, self.never_together(shots)));
         }
         if known < shots.len() {
             let text = "pictures were taken where the robot's pose is not known (before, after, or in a gap)";
             self.notes.push(format!("{} of {} {text}", shots.len() - known, shots.len()));
         }
-        let still = moments::still(&shots, &self.robot);
+        let still = moments::still(shots, &self.robot);
+        let (places, few) = (still.len(), still.len() < FEWEST_PLACES);
         self.moving = match self.options.motion {
-            Motion::Auto => still.len() < FEWEST_PLACES,
+            Motion::Auto => few,
             Motion::Still => false,
             Motion::Moving => true,
         };
@@ -172,24 +223,24 @@ impl<'a> Plan<'a> {
             let what = "has no picture at which the robot stood still; for pictures of a moving robot: --motion moving";
             return Err(unusable(self.bag, what));
         }
-        let found = if self.moving {
-            moments::moving(&shots, &self.robot, self.options.most)
-        } else {
-            still
-        };
-        self.notes.push(if self.moving {
-            format!(
-                "the robot moved: {} of {} pictures are taken, and the time offset of the clocks is estimated",
-                found.len(),
-                shots.len()
-            )
-        } else {
-            format!("the robot stood still at {} places; of each the middle picture is taken", found.len())
-        });
-        let numbered = found.into_iter().enumerate();
-        let capture = |(k, moment)| Capture { name: format!("{:04}", k + 1), moment, scan: None };
-        self.captures = numbered.map(capture).collect();
-        Ok(())
+        if !self.moving {
+            self.notes.push(format!(
+                "the robot stood still at {places} places; of each the middle picture is taken"
+            ));
+            return Ok(still);
+        }
+        if places > 0 && self.options.motion == Motion::Auto {
+            self.notes.push(format!(
+                "it stood still at {places} places only, fewer than {FEWEST_PLACES}: these alone with --motion still"
+            ));
+        }
+        let found = moments::moving(shots, &self.robot, self.options.most);
+        self.notes.push(format!(
+            "the robot moved: {} of {} pictures are taken, and the time offset of the clocks is estimated",
+            found.len(),
+            shots.len()
+        ));
+        Ok(found)
     }
 
     fn never_together(&self, shots: &[Shot]) -> String {
@@ -203,10 +254,11 @@ impl<'a> Plan<'a> {
         };
         format!(
             "tells the robot's pose at no picture: pictures are stamped {}, the robot {}, counted from {:.3} s. Were they \
-             recorded together? Where the camera stamps by a clock of its own: --stamps recorded",
+             recorded together? Where the camera stamps by a clock of its own: --stamps recorded{}",
             range(shots.iter().map(|s| s.time_s).collect()),
             range(self.robot.times()),
-            self.survey.epoch_s()
+            self.survey.epoch_s(),
+            self.robot.notes().into_iter().map(|note| format!("; {note}")).collect::<String>()
         )
     }
 
@@ -217,28 +269,33 @@ impl<'a> Plan<'a> {
             self.captures.iter_mut().for_each(|c| c.scan = Some(c.moment.shot));
             return Ok(());
         }
-        let limit = if self.moving { BESIDE_MOVING_S } else { BESIDE_STILL_S };
         let shots = self.survey.shots.get(topic).cloned().unwrap_or_default();
         for capture in &mut self.captures {
             let taken = capture.moment.shot.time_s;
-            let away = |s: &Shot| (s.time_s - taken).abs();
-            capture.scan = shots
-                .iter()
-                .copied()
-                .min_by(|a, b| away(a).total_cmp(&away(b)))
-                .filter(|s| away(s) <= limit);
+            capture.scan = if self.moving || self.robot.is_sparse() {
+                let limit = if self.moving { BESIDE_MOVING_S } else { BESIDE_TRIGGERED_S };
+                let away = |s: &Shot| (s.time_s - taken).abs();
+                let near = shots.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)));
+                near.filter(|s| away(s) <= limit)
+            } else {
+                moments::scan_beside(&capture.moment, &shots, &self.robot)
+            };
         }
+        let all = self.captures.len();
         let with = self.captures.iter().filter(|c| c.scan.is_some()).count();
-        if with == 0 {
+        let few =
+            self.options.depth.is_none() && all - with > (MOST_WITHOUT_SCAN * all as f64) as usize;
+        if with == 0 || few {
+            let which =
+                if self.moving { "taken with" } else { "taken while the robot stood still for" };
             self.notes.push(format!(
-                "{topic} has no scan within {limit} s of a picture, and is not used"
+                "{topic} is not used: only {with} of {all} pictures have a scan {which} them (--depth {topic} takes these alone)"
             ));
+            self.captures.iter_mut().for_each(|c| c.scan = None);
             self.chosen.scan = None;
-        } else if with < self.captures.len() {
-            self.notes.push(format!(
-                "{} captures have no scan beside them and are left out",
-                self.captures.len() - with
-            ));
+        } else if with < all {
+            self.notes
+                .push(format!("{} captures have no scan beside them and are left out", all - with));
             self.captures.retain(|c| c.scan.is_some());
         }
         Ok(())

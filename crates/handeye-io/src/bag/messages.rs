@@ -1,6 +1,8 @@
 //! The messages of ROS that matter here. ROS 1 and ROS 2 have the same fields in the same order, but for the number
 //! of each message, which ROS 1 keeps in its headers.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::wire::{Broken, Encoding, Wire};
@@ -35,6 +37,7 @@ pub(super) struct CompressedImage<'a> {
 /// `sensor_msgs/CameraInfo`, but for the rotation to the rectified image.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CameraInfo {
+    pub(super) frame: String,
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) distortion_model: String,
@@ -68,11 +71,10 @@ pub(super) struct PointCloud<'a> {
     pub(super) data: &'a [u8],
 }
 
-/// `sensor_msgs/JointState`, but for velocities and efforts.
+/// `sensor_msgs/JointState`, but for its header, velocities and efforts.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct JointState {
-    pub(super) header: Header,
-    pub(super) names: Vec<String>,
+    pub(super) names: Arc<Vec<String>>,
     pub(super) positions: Vec<f64>,
 }
 
@@ -124,7 +126,7 @@ pub(super) fn compressed_image<'a>(wire: &mut Wire<'a>) -> Result<CompressedImag
 }
 
 pub(super) fn camera_info(wire: &mut Wire) -> Result<CameraInfo, Broken> {
-    header(wire)?;
+    let frame = header(wire)?.frame;
     let (height, width) = (wire.u32()?, wire.u32()?);
     let distortion_model = wire.text()?;
     let distortion = wire.list(Wire::f64)?;
@@ -132,6 +134,7 @@ pub(super) fn camera_info(wire: &mut Wire) -> Result<CameraInfo, Broken> {
     let binning = [wire.u32()?, wire.u32()?];
     let region = [wire.u32()?, wire.u32()?, wire.u32()?, wire.u32()?];
     Ok(CameraInfo {
+        frame,
         width,
         height,
         distortion_model,
@@ -158,31 +161,38 @@ fn point_field(wire: &mut Wire) -> Result<PointField, Broken> {
     Ok(field)
 }
 
-pub(super) fn joint_state(wire: &mut Wire) -> Result<JointState, Broken> {
-    let header = header(wire)?;
-    Ok(JointState { header, names: wire.list(Wire::text)?, positions: wire.list(Wire::f64)? })
+/// Header, names and positions of a `sensor_msgs/JointState`.
+pub(super) fn joint_state(wire: &mut Wire) -> Result<(Header, Vec<String>, Vec<f64>), Broken> {
+    Ok((header(wire)?, wire.list(Wire::text)?, wire.list(Wire::f64)?))
 }
 
-pub(super) fn transforms(wire: &mut Wire) -> Result<Vec<Transform>, Broken> {
+/// Each of a message, or what is wrong with it.
+pub(super) fn transforms(wire: &mut Wire) -> Result<Vec<Result<Transform, Broken>>, Broken> {
     wire.list(|wire| {
         let (header, child) = (header(wire)?, frame(&wire.text()?));
-        let parent_from_child =
-            pose(wire).map_err(|what| format!("{what} ({} to {child})", header.frame))?;
-        Ok(Transform { header, child, parent_from_child })
+        let numbers = (wire.numbers()?, wire.numbers()?);
+        Ok(match pose(numbers) {
+            Ok(parent_from_child) => Ok(Transform { header, child, parent_from_child }),
+            Err(what) => Err(format!("{what} ({} to {child})", header.frame)),
+        })
     })
 }
 
-pub(super) fn pose_stamped(wire: &mut Wire) -> Result<PoseStamped, Broken> {
-    Ok(PoseStamped { header: header(wire)?, pose: pose(wire)? })
+/// `geometry_msgs/PoseStamped`, and what begins alike: with the name of a child frame behind the header, or without.
+pub(super) fn pose_stamped(wire: &mut Wire, has_child: bool) -> Result<PoseStamped, Broken> {
+    let header = header(wire)?;
+    if has_child {
+        wire.text()?;
+    }
+    Ok(PoseStamped { header, pose: pose((wire.numbers()?, wire.numbers()?))? })
 }
 
 pub(super) fn text(wire: &mut Wire) -> Result<String, Broken> {
     wire.text()
 }
 
-fn pose(wire: &mut Wire) -> Result<Isometry3<f64>, Broken> {
-    let translation = wire.numbers::<3>()?;
-    let [x, y, z, w] = wire.numbers::<4>()?;
+/// Of a position and a quaternion.
+fn pose((translation, [x, y, z, w]): ([f64; 3], [f64; 4])) -> Result<Isometry3<f64>, Broken> {
     let q = Quaternion::new(w, x, y, z);
     if !((q.norm() - 1.0).abs() < UNIT) || !translation.iter().all(|t| t.is_finite()) {
         return Err(format!(

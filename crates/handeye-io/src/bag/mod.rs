@@ -63,6 +63,8 @@ pub(crate) const ADVICE: &str =
 const ENDINGS: [&str; 3] = ["bag", "mcap", "db3"];
 /// What follows them where the recorder packed whole files.
 const PACKED: &str = "zstd";
+/// And where it did not close a bag of ROS 1.
+const ACTIVE: &str = "active";
 
 /// Whether it is a bag, or a folder of one that was split.
 pub fn is_bag(path: &Path) -> bool {
@@ -72,9 +74,16 @@ pub fn is_bag(path: &Path) -> bool {
     !parts(path).is_empty()
 }
 
+/// Is called again and again while a bag is read; where it unwinds, the work ends and leaves nothing behind.
+pub type Tick<'t> = dyn Fn() + 't;
+
 /// Reads every message of a bag, in the order of its files; returns what is broken.
-pub(crate) fn read(path: &Path, take: &mut Take) -> Result<Vec<String>, Error> {
+pub(crate) fn read(path: &Path, tick: &Tick, take: &mut Take) -> Result<Vec<String>, Error> {
+    std::fs::metadata(path).map_err(|source| Error::Read { path: path.into(), source })?;
     let all = if path.is_dir() { parts(path) } else { vec![path.to_path_buf()] };
+    if path.file_name().is_some_and(|name| name == "metadata.yaml") {
+        return Err(unusable(path, "tells of a bag, and is none: give its folder"));
+    }
     if all.is_empty() {
         return Err(unusable(path, "holds no bag: no file that ends in .mcap, .db3 or .bag"));
     }
@@ -82,6 +91,7 @@ pub(crate) fn read(path: &Path, take: &mut Take) -> Result<Vec<String>, Error> {
     for file in &all {
         let mut unpacked = 0;
         let mut take = |message: &Message| {
+            tick();
             if message.encoding != Encoding::Cdr || !message.bytes.starts_with(&ZSTANDARD) {
                 return take(message);
             }
@@ -90,21 +100,21 @@ pub(crate) fn read(path: &Path, take: &mut Take) -> Result<Vec<String>, Error> {
             bounded(unpacked, file)?;
             take(&Message { bytes: &bytes, ..*message })
         };
-        if let Some(what) = read_file(file, &mut take)? {
+        if let Some(what) = read_file(file, tick, &mut take)? {
             broken.push(format!("{}: {what}", file.display()));
         }
     }
     Ok(broken)
 }
 
-fn read_file(file: &Path, take: &mut Take) -> Result<Cut, Error> {
+fn read_file(file: &Path, tick: &Tick, take: &mut Take) -> Result<Cut, Error> {
     match files::extension(file).as_str() {
         "mcap" => mcap::read(file, take),
         "db3" => sqlite::read(file, take),
-        "bag" => ros1::read(file, take),
+        "bag" | ACTIVE => ros1::read(file, take),
         PACKED => {
-            let (unpacked, cut) = Unpacked::new(file)?;
-            let found = read_file(&unpacked.file, take);
+            let (unpacked, cut) = Unpacked::new(file, tick)?;
+            let found = read_file(&unpacked.file, tick, take);
             found.map(|more| cut.or(more)).map_err(|error| match error {
                 Error::Unusable { what, .. } => unusable(file, what),
                 other => other,
@@ -125,7 +135,7 @@ fn parts(folder: &Path) -> Vec<PathBuf> {
 
 fn has_ending(path: &Path) -> bool {
     let ending = match files::extension(path).as_str() {
-        PACKED => files::extension(&path.with_extension("")),
+        PACKED | ACTIVE => files::extension(&path.with_extension("")),
         other => other.to_owned(),
     };
     ENDINGS.contains(&ending.as_str())
@@ -138,7 +148,7 @@ struct Unpacked {
 
 impl Unpacked {
     /// As far as it can be unpacked, and why no farther.
-    fn new(packed: &Path) -> Result<(Self, Cut), Error> {
+    fn new(packed: &Path, tick: &Tick) -> Result<(Self, Cut), Error> {
         let source = |source| Error::Read { path: packed.into(), source };
         let name = packed.file_stem().unwrap_or_default().to_string_lossy();
         static COUNT: AtomicUsize = AtomicUsize::new(0);
@@ -150,6 +160,7 @@ impl Unpacked {
         let mut from = zstd::Decoder::new(File::open(packed).map_err(source)?).map_err(source)?;
         let (mut piece, mut unpacked) = (vec![0; 1 << 20], 0);
         let cut = loop {
+            tick();
             match from.read(&mut piece) {
                 Ok(0) => break None,
                 Ok(count) => {

@@ -19,6 +19,10 @@ pub(super) struct Moment {
 /// may be late.
 const BEFORE_S: f64 = 0.3;
 const AFTER_S: f64 = 0.1;
+/// What of that a recording must have at its very ends.
+const LEAST_S: f64 = 0.2;
+/// Scans farther than this from their picture (s) may show something else.
+const SAME_REST_S: f64 = 10.0;
 /// Farthest that a robot at rest is from where it is at the picture (rad, m).
 const REST: (f64, f64) = (2e-4, 2e-4);
 /// Pictures whose robot poses differ by less (rad, m) show the same place.
@@ -29,10 +33,14 @@ const METRES_PER_RAD: f64 = 0.3;
 /// One picture of every place where the robot stood still: the middle one.
 pub(super) fn still(shots: &[Shot], robot: &Robot) -> Vec<Moment> {
     let times = robot.times();
+    let resting = |shot: &Shot| Some(Moment { shot: *shot, at: at_rest(shot, robot, &times)? });
+    places(shots.iter().filter_map(resting))
+}
+
+/// Of pictures of the same place, one after the other, the middle one.
+fn places(moments: impl IntoIterator<Item = Moment>) -> Vec<Moment> {
     let mut places: Vec<Vec<Moment>> = vec![];
-    for shot in shots {
-        let Some(at) = at_rest(shot, robot, &times) else { continue };
-        let moment = Moment { shot: *shot, at };
+    for moment in moments {
         match places.last_mut().filter(|place| near(&place[0].at, &moment.at, SAME_PLACE)) {
             Some(place) => place.push(moment),
             None => places.push(vec![moment]),
@@ -44,14 +52,34 @@ pub(super) fn still(shots: &[Shot], robot: &Robot) -> Vec<Moment> {
 /// Where the robot was at a picture, if it was at rest.
 fn at_rest(shot: &Shot, robot: &Robot, times: &[f64]) -> Option<At> {
     let here = robot.at(shot.time_s)?;
-    let (from, to) = (shot.time_s - BEFORE_S, shot.time_s + AFTER_S);
-    let first = times.partition_point(|t| *t < from);
     // where the recording begins or ends, what there is of it counts
-    let within = times[first..].iter().take_while(|t| **t <= to);
-    let rests = |t: &f64| robot.at(*t).is_some_and(|there| near(&here, &there, REST));
-    let mut any = false;
-    let all = within.inspect(|_| any = true).all(rests);
-    (all && any).then_some(here)
+    let (begin, end) = (*times.first()?, *times.last()?);
+    let (from, to) = ((shot.time_s - BEFORE_S).max(begin), (shot.time_s + AFTER_S).min(end));
+    if to - from < LEAST_S {
+        return None;
+    }
+    let rests = |t: f64| robot.at(t).is_some_and(|there| near(&here, &there, REST));
+    let within = times[times.partition_point(|t| *t < from)..].iter().take_while(|t| **t <= to);
+    (rests(from) && rests(to) && within.copied().all(rests)).then_some(here)
+}
+
+/// The scan nearest in time to a picture of a robot that stood still, of those that it was at rest for at the same place.
+pub(super) fn scan_beside(picture: &Moment, scans: &[Shot], robot: &Robot) -> Option<Shot> {
+    let times = robot.times();
+    let away = |s: &Shot| (s.time_s - picture.shot.time_s).abs();
+    let mut near_in_time: Vec<&Shot> = scans.iter().filter(|s| away(s) <= SAME_REST_S).collect();
+    near_in_time.sort_by(|a, b| away(a).total_cmp(&away(b)));
+    let same =
+        |s: &&&Shot| at_rest(s, robot, &times).is_some_and(|at| near(&picture.at, &at, REST));
+    near_in_time.iter().find(same).map(|s| **s)
+}
+
+/// Pictures of a robot that stood still as somebody says, whose poses come too seldom to see that: of each the nearest pose.
+pub(super) fn triggered(shots: &[Shot], robot: &Robot) -> Vec<Moment> {
+    let one = |shot: &Shot| Some(Moment { shot: *shot, at: robot.nearest(shot.time_s)? });
+    let mut all: Vec<Moment> = shots.iter().filter_map(one).collect();
+    all.dedup_by(|b, a| near(&a.at, &b.at, SAME_PLACE));
+    all
 }
 
 fn near(a: &At, b: &At, limit: (f64, f64)) -> bool {
@@ -69,7 +97,8 @@ fn apart(a: &At, b: &At) -> (f64, f64) {
 pub(super) fn moving(shots: &[Shot], robot: &Robot, most: usize) -> Vec<Moment> {
     let known =
         shots.iter().filter_map(|shot| Some(Moment { shot: *shot, at: robot.at(shot.time_s)? }));
-    let known: Vec<Moment> = known.collect();
+    // many pictures of one place tell no more than one: of a rest the middle one counts
+    let known = places(known);
     if known.len() <= most {
         return known;
     }
@@ -78,6 +107,7 @@ pub(super) fn moving(shots: &[Shot], robot: &Robot, most: usize) -> Vec<Moment> 
     for pair in known.windows(2) {
         path.push(path[path.len() - 1] + length(apart(&pair[0].at, &pair[1].at)));
     }
+    let most = most.max(1);
     let cell = path[path.len() - 1] / most as f64;
     let number = |k: usize| if cell > 0.0 { ((path[k] / cell) as usize).min(most - 1) } else { 0 };
     let speeds: Vec<f64> = known.iter().map(|m| speed(robot, m)).collect();

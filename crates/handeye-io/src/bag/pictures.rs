@@ -205,7 +205,11 @@ pub(super) fn cloud(cloud: &PointCloud) -> Result<File, String> {
         found.ok_or_else(|| format!("has no field {name} of floating-point numbers"))
     };
     let xyz = [field("x")?, field("y")?, field("z")?];
-    let (point, row) = (cloud.point_step as usize, cloud.row_step as usize);
+    let point = cloud.point_step as usize;
+    let row = match cloud.row_step as usize {
+        0 => width.saturating_mul(point), // some writers leave it out
+        row => row,
+    };
     let ends = |f: &&PointField| f.offset as usize + if f.datatype == FLOAT { 4 } else { 8 };
     let enough = xyz.iter().map(ends).max() <= Some(point)
         && row >= width.saturating_mul(point)

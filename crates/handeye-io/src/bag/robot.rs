@@ -69,6 +69,8 @@ pub(super) struct JointStream {
     values: Vec<Vec<f64>>,
     /// Pauses longer than this (s) are gaps.
     limit: f64,
+    /// Messages whose values are not finite.
+    left_out: usize,
 }
 
 /// One transform of a chain, or its inverse.
@@ -92,8 +94,14 @@ pub(super) struct At {
 
 /// Poses that differ less (rad, m) are the same.
 const SAME: f64 = 1e-9;
-/// Pauses longer than this many median intervals are gaps, as for poses.
+/// Samples of a transform that does not change may differ by this (rad, m).
+const ROUNDING: f64 = 1e-5;
+/// Pauses longer than this many intervals are gaps; nineteen of twenty intervals are no longer than the one that counts,
+/// which neither bursts nor two senders make short.
 const GAP: f64 = 4.0;
+const USUAL: f64 = 0.95;
+/// Pauses longer than this (s) are gaps, however seldom samples come: a robot goes a long way in that time.
+const LONGEST_PAUSE_S: f64 = 0.5;
 
 impl Robot {
     pub(super) fn of(
@@ -109,10 +117,14 @@ impl Robot {
             RobotSource::Poses { topic } => {
                 let known = survey.poses.keys().map(String::as_str);
                 let samples = survey.poses.get(topic).ok_or_else(|| {
-                    unusable(
-                        bag,
-                        format!("has no poses on {topic}; {}", listed("topics of poses", known)),
-                    )
+                    let holds = survey.topics.get(topic).map_or(String::new(), |t| {
+                        format!(
+                            ", which holds {}: PoseStamped, PoseWithCovarianceStamped, TransformStamped and Odometry are read",
+                            t.kind
+                        )
+                    });
+                    let known = listed("topics of poses", known);
+                    unusable(bag, format!("has no poses on {topic}{holds}; {known}"))
                 })?;
                 stream(samples, topic, bag).map(Robot::Poses)
             }
@@ -168,33 +180,73 @@ impl Robot {
     }
 
     /// What is worth knowing of what was recorded.
-    pub(super) fn gaps(&self) -> Vec<String> {
+    pub(super) fn notes(&self) -> Vec<String> {
         let said = |name: &str, stream: &Stream| {
-            (stream.gaps() > 0).then(|| {
-                let (count, limit) = (stream.gaps(), stream.limit());
-                format!(
-                    "{name} has {count} gaps, pauses longer than {limit:.3} s or jumps; no pose is made up within"
-                )
-            })
+            let (gaps, limit, others) = (stream.gaps(), stream.limit(), stream.conflicting());
+            let gap = format!(
+                "{name} has {gaps} gaps, pauses longer than {limit:.3} s or jumps; no pose is made up within"
+            );
+            let twice = format!(
+                "{name} has {others} samples that contradict others of the same time; they are left out"
+            );
+            [(gaps > 0).then_some(gap), (others > 0).then_some(twice)].into_iter().flatten()
         };
         match self {
             Robot::Links(links) => {
-                let one = |link: &Link| match &link.motion {
-                    Motion::Moving(stream) => said(&link.name, stream),
+                let moving = links.iter().filter_map(|link| match &link.motion {
+                    Motion::Moving(stream) => Some(said(&link.name, stream)),
                     Motion::Fixed(_) => None,
-                };
-                links.iter().filter_map(one).collect()
+                });
+                moving.flatten().collect()
             }
-            Robot::Poses(stream) => said("the robot's topic", stream).into_iter().collect(),
-            Robot::Joints { values: JointStream { times, limit, .. }, .. } => {
+            Robot::Poses(stream) => said("the robot's topic", stream).collect(),
+            Robot::Joints { values: JointStream { times, limit, left_out, .. }, .. } => {
                 let gaps = times.windows(2).filter(|w| w[1] - w[0] > *limit).count();
                 let what = format!(
                     "joint values have {gaps} gaps, pauses longer than {limit:.3} s; none are made up within"
                 );
-                (gaps > 0).then_some(what).into_iter().collect()
+                let bad = format!(
+                    "{left_out} messages with joint values that are not finite are left out"
+                );
+                let notes = [(gaps > 0).then_some(what), (*left_out > 0).then_some(bad)];
+                notes.into_iter().flatten().collect()
             }
         }
     }
+
+    /// Whether the flange is ever anywhere else.
+    pub(super) fn moves(&self) -> bool {
+        let mut poses = self.times().into_iter().filter_map(|t| self.at(t));
+        let Some(first) = poses.next() else { return false };
+        poses.any(|pose| {
+            let apart = first.base_from_flange.iso().inv_mul(pose.base_from_flange.iso());
+            handeye::lie::log(&apart).norm() > LEAST_MOTION
+        })
+    }
+
+    /// Where the flange was at the sample nearest to a time, no farther away than half the usual interval.
+    pub(super) fn nearest(&self, time_s: f64) -> Option<At> {
+        let times = self.times();
+        let away = |t: &f64| (t - time_s).abs();
+        let near = times.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+        self.at(*near).filter(|_| away(near) <= 0.5 * usual(&times))
+    }
+
+    /// Whether samples come too seldom to interpolate between them.
+    pub(super) fn is_sparse(&self) -> bool {
+        usual(&self.times()) > LONGEST_PAUSE_S
+    }
+}
+
+/// A robot whose flange turns or moves less than this (rad, m) stood still throughout.
+const LEAST_MOTION: f64 = 1e-3;
+
+/// An interval between samples that is longer than most, s.
+fn usual(times: &[f64]) -> f64 {
+    let mut all: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
+    all.sort_by(f64::total_cmp);
+    let k = (USUAL * all.len() as f64) as usize;
+    all.get(k.min(all.len().saturating_sub(1))).copied().unwrap_or(0.0)
 }
 
 impl Link {
@@ -219,37 +271,42 @@ fn listed<'a>(what: &str, all: impl Iterator<Item = &'a str>) -> String {
 /// The transforms that lead from the base to the flange.
 fn links(survey: &Survey, base: &str, flange: &str, bag: &Path) -> Result<Vec<Link>, Error> {
     let (down, up) = (ancestors(survey, flange, bag)?, ancestors(survey, base, bag)?);
-    let Some(k) = down.iter().position(|frame| up.contains(frame)) else {
+    let Some(k) = down.frames.iter().position(|frame| up.frames.contains(frame)) else {
+        if let Some(what) = down.end.or(up.end) {
+            return Err(unusable(bag, what));
+        }
+        let broken = survey.broken.iter().map(|what| format!("; {what}")).collect::<String>();
         let what = format!(
-            "has no transforms that join {base} (part of {}) and {flange} (part of {})",
-            up[up.len() - 1],
-            down[down.len() - 1]
+            "has no transforms that join {base} (part of {}) and {flange} (part of {}){broken}",
+            up.frames[up.frames.len() - 1],
+            down.frames[down.frames.len() - 1]
         );
         return Err(unusable(bag, what));
     };
-    let j = up.iter().position(|frame| *frame == down[k]).unwrap_or(0);
+    let j = up.frames.iter().position(|frame| *frame == down.frames[k]).unwrap_or(0);
     let mut all = vec![];
-    for pair in up[..=j].windows(2) {
+    for pair in up.frames[..=j].windows(2) {
         all.push(link(survey, &pair[0], &pair[1], true, bag)?);
     }
-    for pair in down[..=k].windows(2).rev() {
+    for pair in down.frames[..=k].windows(2).rev() {
         all.push(link(survey, &pair[0], &pair[1], false, bag)?);
     }
     Ok(all)
 }
 
-/// A frame, its parent, and so on to the root.
-fn ancestors(survey: &Survey, frame: &str, bag: &Path) -> Result<Vec<String>, Error> {
-    let is_known =
-        survey.edges.contains_key(frame) || survey.edges.values().any(|p| p.contains_key(frame));
-    if !is_known {
-        let known = || {
-            survey
-                .edges
-                .iter()
-                .flat_map(|(c, p)| std::iter::once(c).chain(p.keys()))
-                .map(String::as_str)
-        };
+/// A frame, its parent, and so on.
+struct Ancestors {
+    frames: Vec<String>,
+    /// Why they end before the root.
+    end: Option<String>,
+}
+
+fn ancestors(survey: &Survey, frame: &str, bag: &Path) -> Result<Ancestors, Error> {
+    let known = || {
+        let edges = survey.edges.iter();
+        edges.flat_map(|(c, p)| std::iter::once(c).chain(p.keys())).map(String::as_str)
+    };
+    if !known().any(|name| name == frame) {
         let near =
             nearest(frame, known()).map_or(String::new(), |n| format!(" (did you mean {n}?)"));
         let mut all: Vec<&str> = known().collect();
@@ -261,26 +318,25 @@ fn ancestors(survey: &Survey, frame: &str, bag: &Path) -> Result<Vec<String>, Er
         );
         return Err(unusable(bag, what));
     }
-    let mut chain = vec![frame.to_owned()];
-    while let Some(parents) = survey.edges.get(&chain[chain.len() - 1]) {
-        let names: Vec<&String> = parents.keys().collect();
+    let mut frames = vec![frame.to_owned()];
+    let mut end = None;
+    while let Some(parents) = survey.edges.get(&frames[frames.len() - 1]) {
+        let names: Vec<&str> = parents.keys().map(String::as_str).collect();
         if names.len() > 1 {
-            let both = names.iter().map(|n| n.as_str()).collect::<Vec<_>>().join(" and ");
-            let what = format!(
-                "has transforms of {} in {both}: which of them holds?",
-                chain[chain.len() - 1]
-            );
+            let last = &frames[frames.len() - 1];
+            end = Some(format!(
+                "has transforms of {last} in {}, so that it does not tell where {last} is",
+                names.join(" and ")
+            ));
+            break;
+        }
+        if frames.iter().any(|f| f == names[0]) {
+            let what = format!("has transforms that turn in a circle at {}", names[0]);
             return Err(unusable(bag, what));
         }
-        if chain.contains(names[0]) {
-            return Err(unusable(
-                bag,
-                format!("has transforms that turn in a circle at {}", names[0]),
-            ));
-        }
-        chain.push(names[0].clone());
+        frames.push(names[0].to_owned());
     }
-    Ok(chain)
+    Ok(Ancestors { frames, end })
 }
 
 fn link(
@@ -296,21 +352,37 @@ fn link(
 }
 
 fn motion(edge: &Edge, name: &str, bag: &Path) -> Result<Motion, Error> {
-    let first = edge.samples[0].1;
+    // the last that was said holds, where it was said once for all
+    let first = if edge.fixed { edge.samples[edge.samples.len() - 1].1 } else { edge.samples[0].1 };
+    let limit = if edge.fixed { ROUNDING } else { SAME };
     let stays =
-        |(_, pose): &(f64, Isometry3<f64>)| handeye::lie::log(&first.inv_mul(pose)).norm() < SAME;
+        |(_, pose): &(f64, Isometry3<f64>)| handeye::lie::log(&first.inv_mul(pose)).norm() < limit;
     if edge.samples.iter().all(stays) {
         return Ok(Motion::Fixed(first));
     }
     if edge.fixed {
-        return Err(unusable(bag, format!("says that {name} never changes, and gives several")));
+        let what = format!(
+            "says on tf_static that {name} never changes, and gives several: record the bag anew, or take the joint values \
+             (--joints)"
+        );
+        return Err(unusable(bag, what));
+    }
+    if edge.topics.len() > 1 {
+        let topics: Vec<&str> = edge.topics.iter().map(String::as_str).collect();
+        let what = format!(
+            "tells {name} on several topics, {}: of two robots? Copy the bag without one of them",
+            topics.join(" and ")
+        );
+        return Err(unusable(bag, what));
     }
     stream(&edge.samples, name, bag).map(Motion::Moving)
 }
 
 fn stream(samples: &[(f64, Isometry3<f64>)], name: &str, bag: &Path) -> Result<Stream, Error> {
     let stamped: Vec<_> = samples.iter().map(|&(time_s, pose)| Stamped { time_s, pose }).collect();
-    Stream::new(&stamped, name).map_err(|error| unusable(bag, error.to_string()))
+    let stream = Stream::new(&stamped, name).map_err(|error| unusable(bag, error.to_string()))?;
+    let limit = limit(&stream.times());
+    Ok(stream.with_limit(limit))
 }
 
 fn joints(survey: &Survey, topic: Option<&str>, urdf: Urdf, bag: &Path) -> Result<Robot, Error> {
@@ -331,38 +403,38 @@ fn joints(survey: &Survey, topic: Option<&str>, urdf: Urdf, bag: &Path) -> Resul
             format!("has no joint values on {topic}; {}", listed("topics of them", known())),
         ));
     };
-    let mut samples: Vec<(f64, Vec<f64>)> = vec![];
+    let (mut samples, mut left_out): (Vec<(f64, Vec<f64>)>, usize) = (vec![], 0);
     for (time, state) in states {
         let value = |name: &String| {
             state.positions.get(state.names.iter().position(|n| n == name)?).copied()
         };
         // grippers may share the topic with messages of their own
-        if let Some(values) = urdf.joint_names().iter().map(value).collect::<Option<Vec<f64>>>() {
-            samples.push((*time, values));
+        match urdf.joint_names().iter().map(value).collect::<Option<Vec<f64>>>() {
+            Some(values) if values.iter().all(|x| x.is_finite()) => samples.push((*time, values)),
+            Some(_) => left_out += 1,
+            None => {}
         }
     }
     if samples.is_empty() {
-        let named =
-            states.iter().flat_map(|(_, s)| &s.names).collect::<std::collections::BTreeSet<_>>();
+        let named: std::collections::BTreeSet<_> =
+            states.iter().flat_map(|(_, s)| s.names.iter()).collect();
         let what = format!(
-            "{topic} has no message with all joints of the model ({}); it has {}",
+            "{topic} has no single message with finite values of all joints of the model ({}); its messages name {}",
             urdf.joint_names().join(", "),
             named.into_iter().map(String::as_str).collect::<Vec<_>>().join(", ")
         );
         return Err(unusable(bag, what));
     }
-    if samples.iter().any(|(_, v)| v.iter().any(|x| !x.is_finite())) {
-        return Err(unusable(bag, format!("{topic} has joint values that are not finite")));
-    }
     samples.sort_by(|a, b| a.0.total_cmp(&b.0));
     samples.dedup_by(|a, b| a.0 == b.0);
     let (times, values): (Vec<f64>, _) = samples.into_iter().unzip();
     let limit = limit(&times);
-    Ok(Robot::Joints { urdf: Box::new(urdf), values: JointStream { times, values, limit } })
+    let values = JointStream { times, values, limit, left_out };
+    Ok(Robot::Joints { urdf: Box::new(urdf), values })
 }
 
 fn limit(times: &[f64]) -> f64 {
-    GAP * handeye::linalg::median(times.windows(2).map(|w| w[1] - w[0])) * (1.0 + 1e-9)
+    (GAP * usual(times)).min(LONGEST_PAUSE_S) * (1.0 + 1e-9)
 }
 
 impl JointStream {

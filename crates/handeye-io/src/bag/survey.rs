@@ -3,13 +3,14 @@
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::Path,
+    sync::Arc,
 };
 
 use nalgebra::Isometry3;
 use serde::Serialize;
 
 use super::{
-    Message,
+    Message, Tick,
     messages::{self, CameraInfo, Header, JointState, Transform},
     read,
     wire::{Broken, Wire},
@@ -52,6 +53,8 @@ pub(super) struct Shot {
 pub(super) struct Edge {
     /// Whether the topic says that it never changes.
     pub(super) fixed: bool,
+    /// Where it is told.
+    pub(super) topics: BTreeSet<String>,
     pub(super) samples: Vec<(f64, Isometry3<f64>)>,
 }
 
@@ -94,8 +97,8 @@ pub struct BagContents {
 ///
 /// # Errors
 /// What is no bag.
-pub fn contents(path: &Path) -> Result<BagContents, Error> {
-    let found = survey(path, Stamps::Header)?;
+pub fn contents(path: &Path, tick: &Tick) -> Result<BagContents, Error> {
+    let found = survey(path, Stamps::Header, tick)?;
     let names = |(topic, all): (&String, &Vec<(f64, JointState)>)| {
         let names = all.iter().flat_map(|(_, state)| state.names.iter().cloned());
         (topic.clone(), names.collect::<BTreeSet<_>>().into_iter().collect())
@@ -115,10 +118,10 @@ pub(super) const COMPRESSED: &str = "sensor_msgs/CompressedImage";
 pub(super) const CLOUD: &str = "sensor_msgs/PointCloud2";
 
 /// Reads a bag, but no picture of it.
-pub(crate) fn survey(path: &Path, stamps: Stamps) -> Result<Survey, Error> {
+pub(crate) fn survey(path: &Path, stamps: Stamps, tick: &Tick) -> Result<Survey, Error> {
     let mut found = Survey { stamps, ..Survey::default() };
     let mut unreadable: BTreeMap<String, (usize, Broken)> = BTreeMap::new();
-    let broken = read(path, &mut |message| {
+    let broken = read(path, tick, &mut |message| {
         if let Err(what) = found.take(message) {
             unreadable.entry(message.topic.into()).or_insert((0, what)).0 += 1;
         }
@@ -126,11 +129,9 @@ pub(crate) fn survey(path: &Path, stamps: Stamps) -> Result<Survey, Error> {
     })?;
     found.broken = broken;
     let each = unreadable.into_iter();
-    found.broken.extend(
-        each.map(|(topic, (n, what))| {
-            format!("{n} messages of {topic} cannot be read: one {what}")
-        }),
-    );
+    found.broken.extend(each.map(|(topic, (n, what))| {
+        format!("{n} messages of {topic} cannot be read, or not all of them: one {what}")
+    }));
     Ok(found)
 }
 
@@ -148,12 +149,22 @@ impl Survey {
         match message.kind {
             "tf2_msgs/TFMessage" | "tf/tfMessage" => self.transforms(message, &mut wire)?,
             "sensor_msgs/JointState" => {
-                let state = messages::joint_state(&mut wire)?;
-                let time = self.time(message, &state.header);
-                self.joints.entry(message.topic.into()).or_default().push((time, state));
+                let (header, names, positions) = messages::joint_state(&mut wire)?;
+                let time = self.time(message, &header);
+                let all = self.joints.entry(message.topic.into()).or_default();
+                // the names are the same in every message, mostly
+                let names = match all.last() {
+                    Some((_, last)) if *last.names == names => Arc::clone(&last.names),
+                    _ => Arc::new(names),
+                };
+                all.push((time, JointState { names, positions }));
             }
-            "geometry_msgs/PoseStamped" => {
-                let pose = messages::pose_stamped(&mut wire)?;
+            "geometry_msgs/PoseStamped"
+            | "geometry_msgs/PoseWithCovarianceStamped"
+            | "geometry_msgs/TransformStamped"
+            | "nav_msgs/Odometry" => {
+                let has_child = !message.kind.contains("Pose");
+                let pose = messages::pose_stamped(&mut wire, has_child)?;
                 let time = self.time(message, &pose.header);
                 self.note(message.topic, &pose.header, String::new);
                 self.poses.entry(message.topic.into()).or_default().push((time, pose.pose));
@@ -194,13 +205,24 @@ impl Survey {
 
     fn transforms(&mut self, message: &Message, wire: &mut Wire) -> Result<(), Broken> {
         let fixed = message.topic.ends_with("tf_static");
-        for Transform { header, child, parent_from_child } in messages::transforms(wire)? {
+        let mut broken = Ok(());
+        for transform in messages::transforms(wire)? {
+            let Transform { header, child, parent_from_child } = match transform {
+                Ok(transform) => transform,
+                Err(what) => {
+                    broken = Err(what); // the others of the message hold
+                    continue;
+                }
+            };
             let time = if fixed { 0.0 } else { self.time(message, &header) };
             let edge = self.edges.entry(child).or_default().entry(header.frame).or_default();
             edge.fixed |= fixed;
+            if !edge.topics.contains(message.topic) {
+                edge.topics.insert(message.topic.into());
+            }
             edge.samples.push((time, parent_from_child));
         }
-        Ok(())
+        broken
     }
 
     /// When it was, after the first time of the bag (s).

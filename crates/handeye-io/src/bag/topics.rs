@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use super::survey::{CLOUD, COMPRESSED, IMAGE, Survey, Topic};
+use super::{
+    messages::CameraInfo,
+    survey::{CLOUD, COMPRESSED, IMAGE, Survey, Topic},
+};
 use crate::error::{Error, unusable};
 
 /// What a bag's pictures and scans are.
@@ -26,8 +29,7 @@ pub(super) struct Asked<'a> {
 
 fn is_depth(topic: &Topic) -> bool {
     let shape = topic.shape.as_deref().unwrap_or_default();
-    let depth =
-        ["16UC1", "32FC1"].iter().any(|e| shape.ends_with(e)) || shape.contains("compressedDepth");
+    let depth = ["16UC1", "32FC1", "compressedDepth"].iter().any(|e| shape.contains(e));
     topic.kind == CLOUD || depth && [IMAGE, COMPRESSED].contains(&topic.kind.as_str())
 }
 
@@ -38,6 +40,7 @@ fn is_picture(topic: &Topic) -> bool {
 pub(super) fn choose(survey: &Survey, asked: &Asked, bag: &Path) -> Result<Chosen, Error> {
     let mut chosen = Chosen { image: image(survey, asked.image, bag)?, ..Chosen::default() };
     chosen.scan = match asked.scan {
+        None if chosen.image.as_ref().is_some_and(|i| is_depth(&survey.topics[i])) => None,
         Some(name) => Some(scan(survey, name, &chosen, bag)?),
         None => scan_beside(survey, &mut chosen),
     };
@@ -55,6 +58,17 @@ pub(super) fn choose(survey: &Survey, asked: &Asked, bag: &Path) -> Result<Chose
     chosen.image_camera =
         asked.camera.map(String::from).or_else(|| chosen.image.as_ref().and_then(camera));
     chosen.scan_camera = chosen.scan.as_ref().and_then(camera);
+    let leading = chosen.image.as_ref().or(chosen.scan.as_ref());
+    if let Some(leading) =
+        leading.filter(|_| chosen.image_camera.is_none() && chosen.scan_camera.is_none())
+    {
+        let known = survey.cameras.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
+        if !known.is_empty() {
+            chosen.notes.push(format!(
+                "no camera_info lies beside {leading} in its frame; --camera-info takes one of: {known}"
+            ));
+        }
+    }
     Ok(chosen)
 }
 
@@ -64,7 +78,10 @@ fn image(survey: &Survey, asked: Option<&str>, bag: &Path) -> Result<Option<Stri
         survey.topics.iter().filter(|(_, t)| is_picture(t)).map(|(name, _)| name).collect();
     if let Some(name) = asked {
         return match survey.topics.get(name) {
-            Some(topic) if is_picture(topic) => Ok(Some(name.into())),
+            // pictures of 16 bits look like depth: here somebody says what they are
+            Some(topic) if [IMAGE, COMPRESSED].contains(&topic.kind.as_str()) => {
+                Ok(Some(name.into()))
+            }
             Some(topic) => Err(unusable(bag, format!("{name} holds {}, no pictures", topic.kind))),
             None => Err(unusable(
                 bag,
@@ -72,11 +89,7 @@ fn image(survey: &Survey, asked: Option<&str>, bag: &Path) -> Result<Option<Stri
             )),
         };
     }
-    let packed = |name: &String| {
-        all.iter()
-            .any(|raw| name.strip_prefix(raw.as_str()).is_some_and(|rest| rest.starts_with('/')))
-    };
-    let single: Vec<&&String> = all.iter().filter(|name| !packed(name)).collect();
+    let single: Vec<&&String> = all.iter().filter(|name| !is_packed(name, &all)).collect();
     match single[..] {
         [] => Ok(None),
         [one] => Ok(Some((*one).clone())),
@@ -88,6 +101,11 @@ fn image(survey: &Survey, asked: Option<&str>, bag: &Path) -> Result<Option<Stri
             ),
         )),
     }
+}
+
+/// Whether a topic is another one packed: `.../image_raw/compressed` beside `.../image_raw`.
+fn is_packed(name: &str, all: &[&String]) -> bool {
+    all.iter().any(|raw| name.strip_prefix(raw.as_str()).is_some_and(|rest| rest.starts_with('/')))
 }
 
 /// A scan counts in the frame of the pictures.
@@ -118,7 +136,9 @@ fn scan_beside(survey: &Survey, chosen: &mut Chosen) -> Option<String> {
         Some(image) => Some(&survey.topics.get(image)?.frame),
         None => None,
     };
-    let all = survey.topics.iter().filter(|(_, t)| is_depth(t));
+    let depth: Vec<&String> =
+        survey.topics.iter().filter(|(_, t)| is_depth(t)).map(|(name, _)| name).collect();
+    let all = survey.topics.iter().filter(|(name, t)| is_depth(t) && !is_packed(name, &depth));
     let (near, far): (Vec<_>, Vec<_>) = all.partition(|(_, t)| frame.is_none_or(|f| t.frame == *f));
     if !far.is_empty() {
         let names: Vec<&str> = far.iter().map(|(name, _)| name.as_str()).collect();
@@ -144,13 +164,16 @@ fn scan_beside(survey: &Survey, chosen: &mut Chosen) -> Option<String> {
     Some(one.clone())
 }
 
-/// The camera's topic beside one of its pictures: the nearest `camera_info` upwards.
+/// The camera's topic beside one of its pictures: the nearest `camera_info` upwards of the same frame.
 fn camera_beside(survey: &Survey, topic: &str) -> Option<String> {
+    let frame = survey.topics.get(topic)?.frame.clone().unwrap_or_default();
     let mut above = topic;
     while let Some(end) = above.rfind('/') {
         above = &above[..end];
         let name = format!("{above}/camera_info");
-        if survey.cameras.contains_key(&name) {
+        let fits =
+            |info: &CameraInfo| info.frame.is_empty() || frame.is_empty() || info.frame == frame;
+        if survey.cameras.get(&name).is_some_and(fits) {
             return Some(name);
         }
     }

@@ -1,9 +1,14 @@
 //! The files of a dataset that comes from a bag, and the manifest that describes them.
 
-use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fmt::Write as _,
+    fs,
+    path::Path,
+};
 
 use super::{
-    Message,
+    Message, Tick,
     extract::{Capture, Extracted, Plan},
     messages::{self, CameraInfo},
     pictures::{self, File},
@@ -50,8 +55,8 @@ struct Cameras {
     scan: bool,
 }
 
-pub(super) fn write(mut plan: Plan, folder: &Path) -> Result<Extracted, Error> {
-    let written = pictures(&mut plan, folder)?;
+pub(super) fn write(mut plan: Plan, folder: &Path, tick: &Tick) -> Result<Extracted, Error> {
+    let written = pictures(&mut plan, folder, tick)?;
     keep_whole(&mut plan, &written, folder)?;
     let cameras = cameras(&mut plan, folder)?;
     robot_files(&plan, folder)?;
@@ -84,11 +89,11 @@ fn wanted(plan: &Plan) -> Wanted {
 }
 
 /// Writes all pictures and scans in one more pass.
-fn pictures(plan: &mut Plan, folder: &Path) -> Result<Written, Error> {
+fn pictures(plan: &mut Plan, folder: &Path, tick: &Tick) -> Result<Written, Error> {
     let wanted = wanted(plan);
     let (mut counts, mut done, mut broken) =
         (BTreeMap::<String, usize>::new(), Written::new(), vec![]);
-    read(plan.bag, &mut |message| {
+    read(plan.bag, tick, &mut |message| {
         let count = counts.entry(message.topic.into()).or_default();
         let index = *count;
         *count += 1;
@@ -175,6 +180,12 @@ fn camera(plan: &mut Plan, topic: &str, pictures: &str, path: &Path) -> Result<b
         return Ok(false);
     }
     let rectified = pictures.split('/').any(|part| part.starts_with("image_rect"));
+    if rectified && info.projection[0] == 0.0 {
+        plan.notes.push(format!(
+            "{pictures} is rectified, as its name says, and {topic} does not tell its projection (P): the camera is not used"
+        ));
+        return Ok(false);
+    }
     if rectified {
         let text = format!(
             "{pictures} is rectified, as its name says: of {topic} the projection holds, without distortion"
@@ -329,7 +340,12 @@ fn robot(plan: &Plan) -> String {
 /// Pictures, scans, and what belongs together.
 fn series(plan: &Plan, cameras: &Cameras, written: &Written) -> String {
     let ending = |kind: Kind| {
-        written.iter().find(|((_, k), _)| *k == kind).map_or("png", |(_, ending)| ending)
+        let all: BTreeSet<&str> =
+            written.iter().filter(|((_, k), _)| *k == kind).map(|(_, ending)| *ending).collect();
+        match all.len() {
+            0 | 1 => all.first().copied().unwrap_or("png"),
+            _ => "*",
+        }
     };
     let mut text = String::new();
     if plan.chosen.image.is_some() {

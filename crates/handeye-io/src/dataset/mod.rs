@@ -21,7 +21,8 @@ use handeye::{
 use serde::Deserialize;
 
 use crate::{
-    error::Error,
+    bag,
+    error::{Error, unusable},
     files, image,
     scan::{self, ScanOptions},
 };
@@ -182,6 +183,9 @@ impl Dataset {
     /// # Errors
     /// As [`Dataset::open`].
     pub fn open_with_root(manifest: &Path, root: &Path) -> Result<Dataset, Error> {
+        if manifest.is_file() && bag::is_bag(manifest) {
+            return Err(unusable(manifest, bag::ADVICE));
+        }
         let source = Source { path: manifest.to_path_buf(), text: files::text(manifest)? };
         Self::of_source(source, root)
     }

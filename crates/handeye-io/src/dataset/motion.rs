@@ -23,6 +23,8 @@ pub(crate) const TIMES: &str = "times.csv";
 pub struct Motion {
     /// Where the flange was, by the robot's clock.
     pub robot: Vec<Stamped<Pose<Base, Flange>>>,
+    /// What its joint values were, where they are known (rad, m).
+    pub joints: Vec<Stamped<Vec<f64>>>,
     /// When each capture was taken, by the camera's clock, s.
     pub times: BTreeMap<String, f64>,
 }
@@ -35,6 +37,10 @@ pub(super) fn of(
     source: &Source,
     root: &Path,
 ) -> Result<Motion, Error> {
+    let joints = robot.iter().filter(|r| !r.joints.is_empty());
+    let joints: Vec<_> = joints
+        .filter_map(|r| Some(Stamped { time_s: r.time_s?, pose: r.joints.clone() }))
+        .collect();
     let robot: Vec<Stamped<Pose<Base, Flange>>> =
         robot.iter().map(stamped).collect::<Result<_, _>>()?;
     let place = source.place("motion.times");
@@ -52,7 +58,7 @@ pub(super) fn of(
             capture.base_from_flange = near;
         }
     }
-    Ok(Motion { robot, times })
+    Ok(Motion { robot, joints, times })
 }
 
 fn stamped(named: &Named<Pose<Base, Flange>>) -> Result<Stamped<Pose<Base, Flange>>, Error> {

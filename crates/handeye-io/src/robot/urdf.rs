@@ -10,7 +10,7 @@ use handeye::{
     kinematics::{Arm, Axis, MOST_JOINTS},
 };
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, ParsingOptions};
 use serde::Deserialize;
 
 use crate::{
@@ -64,7 +64,8 @@ impl Urdf {
     /// # Errors
     /// As [`Urdf::read`].
     pub fn parse(text: &str, path: &Path, base: &str, flange: &str) -> Result<Urdf, Error> {
-        let document = Document::parse(text).map_err(|e| {
+        let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+        let document = Document::parse_with_options(text, options).map_err(|e| {
             let place = Place::line(path, e.pos().row as usize);
             malformed(place, format!("is not XML: {e}"), "give the URDF of the robot")
         })?;
@@ -78,8 +79,8 @@ impl Urdf {
             return Err(malformed(Place::file(path), "is a xacro, not a URDF", advice));
         }
         let joints = joints(&root, path)?;
-        let chain = chain(&joints, base, flange, path)?;
-        let (arm, names) = arm(&chain, path)?;
+        let (start, chain) = chain(&joints, base, flange, path)?;
+        let (arm, names) = arm(start, &chain, path)?;
         let links = (base.to_owned(), flange.to_owned());
         Ok(Urdf { arm, joints: names, text: text.into(), links })
     }
@@ -159,13 +160,13 @@ fn three(text: &str) -> Option<Vector3<f64>> {
     }
 }
 
-/// The joints from the base outwards.
+/// Where the chain begins, and its joints from there outwards.
 fn chain<'a>(
     joints: &'a Joints,
     base: &str,
     flange: &str,
     path: &Path,
-) -> Result<Vec<&'a Joint>, Error> {
+) -> Result<(Isometry3<f64>, Vec<&'a Joint>), Error> {
     let links = || joints.iter().flat_map(|(child, joint)| [child.as_str(), joint.parent.as_str()]);
     for link in [base, flange] {
         if !links().any(|l| l == link) {
@@ -176,8 +177,23 @@ fn chain<'a>(
             return Err(malformed(Place::file(path), format!("there is no link {link}"), advice));
         }
     }
+    // a base that hangs on the trunk by joints that do not move, as UR's `base` on its `base_link`
+    let (mut trunk, mut base_from_trunk) =
+        (vec![(base, Isometry3::identity())], Isometry3::identity());
+    let mut below = base;
+    while let Some(joint) =
+        joints.get(below).filter(|j| j.kind == "fixed" && trunk.len() <= joints.len())
+    {
+        base_from_trunk *= joint.parent_from_joint.inverse();
+        below = &joint.parent;
+        trunk.push((below, base_from_trunk));
+    }
     let (mut all, mut here) = (vec![], flange);
-    while here != base {
+    loop {
+        if let Some((_, base_from_here)) = trunk.iter().find(|(link, _)| *link == here) {
+            all.reverse();
+            return Ok((*base_from_here, all));
+        }
         let Some(joint) = joints.get(here).filter(|_| all.len() <= joints.len()) else {
             let what = format!("no chain of joints leads from {base} out to {flange}");
             let advice = "base is the link nearer to the ground, flange the one at the far end";
@@ -186,8 +202,6 @@ fn chain<'a>(
         all.push(joint);
         here = &joint.parent;
     }
-    all.reverse();
-    Ok(all)
 }
 
 fn in_order<'a>(names: impl Iterator<Item = &'a str>) -> String {
@@ -195,8 +209,8 @@ fn in_order<'a>(names: impl Iterator<Item = &'a str>) -> String {
 }
 
 /// The arm of a chain, and the names of the joints that move.
-fn arm(chain: &[&Joint], path: &Path) -> Result<(Arm, Vec<String>), Error> {
-    let (mut here, mut axes, mut names) = (Isometry3::identity(), vec![], vec![]);
+fn arm(start: Isometry3<f64>, chain: &[&Joint], path: &Path) -> Result<(Arm, Vec<String>), Error> {
+    let (mut here, mut axes, mut names) = (start, vec![], vec![]);
     for joint in chain {
         here *= joint.parent_from_joint;
         if joint.kind == "fixed" {
@@ -271,6 +285,11 @@ mod tests {
         assert!((pose.translation() - Vector3::new(0.0, 0.6, 0.5)).norm() < 1e-12, "{pose:?}");
         let higher = read(ARM, "world", "tool0").unwrap().arm().base_from_flange(&[0.0, 0.0]);
         assert!((higher.translation() - Vector3::new(0.3, 0.0, 1.5)).norm() < 1e-12, "{higher:?}");
+        let side = r#"<joint name="side" type="fixed"><parent link="base_link"/><child link="base"/>
+          <origin xyz="0 0 0.2" rpy="0 0 3.141592653589793"/></joint></robot>"#;
+        let turned = read(&ARM.replace("</robot>", side), "base", "tool0").unwrap();
+        let pose = turned.arm().base_from_flange(&[std::f64::consts::FRAC_PI_2, 0.3]);
+        assert!((pose.translation() - Vector3::new(0.0, -0.6, 0.3)).norm() < 1e-12, "{pose:?}");
     }
 
     #[test]
@@ -281,6 +300,8 @@ mod tests {
         );
         assert!(wrong(ARM, "tool0", "base_link").contains("no chain of joints leads from tool0"));
         assert!(wrong(ARM, "world", "base_link").contains("0 joints move"));
+        let typed = format!("<!DOCTYPE robot>{}", ARM.trim_start());
+        assert!(read(&typed, "base_link", "tool0").is_ok());
         let floating = ARM.replace("prismatic", "floating");
         assert!(
             wrong(&floating, "base_link", "tool0").starts_with("arm.urdf:6: joint slide: the type")

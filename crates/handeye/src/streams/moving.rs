@@ -15,8 +15,9 @@ use crate::{
     calibrate::settle::Stand,
 };
 
-/// Calibrates from captures of a moving robot. `robot` is where its flange was over time, `times` says when each capture
-/// was taken, by the camera's clock (s); the robot poses in `session` are not looked at. The result tells the offset of
+/// Calibrates from captures of a moving robot. `robot` is where its flange was over time, `joints` what its joint values
+/// were (rad, m; empty where they are not known), `times` says when each capture was taken, by the camera's clock (s); the
+/// robot's poses and joint values in `session` are not looked at. The result tells the offset of
 /// the clocks, camera time minus robot time, and its standard deviation.
 ///
 /// # Errors
@@ -25,6 +26,7 @@ use crate::{
 pub fn calibrate_moving(
     session: &Session,
     robot: &[Stamped<Pose<Base, Flange>>],
+    joints: &[Stamped<Vec<f64>>],
     times: &BTreeMap<String, f64>,
     config: &Config,
 ) -> Result<Calibration, Error> {
@@ -39,7 +41,8 @@ pub fn calibrate_moving(
         Ok((settled, chosen, _)) => {
             let likeness = choose::likeness(&settled, both.setup);
             let steady = open::clock_is_free(&both, &chosen, &settled);
-            let (result, without) = finish(session, &both, times, settled.stand, steady, config)?;
+            let moving = Moving { both: &both, joints: in_order(joints), times };
+            let (result, without) = finish(session, &moving, settled.stand, steady, config)?;
             warnings.extend(without);
             warnings.extend(told(
                 &result,
@@ -73,25 +76,53 @@ fn streams(
     }
 }
 
+/// A robot in motion, and when the captures were taken.
+struct Moving<'a> {
+    both: &'a Both,
+    /// In the order of their times.
+    joints: Vec<&'a Stamped<Vec<f64>>>,
+    times: &'a BTreeMap<String, f64>,
+}
+
+fn in_order(joints: &[Stamped<Vec<f64>>]) -> Vec<&Stamped<Vec<f64>>> {
+    let mut all: Vec<_> = joints.iter().filter(|j| j.time_s.is_finite()).collect();
+    all.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    all
+}
+
+/// Joint values between two samples, by a straight line. Whether they are too far apart the poses tell.
+fn joints_at(joints: &[&Stamped<Vec<f64>>], time_s: f64) -> Option<Vec<f64>> {
+    let after = joints.partition_point(|j| j.time_s <= time_s);
+    let before = joints[after.checked_sub(1)?];
+    if before.time_s == time_s {
+        return Some(before.pose.clone());
+    }
+    let next = joints.get(after)?;
+    let part = (time_s - before.time_s) / (next.time_s - before.time_s);
+    Some(before.pose.iter().zip(&next.pose).map(|(a, b)| a + part * (b - a)).collect())
+}
+
 /// The calibration with every capture at the robot's pose of its moment, and those of which there is none.
 fn finish(
     session: &Session,
-    both: &Both,
-    times: &BTreeMap<String, f64>,
+    moving: &Moving,
     stand: Stand,
     steady: bool,
     config: &Config,
 ) -> Result<(Calibration, Option<Warning>), Error> {
     let (mut session, mut velocities) = (session.clone(), BTreeMap::new());
+    let Moving { both, joints, times } = moving;
     let offset = stand.offset + both.epochs();
     let mut without = vec![];
     session.observations.retain_mut(|o| {
-        let Some(moment) = times.get(&o.capture).and_then(|t| both.robot_at(t - offset)) else {
+        let time_s = times.get(&o.capture).map(|t| t - offset);
+        let moment = time_s.and_then(|t| Some((t, both.robot_at(t)?)));
+        let Some((time_s, moment)) = moment else {
             without.push(o.capture.clone());
             return false;
         };
         o.base_from_flange = Pose::claim(moment.robot);
-        o.joints.clear(); // those of another moment
+        o.joints = joints_at(joints, time_s).unwrap_or_default();
         velocities.insert(o.capture.clone(), both.mount_velocity(&moment));
         true
     });

@@ -35,6 +35,8 @@ pub struct Stream {
     pub(super) poses: Vec<Isometry3<f64>>,
     /// Median time between samples (s).
     pub(super) interval: f64,
+    /// Pauses that are gaps (s), where somebody said so.
+    limit: Option<f64>,
     /// What was put right.
     pub(super) cleaned: Cleaned,
 }
@@ -89,12 +91,22 @@ impl Stream {
             poses.push(first.pose);
         }
         let interval = linalg::median(times.windows(2).map(|w| w[1] - w[0]));
-        Ok(Self { epoch, times, poses, interval, cleaned })
+        Ok(Self { epoch, times, poses, interval, limit: None, cleaned })
     }
 
-    /// Pauses longer than this (s) are gaps.
+    /// Pauses longer than this (s) are gaps: four median intervals, unless said otherwise.
     pub fn limit(&self) -> f64 {
-        GAP * self.interval
+        self.limit.unwrap_or(GAP * self.interval)
+    }
+
+    /// The same stream, in which pauses longer than this (s) are gaps.
+    pub fn with_limit(self, seconds: f64) -> Self {
+        Self { limit: Some(seconds), ..self }
+    }
+
+    /// Samples that were left out, for others of the same time contradict them.
+    pub fn conflicting(&self) -> usize {
+        self.cleaned.conflicting
     }
 
     /// How many pauses are gaps.
