@@ -46,6 +46,8 @@ pub use camera::{Distortion, Intrinsics};
 pub use error::{Error, Warning};
 pub use frame::{Anchor, Base, Camera, Flange, Frame, Mount, Point, Pose, Target, Tip, Tool};
 pub use image::GrayImage;
+/// Vectors, matrices and rotations of this library's functions, in the version that they take.
+pub use nalgebra;
 pub use observation::{
     Correspondence, HandEye, ImageCorner, Observation, Placement, PosePair, Setup, SurfaceCorner,
     TargetPose, Touch, Workspace,
