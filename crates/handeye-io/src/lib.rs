@@ -7,6 +7,7 @@
 
 pub mod calibrate;
 mod camera;
+mod causes;
 pub mod checkup;
 mod dataset;
 pub mod drawing;
