@@ -189,6 +189,6 @@ mod tests {
         assert_eq!(closer(388_105_634.0), "more than a million times closer");
         assert_eq!(closer(f64::INFINITY), "more than a million times closer");
         assert_eq!(closer(4321.9), "4322 times closer");
-        assert_eq!(closer(3.14), "3.1 times closer");
+        assert_eq!(closer(3.16), "3.2 times closer");
     }
 }

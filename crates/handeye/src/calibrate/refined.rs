@@ -95,13 +95,13 @@ mod tests {
     #[test]
     fn half_a_pixel_is_named() {
         let half = told(Intrinsics { cx: 959.45, cy: 599.56, ..given() });
-        assert!(half.contains("cx 960.00 -> 959.45") && half.contains("half a pixel"), "{half}");
+        assert!(half.contains("cx 960.00 -> 959.45") && half.contains("Half a pixel"), "{half}");
         for other in [
             Intrinsics { cx: 959.5, cy: 600.5, ..given() },
             Intrinsics { cx: 959.5, ..given() },
             Intrinsics { cx: 959.5, cy: 599.5, fx: 1803.0, ..given() },
         ] {
-            assert!(!told(other).contains("half a pixel"), "{other:?}");
+            assert!(!told(other).contains("Half a pixel"), "{other:?}");
         }
     }
 }
