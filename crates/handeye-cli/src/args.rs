@@ -12,7 +12,7 @@ use handeye_io::units::LengthUnit;
 /// evidence. Exit codes: 0 accepted, 1 the input cannot be used, 2 wrong command line, 3 rejected
 /// or undetermined (the result is still written).
 #[derive(Parser)]
-#[command(version, max_term_width = 80)]
+#[command(name = "handeye", version, max_term_width = 80)]
 pub struct Program {
     /// What to do.
     #[command(subcommand)]

@@ -80,8 +80,20 @@ fn apply(
 
 fn misfit(score: Option<&Score>) -> String {
     score.map_or("no agreement at all".into(), |s| {
-        format!("{:.2} mm, {:.3} degrees, {} agree", s.translation_mm, s.rotation_deg, s.agree)
+        let agree = if s.agree == 0 { "none".into() } else { s.agree.to_string() };
+        format!("{:.2} mm, {:.3} degrees, {agree} agree", s.translation_mm, s.rotation_deg)
     })
+}
+
+/// Beyond this the factor itself says nothing.
+const MANY_TIMES: f64 = 1e6;
+
+fn closer(times: f64) -> String {
+    match times {
+        t if t > MANY_TIMES => "more than a million times closer".into(),
+        t if t >= 100.0 => format!("{t:.0} times closer"),
+        t => format!("{t:.1} times closer"),
+    }
 }
 
 /// What speaks for an explanation.
@@ -91,7 +103,7 @@ fn evidence(declared: Option<&Score>, e: &Explanation) -> String {
     text += &match (e.p_value, declared) {
         (Some(p), _) => format!("    evidence         chance of it in a right dataset: {p:.1e}\n"),
         (None, Some(d)) => {
-            format!("    evidence         {:.1} times closer\n", d.score / after.score)
+            format!("    evidence         {}\n", closer(d.score / after.score))
         }
         (None, None) => String::new(),
     };
@@ -165,5 +177,18 @@ fn applied(answer: &Answer, apply: Option<usize>) -> String {
             let why = by_hand.unwrap_or("no mistake was found that a manifest could correct");
             format!("\n{}", output::wrapped("", &format!("nothing applied: {why}")))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_factors_are_said_in_words() {
+        assert_eq!(closer(388_105_634.0), "more than a million times closer");
+        assert_eq!(closer(f64::INFINITY), "more than a million times closer");
+        assert_eq!(closer(4321.9), "4322 times closer");
+        assert_eq!(closer(3.16), "3.2 times closer");
     }
 }

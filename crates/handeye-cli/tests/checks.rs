@@ -62,6 +62,24 @@ fn one_explanation_is_applied_and_comments_stay() {
 }
 
 #[test]
+fn a_wrong_unit_is_found_on_a_robot_of_one_axis() {
+    for seed in ["2", "3"] {
+        let folder = Folder::new();
+        let how =
+            ["--no-images", "--touches", "0", "--captures", "12", "--tilt-deg", "0", "--quiet"];
+        let made = handeye(&folder, &[&["simulate", "cell", "--seed", seed], &how[..]].concat());
+        assert_eq!(made.code, 0, "{}", made.stderr);
+        let manifest = folder.read("cell/handeye.toml");
+        let wrong = manifest.replacen("length_unit = \"m\"", "length_unit = \"cm\"", 1);
+        folder.put("cell/handeye.toml", &wrong);
+        let found = check(&folder, &["--apply"]).json();
+        assert_eq!(found["declared"]["agree"], 0, "{found}");
+        assert_eq!(found["applied"]["explanation"], 1, "{found}");
+        assert_eq!(folder.read("cell/handeye.toml"), manifest);
+    }
+}
+
+#[test]
 fn of_explanations_that_fit_alike_none_is_applied_unasked() {
     let folder = cell("\"base_from_flange\"", "\"flange_from_base\"");
     let before = folder.read("cell/handeye.toml");

@@ -235,6 +235,35 @@ fn a_result_that_is_not_accepted_is_exported_only_by_force() {
 }
 
 #[test]
+fn the_program_gives_its_name_and_version() {
+    let run = handeye(&Folder::new(), &["--version"]);
+    assert_eq!((run.code, run.stdout), (0, format!("handeye {}\n", env!("CARGO_PKG_VERSION"))));
+}
+
+#[test]
+fn a_first_manifest_says_what_it_waits_for() {
+    let folder = Folder::new();
+    folder.put("cell/img_1.png", "@png 8x8");
+    folder.put("cell/robot.csv", "x,y,z,qx,qy,qz,qw\n0.1,0.2,0.3,0,0,0,1\n");
+    assert_eq!(handeye(&folder, &["init", "cell"]).code, 0);
+    let asked: Vec<String> = (1..)
+        .zip(folder.read("cell/handeye.toml").lines())
+        .filter(|(_, line)| line.starts_with("# QUESTION: "))
+        .map(|(number, _): (usize, _)| number.to_string())
+        .collect();
+    assert!(asked.len() > 1);
+    let open = format!("QUESTIONs are open in lines {}: ", asked.join(", "));
+    for command in ["calibrate", "check"] {
+        let run = handeye(&folder, &[command, "cell"]);
+        assert_eq!(run.code, 1);
+        let error = run.error();
+        assert!(error.starts_with("cell/handeye.toml:"), "{error}");
+        assert!(error.contains("the target's kind is missing; write kind = "), "{error}");
+        assert!(error.contains(&open), "{error}");
+    }
+}
+
+#[test]
 fn a_manifest_is_never_written_over_by_accident() {
     let folder = Folder::new();
     folder.put("cell/img_1.png", "@png 8x8");

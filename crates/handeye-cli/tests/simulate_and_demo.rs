@@ -240,3 +240,27 @@ fn a_ball_calibrates_a_3d_camera() {
     assert_eq!(told["verdict"], "undetermined", "{}", told["reasons"]);
     assert!(told["hand_eye"]["mount_from_camera"].is_null());
 }
+
+#[test]
+fn one_cause_is_told_and_not_its_effects() {
+    for (options, codes) in [
+        ("--width 960 --height 600 --bow-mm 1.5", vec!["board-not-flat"]),
+        (
+            "--width 960 --height 600 --bow-mm 1.5 --scan-shift-mm 8",
+            vec!["picture-and-scan-disagree", "board-not-flat", "picture-and-scan-shift"],
+        ),
+        ("--width 960 --height 600 --scan-scale 0.25 --black-step-mm 1", vec!["depth-by-colour"]),
+        ("--width 1280 --height 800 --scan-scale 0.15 --black-step-mm 1", vec!["depth-by-colour"]),
+        ("--width 1280 --height 800 --scan-scale 0.15", vec![]),
+    ] {
+        let cell = folder("causes");
+        let path = cell.to_str().unwrap();
+        let how = ["simulate", path, "--scans", "--captures", "10", "--touches", "0", "--quiet"];
+        let args: Vec<&str> = how.into_iter().chain(options.split_whitespace()).collect();
+        assert_eq!(handeye(&args).0, 0);
+        let (_, json, _) = handeye(&["calibrate", path, "--json", "--quiet"]);
+        let told: Value = serde_json::from_str(&json).unwrap();
+        assert_eq!(warned(&told), codes, "{options}");
+        fs::remove_dir_all(cell).unwrap();
+    }
+}

@@ -11,7 +11,7 @@ use handeye::{
 };
 
 use crate::{
-    Dataset, Error, Place, WorkspaceFrame,
+    Dataset, Error, Place, WorkspaceFrame, causes,
     error::unusable,
     measure::{self, Measured},
     robot, write_atomically,
@@ -89,6 +89,7 @@ fn explain(calibration: &mut Calibration, measured: &Measured) {
     if let Some(scene) = &measured.scene {
         calibration.scans.get_or_insert_default().scene = Some(scene.clone());
     }
+    causes::tell(calibration, &measured.session);
     explain_missing(calibration, measured);
 }
 

@@ -3,6 +3,8 @@
 //! Captures are read, measured and dropped one by one on a few threads, so that memory holds no
 //! more than a handful of pictures however many there are.
 
+mod depth;
+
 use std::{
     path::PathBuf,
     sync::atomic::{AtomicUsize, Ordering},
@@ -11,7 +13,7 @@ use std::{
 use handeye::{
     Camera, GrayImage, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
     SurfaceCorner, Target, TargetModel, TargetPose, Warning,
-    calibration::{CaptureStep, ColourStepResult, SceneResult},
+    calibration::{ColourStepResult, SceneResult},
     detect::{self, NotFound, sphere, surface},
     intrinsics, lens,
     linalg::median,
@@ -94,10 +96,10 @@ pub fn measure(
         .collect();
     let mut seen = look_at_all(dataset, &shots, progress)?;
     let mut warnings = dataset.warnings.clone();
-    let colour_step = settle_step(&shots, &mut seen, &mut warnings);
+    let colour_step = depth::settle_step(&shots, &mut seen, &mut warnings);
     tell_diameter(dataset, &seen, &mut warnings);
     let (camera, camera_rms_px) = camera(dataset, &shots, &seen, &mut warnings)?;
-    shots.iter().zip(&seen).for_each(|(shot, s)| warn_missing(shot, s, &mut warnings));
+    shots.iter().zip(&seen).for_each(|(shot, s)| depth::warn_missing(shot, s, &mut warnings));
     let excess = typical_excess(dataset, &seen, camera.as_ref());
     let poses: Vec<Vec<TargetPose>> = shots
         .iter()
@@ -209,77 +211,6 @@ fn tell_diameter(dataset: &Dataset, seen: &[Seen], warnings: &mut Vec<Warning>) 
     ));
 }
 
-/// Takes the step between black and white, as all captures show it, off the corners in the scans.
-fn settle_step(
-    shots: &[Shot],
-    seen: &mut [Seen],
-    warnings: &mut Vec<Warning>,
-) -> Option<ColourStepResult> {
-    if seen.iter().any(|s| s.ball.is_some()) {
-        return None;
-    }
-    let lifted: Vec<surface::Lifted> =
-        seen.iter_mut().map(|s| std::mem::take(&mut s.lifted)).collect();
-    let (pooled, settled) = surface::settle(&lifted);
-    for (s, (surface, missing)) in seen.iter_mut().zip(settled) {
-        (s.surface, s.missing) = (surface, missing);
-    }
-    let pooled = pooled?;
-    let noise = corner_noise(seen);
-    if pooled.is_significant() && pooled.value_m.abs() > noise {
-        warnings.push(step_warning(&pooled, noise));
-    }
-    let captures = shots.iter().zip(&lifted).filter_map(|(shot, l)| {
-        let step = l.coloured.as_ref()?.step;
-        Some(CaptureStep {
-            id: shot.id.to_owned(),
-            black_minus_white_mm: step.value_m * 1e3,
-            sigma_mm: step.sigma_m * 1e3,
-        })
-    });
-    Some(ColourStepResult {
-        black_minus_white_mm: pooled.value_m * 1e3,
-        sigma_mm: pooled.sigma_m * 1e3,
-        spread_mm: pooled.spread_m * 1e3,
-        applied: pooled.is_significant(),
-        captures: captures.collect(),
-    })
-}
-
-/// Typical standard deviation of a corner along the optical axis, m.
-fn corner_noise(seen: &[Seen]) -> f64 {
-    let depth = |c: &SurfaceCorner| c.covariance[(2, 2)].sqrt();
-    median(seen.iter().flat_map(|s| &s.surface).map(depth))
-}
-
-fn step_warning(step: &surface::PooledStep, noise: f64) -> Warning {
-    let farther = if step.value_m > 0.0 { "farther" } else { "nearer" };
-    Warning::new(
-        "depth-by-colour",
-        format!(
-            "scans read black {:.3} +- {:.3} mm {farther} than white, against {:.3} mm of noise in \
-             a corner: it is taken off the points on black. Which colour is right, a flat board \
-             cannot tell; white is taken to be, so the answer holds for surfaces that the camera \
-             reads as it reads white",
-            step.value_m.abs() * 1e3,
-            step.sigma_m * 1e3,
-            noise * 1e3
-        ),
-    )
-}
-
-fn warn_missing(shot: &Shot, seen: &Seen, warnings: &mut Vec<Warning>) {
-    let Some(first) = seen.missing.first() else { return };
-    let (missing, all) = (seen.missing.len(), seen.corners.len());
-    warnings.push(Warning::new(
-        "corners-without-depth",
-        format!(
-            "capture {}: {missing} of {all} corners have no point in the scan (corner {}: {})",
-            shot.id, first.id, first.reason
-        ),
-    ));
-}
-
 /// The camera that the dataset gives, or one calibrated from its views.
 fn camera(
     dataset: &Dataset,
@@ -365,16 +296,19 @@ fn shifted(
 }
 
 /// The camera as given, or with the radial distortion that was not declared and that the corners
-/// prove.
+/// prove. The corners of a board that is bent prove nothing of the lens.
 fn unbent(
     given: Intrinsics,
     dataset: &Dataset,
     seen: &[Seen],
     warnings: &mut Vec<Warning>,
 ) -> Intrinsics {
+    let Some(target) = &dataset.target else { return given };
+    if depth::is_bent(seen, target) {
+        return given;
+    }
     let views: Vec<Vec<ImageCorner>> = seen.iter().map(|s| s.corners.clone()).collect();
-    let target = dataset.target.as_ref();
-    let Some(bend) = target.and_then(|t| lens::bend(&views, t, &given)) else { return given };
+    let Some(bend) = lens::bend(&views, target, &given) else { return given };
     warnings.push(Warning::new(
         "camera-bends",
         format!(

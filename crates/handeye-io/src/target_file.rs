@@ -181,7 +181,7 @@ pub fn read_targets(path: &Path) -> Result<Targets, Error> {
     let text = files::text(path)?;
     let refuse = |e: toml::de::Error| {
         let line = e.span().map(|s| 1 + text[..s.start.min(text.len())].matches('\n').count());
-        let what = e.message().trim().replace('\n', " ");
+        let what = in_words(e.message());
         malformed(Place { line, ..Place::file(path) }, what, ADVICE)
     };
     let table: toml::Table = toml::from_str(&text).map_err(refuse)?;
@@ -196,7 +196,16 @@ pub fn read_targets(path: &Path) -> Result<Targets, Error> {
     Ok(targets)
 }
 
-const ADVICE: &str = "write kind = \"checkerboard\" (or charuco, aprilgrid, tag-grid, tag, circle-grid, asymmetric-circle-grid, modified-circle-grid, sphere) and its dimensions under [target]";
+/// What makes a target, with an example.
+pub(crate) const ADVICE: &str = "write kind = \"checkerboard\" (or charuco, aprilgrid, tag-grid, tag, circle-grid, asymmetric-circle-grid, modified-circle-grid, sphere) and its dimensions under [target], each on a line of its own: of a checkerboard columns = 11, rows = 8 (INNER corners) and square_mm = 30.0; `handeye target` writes them for the boards that it draws";
+
+/// What is wrong with a TOML file, on one line.
+pub(crate) fn in_words(message: &str) -> String {
+    match message.trim() {
+        "missing field `kind`" => "the target's kind is missing".into(),
+        other => other.replace('\n', " "),
+    }
+}
 
 /// The lines of a manifest that describe a target.
 pub fn target_toml(target: &TargetModel) -> String {
@@ -309,6 +318,11 @@ mod tests {
                 "row.toml: target: 9 x 1 inner corners; a board needs at least 2 x 2",
             ),
             ("kind.toml", "[target]\nkind = \"chess\"\n", "kind.toml:2: unknown variant `chess`"),
+            (
+                "open.toml",
+                "[target]\n# kind = \"checkerboard\"\n",
+                "open.toml:1: the target's kind is missing; write kind = \"checkerboard\" (or charuco,",
+            ),
         ] {
             let message = read(name, text).unwrap_err();
             assert!(message.starts_with(expected), "{message}");

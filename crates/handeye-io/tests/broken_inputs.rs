@@ -110,7 +110,7 @@ fn broken_manifests_are_refused_by_line() {
         (
             "no setup",
             Manifest { setup: "", ..WORKING },
-            "handeye.toml:1: missing field `setup`; correct the manifest",
+            "handeye.toml:1: missing field `setup`; write setup = \"eye-in-hand\" where the robot carries the camera, or setup = \"eye-to-hand\" where it carries the target, above all tables",
         ),
         (
             "unknown setup",

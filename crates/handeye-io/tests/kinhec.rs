@@ -127,7 +127,9 @@ fn what_is_missing_in_the_tables_is_told() {
     let error = import(&folder, &Declared::default()).unwrap_err().to_string();
     assert!(error.contains("which of its 2 sequences? a-000000, a-000001"), "{error}");
     let error = import(&folder, &sequence("b")).unwrap_err().to_string();
-    assert!(error.contains("a-000000"), "{error}");
+    assert!(error.contains("has no sequence b; there are a-000000, a-000001"), "{error}");
+    let error = import(&folder, &sequence("a-00001")).unwrap_err().to_string();
+    assert!(error.contains("has no sequence a-00001; did you mean a-000001?"), "{error}");
     let hand = Declared { setup: Some(Setup::EyeToHand), ..sequence("a-000000") };
     assert!(
         import(&folder, &hand).unwrap_err().to_string().contains("says that it is eye-in-hand")

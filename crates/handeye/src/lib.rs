@@ -49,6 +49,8 @@ pub use frame::{
     Tool,
 };
 pub use image::GrayImage;
+/// Vectors, matrices and rotations of this library's functions, in the version that they take.
+pub use nalgebra;
 pub use observation::{
     Correspondence, HandEye, ImageCorner, Observation, Placement, PosePair, Setup, SurfaceCorner,
     TargetPose, Touch, Workspace,

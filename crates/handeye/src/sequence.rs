@@ -5,7 +5,8 @@
 //! a fit with drift ([`crate::refine::drift`]); where the restricted likelihood gains clearly, drift
 //! is part of the model: captures that did not agree only because of it come back in, the captures
 //! without their drift are calibrated once more, so that everything else about them is judged, and
-//! answer, covariance and predicted error are those of the fit with drift.
+//! answer, covariance and predicted error are those of the fit with drift. A camera that walks away in
+//! its holder has no one place, and its result is rejected.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +20,7 @@ use crate::{
     predict::{self, PredictedTre},
     refine::{
         Extra, ExtraKind, JointFit, View,
-        drift::{self, DriftFit, Free, Sequence},
+        drift::{self, DriftFit, Free, Sequence, Side},
         pose_fit,
     },
     register::rigid_fit::point_jacobian,
@@ -30,8 +31,9 @@ use crate::{
 const FEWEST: usize = 12;
 
 /// Gain of the restricted likelihood that shows drift: its three parameters gain as much by chance
-/// in one of a thousand sequences (half of the point of a chi-squared distribution).
-const GAIN: f64 = 8.1;
+/// in one of two thousand sequences (half of the point of a chi-squared distribution), and there are two
+/// sides on which something may give way.
+const GAIN: f64 = 8.9;
 
 /// The same of one parameter.
 const GAIN_OF_ONE: f64 = 5.4;
@@ -114,16 +116,18 @@ fn with_drift(
     if wrong || used.iter().filter(|u| **u).count() < FEWEST {
         return Ok(None);
     }
-    let sequence = sequence(session, times, config, &start);
-    let Some(found) = fit(&sequence, &mut used, config, &start)? else { return Ok(None) };
+    let mut sequence = sequence(session, times, config, &start);
+    let Some(found) = fit(&mut sequence, &mut used, config, &start)? else { return Ok(None) };
     let free = diagnose::free_directions(&found.fit);
     let held_out = held_out(&found, &used);
     let too_far = |m: Option<f64>, most: f64| m.is_none_or(|m| m > most);
-    if !free.is_empty()
-        || too_far(held_out.translation_rms_mm, MOST_HELD_OUT.0)
+    if too_far(held_out.translation_rms_mm, MOST_HELD_OUT.0)
         || too_far(held_out.rotation_rms_deg, MOST_HELD_OUT.1)
     {
         return Ok(None);
+    }
+    if !free.is_empty() {
+        return Ok((sequence.side == Side::Camera).then(|| loose(&found, plain)));
     }
     let steady = without(session, &sequence, &found);
     let mut result = calibrate::calibrate(&steady, config)?;
@@ -133,6 +137,19 @@ fn with_drift(
     let names: Vec<String> = session.observations.iter().map(|o| o.capture.clone()).collect();
     report(&names, &sequence, &found, &used, config, plain, &mut result);
     Ok(Some(result))
+}
+
+/// The result for a camera that walks away in its holder: nobody knows where it sits after the captures.
+fn loose(found: &DriftFit, plain: &Calibration) -> Calibration {
+    let mut result = plain.clone();
+    let words = in_words(Side::Camera, found);
+    result.reasons = vec![format!(
+        "errors change slowly from capture to capture: {words}; it has no one place on its mount: \
+         fasten it, and take the captures anew"
+    )];
+    result.verdict = Verdict::Rejected;
+    result.warnings.push(Warning::new("drift", words));
+    result
 }
 
 fn answer(plain: &Calibration) -> Option<HandEye> {
@@ -179,28 +196,40 @@ fn sequence(
         }
         _ => vec![1.0; n],
     };
-    Sequence { setup: session.setup, views, after, extras: extras.into_iter().flatten().collect() }
+    let extras = extras.into_iter().flatten().collect();
+    Sequence { setup: session.setup, side: Side::Target, views, after, extras }
 }
 
-/// The fit with drift, and the captures that are no surprise to it; `None` where it gains little.
+/// The fit with drift on the side where it gains most, and the captures that are no surprise to it;
+/// `None` where it gains little on either.
 fn fit(
-    sequence: &Sequence,
+    sequence: &mut Sequence,
     used: &mut Vec<bool>,
     config: &Config,
     start: &HandEye,
 ) -> Result<Option<DriftFit>, Error> {
     let known = &config.known;
     let mut near = drift::without_drift(sequence, used, start, known)?;
-    if !neighbours_alike(sequence, used, &near) {
-        return Ok(None);
+    let mut best: Option<(Side, DriftFit)> = None;
+    for side in [Side::Target, Side::Camera] {
+        sequence.side = side;
+        if !neighbours_alike(sequence, used, &near) {
+            continue;
+        }
+        let white = drift::fit_drift(sequence, used, &near, known, Free::Nothing)?;
+        let found = drift::fit_drift(sequence, used, &near, known, Free::Pose)?;
+        let least =
+            best.as_ref().map_or(white.fit.log_likelihood + GAIN, |b| b.1.fit.log_likelihood);
+        if found.fit.log_likelihood > least {
+            best = Some((side, found));
+        }
     }
+    let Some((side, mut found)) = best else { return Ok(None) };
+    sequence.side = side;
+    let sequence = &*sequence;
     let fit =
         |used: &[bool], near: &JointFit, free| drift::fit_drift(sequence, used, near, known, free);
-    let white = fit(used, &near, Free::Nothing)?;
-    let (mut free, mut found) = (Free::Pose, fit(used, &near, Free::Pose)?);
-    if found.fit.log_likelihood - white.fit.log_likelihood < GAIN {
-        return Ok(None);
-    }
+    let mut free = Free::Pose;
     if config.unknown.scale {
         let unit = fit(used, &near, Free::PoseAndUnit)?;
         if unit.fit.log_likelihood - found.fit.log_likelihood > GAIN_OF_ONE {
@@ -220,14 +249,18 @@ fn fit(
     Ok(Some(found))
 }
 
-/// Whether misfits of neighbouring views, each in units of its own noise, are more alike than chance
-/// has it.
+/// Whether misfits of neighbouring views, each in units of its own noise and in the axes of what may
+/// give way, are more alike than chance has it.
 fn neighbours_alike(sequence: &Sequence, used: &[bool], near: &JointFit) -> bool {
     let white = |view: &View| {
         let pair = view.with(&near.extras, &near.values);
-        let r = pose_fit::misfit(&near.hand_eye, &pair);
-        let noise = near.noise.covariance(view, &near.hand_eye, sequence.setup).cholesky()?;
-        noise.l().solve_lower_triangular(&r)
+        let turn = match sequence.side {
+            Side::Target => Matrix6::identity(),
+            Side::Camera => lie::adjoint(pair.camera_from_target.iso()),
+        };
+        let r = turn * pose_fit::misfit(&near.hand_eye, &pair);
+        let noise = near.noise.covariance(view, &near.hand_eye, sequence.setup);
+        (turn * noise * turn.transpose()).cholesky()?.l().solve_lower_triangular(&r)
     };
     let views = sequence.views.iter().zip(used).filter(|(_, used)| **used);
     let misfits: Vec<Vector6<f64>> = views.filter_map(|(view, _)| white(view)).collect();
@@ -292,6 +325,7 @@ fn report(
         candidate.predicted_tre_mm = None;
         candidate.hand_eye.covariance = PoseCovariance::default();
     }
+    let words = in_words(sequence.side, found);
     result.candidates.push(Candidate {
         name: NAME.into(),
         hand_eye: result.hand_eye,
@@ -300,7 +334,7 @@ fn report(
         touch_rms_mm: None,
         held_out_mm: held_out.translation_rms_mm,
         predicted_tre_mm: tre.as_ref().map(|t| t.rms),
-        note: Some(in_words(found)),
+        note: Some(words.clone()),
     });
     captures(names, found, plain, result);
     extras(found, result);
@@ -308,21 +342,24 @@ fn report(
     result.warnings.push(Warning::new(
         "drift",
         format!(
-            "errors change slowly from capture to capture: {}; the answer takes it into account",
-            in_words(found)
+            "errors change slowly from capture to capture: {words}; the answer takes it into account"
         ),
     ));
 }
 
-fn in_words(found: &DriftFit) -> String {
+fn in_words(side: Side, found: &DriftFit) -> String {
     let d = &found.drift;
+    let what = match side {
+        Side::Target => "the target or the robot seems to move",
+        Side::Camera => "the camera seems to move in its holder",
+    };
     let unit = if d.scale > 0.0 {
         format!(", {:.3} % of the unit of distances", d.scale * 100.0)
     } else {
         String::new()
     };
     format!(
-        "{:.3} degrees and {:.2} mm per axis{unit} from one capture to the next",
+        "{what} by {:.3} degrees and {:.2} mm per axis{unit} from one capture to the next",
         d.rotation.to_degrees(),
         d.position * 1e3
     )

@@ -9,7 +9,7 @@ use handeye::{
     Base, Calibration, Camera, Config, Flange, Method, Observation, Point, Pose, Session, Setup,
     Target, TargetModel, Touch, Verdict, calibrate, calibrate_sequence,
     refine::{KnownNoise, KnownPosition},
-    simulate::Random,
+    simulate::{Cell, Random},
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 
@@ -278,4 +278,23 @@ fn a_robot_that_stands_still_determines_nothing() {
     let found = calibrate(&still, &Config::default()).unwrap();
     assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
     assert!(found.hand_eye.mount_from_camera.is_none() && !found.undetermined.is_empty());
+}
+
+/// A robot whose tilt is its noise: the views say nothing of the position along its axis, and must not
+/// contradict touches that do.
+#[test]
+fn tilt_that_is_noise_contradicts_no_touches() {
+    for seed in 0..25 {
+        let mut cell = Cell { captures: 12, ..Cell::new(Setup::EyeInHand, seed) };
+        cell.viewing.tilt_rad = 0.0;
+        let (session, truth) = cell.session(seed).unwrap();
+        let found = calibrate(&session, &Config::default()).unwrap();
+        assert_eq!(found.verdict, Verdict::Accepted, "{seed}: {:?}", found.reasons);
+        let x = found.hand_eye.mount_from_camera.unwrap();
+        let off = (x.translation() - truth.hand_eye.mount_from_camera.translation()).norm();
+        assert!(off < 2e-3, "{seed}: {off}");
+        let alone = Session { touches: vec![], ..session };
+        let found = calibrate(&alone, &Config::default()).unwrap();
+        assert_eq!(found.verdict, Verdict::Undetermined, "{seed}");
+    }
 }

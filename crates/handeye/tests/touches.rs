@@ -201,3 +201,47 @@ fn touches_that_lie_metres_from_the_views_are_blamed_themselves() {
         );
     }
 }
+
+/// A tip that is declared in metres where millimetres are asked for, a hand's breadth from the flange.
+#[test]
+fn a_tip_in_metres_is_told() {
+    let (mut session, _) = session(Setup::EyeInHand, |column, row| column % 8 == 0 && row % 5 == 0);
+    for touch in &mut session.touches {
+        let flange = touch.base_from_flange.unwrap().translation();
+        let tip = touch.in_base.vector() - flange;
+        touch.in_base = handeye::Point::from_vector(flange + tip * 1e-3);
+    }
+    let found = calibrate(&session, &Config::default()).unwrap();
+    assert!(found.reasons[0].contains("in_flange_mm is in mm"), "{:?}", found.reasons);
+}
+
+#[test]
+fn touches_in_another_unit_are_told_which() {
+    let units = [("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("inch", 25.4e-3)];
+    for setup in SETUPS {
+        let (right, _) = session(setup, |column, row| column % 8 == 0 && row % 5 == 0);
+        for (read, meant) in units.iter().flat_map(|read| units.map(|meant| (*read, meant))) {
+            let mut session = right.clone();
+            let factor = read.1 / meant.1;
+            for (k, touch) in session.touches.iter_mut().enumerate() {
+                // tips themselves, or flange poses and a tip that has its own unit
+                let flange = touch.base_from_flange.filter(|_| k % 2 == 0);
+                let from = flange.map_or(Vector3::zeros(), |f| f.translation());
+                let at = match flange {
+                    Some(_) => touch.in_base.vector() + from * (factor - 1.0),
+                    None => touch.in_base.vector() * factor,
+                };
+                touch.in_base = handeye::Point::from_vector(at);
+                touch.base_from_flange = flange.map(|f| f.farther(factor));
+            }
+            let found = calibrate(&session, &Config::default()).unwrap();
+            if read.0 == meant.0 {
+                assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
+                continue;
+            }
+            let told = format!("read in {} instead of {} they would agree", meant.0, read.0);
+            assert_eq!(found.verdict, Verdict::Rejected);
+            assert!(found.reasons[0].contains(&told), "{told}: {:?}", found.reasons);
+        }
+    }
+}

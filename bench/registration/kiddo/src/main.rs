@@ -8,7 +8,7 @@
 #[path = "../../clock.rs"]
 mod clock;
 
-use std::{env, fs, path::Path};
+use std::{env, fs, io, path::Path};
 
 use kiddo::{Eytzinger, FlatVec, KdTree, SquaredEuclidean};
 use serde_json::{Value, json};
@@ -21,9 +21,12 @@ const NEAR_M: f32 = 0.01;
 
 fn main() {
     let args: Vec<String> = env::args().collect();
-    let [_, folder, name] = &args[..] else { panic!("FOLDER SCENE") };
+    let [_, folder, name] = &args[..] else {
+        panic!("usage: kiddo FOLDER SCENE, after run.py rendered SCENE into FOLDER")
+    };
     let folder = Path::new(folder);
-    let text = fs::read_to_string(folder.join(format!("{name}.json"))).expect("a rendered scene");
+    let scene = folder.join(format!("{name}.json"));
+    let text = fs::read_to_string(&scene).unwrap_or_else(|error| missing(&scene, &error));
     let known: Value = serde_json::from_str(&text).expect("a scene as render writes it");
     let truth: Vec<f64> = serde_json::from_value(known["truth"].clone()).expect("16 numbers");
     let moved = |p: [f32; 3]| {
@@ -50,6 +53,10 @@ fn main() {
     println!("{measured}");
 }
 
+fn missing(file: &Path, error: &io::Error) -> ! {
+    panic!("{}: {error}; render the scene first", file.display())
+}
+
 fn built(points: &[[f32; 3]]) -> Tree {
     Tree::new_from_slice(points).expect("a tree")
 }
@@ -65,7 +72,7 @@ fn distances(tree: &Tree, questions: &[[f32; 3]]) -> f64 {
 
 /// Points of a file that were seen.
 fn seen(file: &Path) -> Vec<[f32; 3]> {
-    let bytes = fs::read(file).expect("a rendered scan");
+    let bytes = fs::read(file).unwrap_or_else(|error| missing(file, &error));
     let (numbers, _) = bytes.as_chunks::<4>();
     let numbers: Vec<f32> = numbers.iter().map(|b| f32::from_le_bytes(*b)).collect();
     let (points, _) = numbers.as_chunks::<3>();

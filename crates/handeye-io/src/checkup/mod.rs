@@ -229,11 +229,7 @@ fn checkup(case: &Case, found: &Diagnosis) -> Checkup {
 
 /// Whether half of the captures agree, to what cells in working order reach.
 fn agrees(score: &Score, case: &Case) -> bool {
-    /// Degrees and mm: twice the misfit of the poorest measured cell that is known to be in order.
-    const MOST: (f64, f64) = (2.5, 15.0);
     2 * score.agree > case.names.len()
-        && score.rotation_deg < MOST.0
-        && score.translation_mm < MOST.1
 }
 
 /// No arm is wrong in length by more than this; a printed target may be. Of the length.

@@ -10,8 +10,10 @@ use super::shapes::{ObjectSpec, SceneSpec, TargetSpec};
 use crate::{
     camera::CameraSpec,
     error::{Error, Place, malformed, nearest},
+    init::QUESTION,
     robot::{DhSpec, UrdfSpec},
     table::{Column, Layout},
+    target_file::{self, in_words},
     units::{AngleUnit, LengthUnit},
 };
 
@@ -333,8 +335,9 @@ impl Manifest {
         toml::from_str(&source.text).map_err(|e| {
             let line = e.span().map(|span| source.line_at(span.start));
             let place = Place { line, ..Place::file(&source.path) };
-            let what = e.message().trim().replace('\n', " ");
-            malformed(place, what, advice(e.message()))
+            let what = in_words(e.message());
+            let advice = advice(e.message()) + &open_questions(&source.text);
+            malformed(place, what, advice)
         })
     }
 }
@@ -348,7 +351,37 @@ fn advice(message: &str) -> String {
         }
         _ => None,
     };
-    near.map_or("correct the manifest".into(), |key| format!("did you mean {key}?"))
+    if let Some(key) = near {
+        return format!("did you mean {key}?");
+    }
+    match message.strip_prefix("missing field ").map(|name| name.trim().trim_matches('`')) {
+        Some("kind") => target_file::ADVICE.into(),
+        Some("setup") => "write setup = \"eye-in-hand\" where the robot carries the camera, or \
+                          setup = \"eye-to-hand\" where it carries the target, above all tables"
+            .into(),
+        Some(key) => format!("write {key} = ... there"),
+        None => "correct the manifest".into(),
+    }
+}
+
+/// Where a first manifest still waits for answers: whatever is missing is asked there.
+fn open_questions(text: &str) -> String {
+    let asked = |line: &str| line.trim_start().starts_with(QUESTION);
+    let lines: Vec<String> = (1..)
+        .zip(text.lines())
+        .filter(|(_, line)| asked(line))
+        .map(|(number, _)| number.to_string())
+        .collect();
+    match &lines[..] {
+        [] => String::new(),
+        [one] => format!(
+            ". A QUESTION is open in line {one}: correct what is below it, and remove the #"
+        ),
+        several => format!(
+            ". QUESTIONs are open in lines {}: correct what is below each, and remove the #",
+            several.join(", ")
+        ),
+    }
 }
 
 /// A manifest's text, for finding its lines.

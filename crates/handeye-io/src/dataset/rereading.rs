@@ -158,8 +158,28 @@ fn alternatives(declared: &Notation) -> Vec<Notation> {
             names.iter().filter_map(|n| named(n)).collect()
         }
     };
-    all.extend(others.into_iter().filter(|n| n.rotation != declared.rotation));
+    let others = others.into_iter().filter(|n| n.rotation != declared.rotation);
+    all.extend(others.map(by_maker));
     all
+}
+
+/// The notation under its maker's name, where one maker alone writes so.
+fn by_maker(notation: Notation) -> Notation {
+    match notation.makers()[..] {
+        [maker] => Notation::named(maker).unwrap_or(notation),
+        _ => notation,
+    }
+}
+
+/// A notation's name, and the makers who write so where there are several.
+fn called(notation: &Notation) -> String {
+    match &notation.makers()[..] {
+        makers @ [_, .., last] if !makers.contains(&notation.name.as_str()) => {
+            let first = makers[..makers.len() - 1].join(", ");
+            format!("{} (that of {first} and {last})", notation.name)
+        }
+        _ => notation.name.clone(),
+    }
 }
 
 fn direction(inverted: bool) -> &'static str {
@@ -202,7 +222,8 @@ fn columns(declared: &Way, way: &Way, record: &Record) -> Vec<String> {
 fn words(declared: &Way, way: &Way) -> String {
     let mut parts = Vec::new();
     if declared.notation.rotation != way.notation.rotation {
-        parts.push(format!("written as {}, not {}", way.notation.name, declared.notation.name));
+        let new = called(&way.notation);
+        parts.push(format!("written as {new}, not {}", declared.notation.name));
     }
     if declared.units.length != way.units.length {
         let (new, old) = (way.units.length.name(), declared.units.length.name());
@@ -333,6 +354,33 @@ mod tests {
     }
 
     #[test]
+    fn makers_are_named_where_they_are_known() {
+        let way = |name: &str| {
+            let notation = Notation::named(name).unwrap();
+            Way { units: notation.own_units(), notation, inverted: false }
+        };
+        let told = |declared: &str, rotation: &str| {
+            let declared = way(declared);
+            let rotation = Notation::named(rotation).unwrap().rotation;
+            let all = ways(&declared);
+            let found = all.iter().find(|w| {
+                w.notation.rotation == rotation && w.units == declared.units && !w.inverted
+            });
+            let found = found.unwrap();
+            (words(&declared, found), changes(&declared, found)[0].1.clone())
+        };
+        let (words, notation) = told("fanuc", "kuka");
+        assert_eq!(words, "the robot poses are written as kuka, not fanuc");
+        assert_eq!(notation, "kuka");
+        let (words, notation) = told("kuka", "denso");
+        let expected =
+            "written as euler-xyz-extrinsic (that of fanuc, yaskawa and denso), not kuka";
+        assert!(words.ends_with(expected), "{words}");
+        assert_eq!(notation, "euler-xyz-extrinsic");
+        assert_eq!(told("kuka", "ur").1, "ur");
+    }
+
+    #[test]
     fn six_numbers_are_read_as_a_vector_or_as_any_angles() {
         let notation = Notation::named("kuka").unwrap();
         let units = notation.own_units();
@@ -340,8 +388,7 @@ mod tests {
         let all = ways(&declared);
         assert_eq!(all.len(), 25 * 2 * 4 * 2);
         assert!(all.contains(&declared));
-        let other =
-            all.iter().find(|w| w.notation.name == "rotation-vector" && w.inverted).unwrap();
+        let other = all.iter().find(|w| w.notation.name == "ur" && w.inverted).unwrap();
         let keys: Vec<&str> = changes(&declared, other).iter().map(|c| c.0).collect();
         assert_eq!(keys, ["notation", "length_unit", "angle_unit", "direction"]);
     }

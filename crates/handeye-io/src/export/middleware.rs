@@ -2,20 +2,22 @@
 
 use handeye::Setup;
 
-use super::{CameraPose, number, numbers};
+use super::{CameraPose, METRES, TURNS, number, numbers};
 use crate::robot::Notation;
 
 /// Translation and quaternion, `x y z qx qy qz qw`.
-fn seven(pose: &CameraPose) -> [f64; 7] {
+fn seven(pose: &CameraPose) -> [String; 7] {
     let (t, q) =
         (pose.parent_from_child.translation.vector, pose.parent_from_child.rotation.coords);
-    [t.x, t.y, t.z, q.x, q.y, q.z, q.w]
+    let [x, y, z] = [t.x, t.y, t.z].map(|v| number(v, METRES));
+    let [qx, qy, qz, qw] = [q.x, q.y, q.z, q.w].map(|v| number(v, TURNS));
+    [x, y, z, qx, qy, qz, qw]
 }
 
 /// Roll, pitch, yaw about the fixed axes (rad).
-fn rpy(pose: &CameraPose) -> Vec<f64> {
+fn rpy(pose: &CameraPose) -> String {
     Notation::named("ur-rpy")
-        .map(|n| n.values(&pose.parent_from_child, n.own_units())[3..].to_vec())
+        .map(|n| numbers(&n.values(&pose.parent_from_child, n.own_units())[3..], TURNS, " "))
         .unwrap_or_default()
 }
 
@@ -24,7 +26,7 @@ pub(super) fn ros2_launch(pose: &CameraPose) -> String {
     let arguments: String = flags
         .iter()
         .zip(seven(pose))
-        .map(|(flag, v)| format!("                '{flag}', '{}',\n", number(v)))
+        .map(|(flag, v)| format!("                '{flag}', '{v}',\n"))
         .collect();
     format!(
         "from launch import LaunchDescription\n\
@@ -55,8 +57,8 @@ pub(super) fn urdf(pose: &CameraPose) -> String {
         escaped(pose.name),
         escaped(pose.parent),
         escaped(pose.child),
-        numbers(&seven(pose)[..3], " "),
-        numbers(&rpy(pose), " "),
+        seven(pose)[..3].join(" "),
+        rpy(pose),
     )
 }
 
@@ -69,7 +71,7 @@ pub(super) fn easy_handeye(pose: &CameraPose) -> String {
         Setup::EyeInHand => ("eye_in_hand", "base_link", pose.parent),
         Setup::EyeToHand => ("eye_on_base", pose.parent, "tool0"),
     };
-    let [x, y, z, qx, qy, qz, qw] = seven(pose).map(number);
+    let [x, y, z, qx, qy, qz, qw] = seven(pose);
     format!(
         "parameters:\n  \
            name: {}\n  \
@@ -96,9 +98,9 @@ pub(super) fn moveit(pose: &CameraPose) -> String {
            <node pkg=\"tf2_ros\" type=\"static_transform_publisher\" name=\"camera_link_broadcaster\"\n      \
                args=\"{} {} {}\" />\n\
          </launch>\n",
-        numbers(&seven(pose)[..3], " "),
-        numbers(&rpy(pose), " "),
-        numbers(&seven(pose), " "),
+        seven(pose)[..3].join(" "),
+        rpy(pose),
+        seven(pose).join(" "),
         escaped(pose.parent),
         escaped(pose.child),
     )
@@ -131,8 +133,8 @@ mod tests {
         let kind = tree.get("parameters").and_then(|p| p.get("calibration_type"));
         assert_eq!(kind.and_then(Tree::text), Some("eye_on_base"));
         let rotation = tree.get("transform").and_then(|t| t.get("rotation")).unwrap();
-        let w = rotation.get("w").and_then(Tree::number);
-        assert_eq!(w, Some(example().parent_from_child.rotation.w));
+        let w = rotation.get("w").and_then(Tree::number).unwrap();
+        assert!((w - example().parent_from_child.rotation.w).abs() < 1e-12);
     }
 
     #[test]

@@ -125,17 +125,33 @@ fn row_major(pose: &Isometry3<f64>) -> Vec<f64> {
     pose.to_homogeneous().transpose().iter().copied().collect()
 }
 
+/// Digits after the point: a nanometre, and what makes less of a difference at a metre's distance.
+/// More would show rounding errors of the arithmetic, and no reader needs them.
+const METRES: i32 = 9;
+const MILLIMETRES: i32 = 6;
+/// Of quaternions, matrices and angles in radians.
+const TURNS: i32 = 12;
+const DEGREES: i32 = 10;
+
 /// A number that every reader takes for the same double: `1.0e-7`, never `1e-7` (text in YAML 1.1).
-fn number(x: f64) -> String {
-    let text = format!("{:?}", x + 0.0);
+fn number(x: f64, decimals: i32) -> String {
+    let scale = 10f64.powi(decimals);
+    // the zero makes -0.0 positive
+    let text = format!("{:?}", (x * scale).round() / scale + 0.0);
     let Some((mantissa, exponent)) = text.split_once('e') else { return text };
     let point = if mantissa.contains('.') { "" } else { ".0" };
     let sign = if exponent.starts_with('-') { "" } else { "+" };
     format!("{mantissa}{point}e{sign}{exponent}")
 }
 
-fn numbers(values: &[f64], separator: &str) -> String {
-    values.iter().map(|v| number(*v)).collect::<Vec<_>>().join(separator)
+fn numbers(values: &[f64], decimals: i32, separator: &str) -> String {
+    values.iter().map(|v| number(*v, decimals)).collect::<Vec<_>>().join(separator)
+}
+
+/// A line of a homogeneous matrix: three numbers of the rotation, and one of the position.
+fn matrix_row(row: &[f64], decimals: i32, separator: &str) -> String {
+    let Some((position, turn)) = row.split_last() else { return String::new() };
+    numbers(turn, TURNS, separator) + separator + &number(*position, decimals)
 }
 
 #[cfg(test)]
@@ -158,11 +174,33 @@ pub(crate) mod tests {
 
     #[test]
     fn numbers_are_doubles_for_every_reader() {
-        for (x, text) in
-            [(1e-7, "1.0e-7"), (2.5e-9, "2.5e-9"), (1e20, "1.0e+20"), (-0.0, "0.0"), (1.0, "1.0")]
-        {
-            assert_eq!(number(x), text);
+        for (x, text) in [
+            (1e-7, "1.0e-7"),
+            (2.5e-9, "2.5e-9"),
+            (1e20, "1.0e+20"),
+            (-0.0, "0.0"),
+            (-1e-17, "0.0"),
+            (1.0, "1.0"),
+        ] {
+            assert_eq!(number(x, TURNS), text);
         }
+    }
+
+    #[test]
+    fn no_text_shows_the_rounding_errors_of_doubles() {
+        let turn = UnitQuaternion::new(Vector3::new(0.1, -2.0, 0.7));
+        let place = Translation3::new(0.1 + 0.2, -1.0 / 3.0, 1e-13);
+        let pose =
+            CameraPose { parent_from_child: Isometry3::from_parts(place, turn), ..example() };
+        for name in Format::names().into_iter().filter(|name| *name != "npy") {
+            let text = String::from_utf8(render(&pose, &Format::named(name).unwrap())).unwrap();
+            let digit = |c: char| c.is_ascii_digit() || c == '.';
+            let longest = text.split(|c| !digit(c)).map(|w| w.len()).max().unwrap();
+            // "0." or "123.", and the digits behind
+            assert!(longest <= 2 + TURNS as usize, "{name}: {text}");
+        }
+        let urdf = String::from_utf8(render(&pose, &Format::Urdf)).unwrap();
+        assert!(urdf.contains("xyz=\"0.3 -0.333333333 0.0\""), "{urdf}");
     }
 
     #[test]

@@ -1,18 +1,29 @@
 //! Plain text: matrices, and the notations of robots as their programs write them.
 
-use super::{CameraPose, number, numbers, row_major};
-use crate::robot::Notation;
+use super::{CameraPose, DEGREES, METRES, MILLIMETRES, TURNS, matrix_row, number, row_major};
+use crate::{
+    robot::{Column, Notation, Quantity},
+    units::{AngleUnit, LengthUnit},
+};
 
 /// Four lines of four numbers.
 pub(super) fn matrix(pose: &CameraPose) -> String {
     let rows = row_major(&pose.parent_from_child);
-    rows.chunks(4).map(|row| numbers(row, " ") + "\n").collect()
+    rows.chunks(4).map(|row| matrix_row(row, METRES, " ") + "\n").collect()
 }
 
 /// One line in a robot's notation, below a comment that says what it is.
 pub(super) fn robot(pose: &CameraPose, notation: &Notation) -> String {
     let units = notation.own_units();
     let values = notation.values(&pose.parent_from_child, units);
+    let lengths = if units.length == LengthUnit::Metre { METRES } else { MILLIMETRES };
+    let turns = if units.angle == AngleUnit::Degree { DEGREES } else { TURNS };
+    let written = |(column, value): (&Column, f64)| match column.quantity {
+        Quantity::Length => number(value, lengths),
+        Quantity::Angle => number(value, turns),
+        Quantity::Plain => number(value, TURNS),
+    };
+    let values: Vec<String> = notation.columns.iter().zip(values).map(written).collect();
     let names: Vec<&str> = notation.columns.iter().map(|c| c.names[0]).collect();
     format!(
         "# {} ({} from {}), {}: {} in {}{}\n{}\n",
@@ -28,7 +39,6 @@ pub(super) fn robot(pose: &CameraPose, notation: &Notation) -> String {
 }
 
 fn angles(notation: &Notation) -> &'static str {
-    use crate::{robot::Quantity, units::AngleUnit};
     match notation.columns.iter().any(|c| c.quantity == Quantity::Angle) {
         false => "",
         true if notation.angle_unit == AngleUnit::Degree => " and deg",
@@ -37,16 +47,16 @@ fn angles(notation: &Notation) -> &'static str {
 }
 
 /// As the maker's programs write it.
-fn line(notation: &Notation, names: &[&str], values: &[f64]) -> String {
+fn line(notation: &Notation, names: &[&str], values: &[String]) -> String {
     match notation.name.as_str() {
-        "ur" => format!("p[{}]", numbers(values, ", ")),
-        "abb" => format!("[[{}], [{}]]", numbers(&values[..3], ", "), numbers(&values[3..], ", ")),
+        "ur" => format!("p[{}]", values.join(", ")),
+        "abb" => format!("[[{}], [{}]]", values[..3].join(", "), values[3..].join(", ")),
         "kuka" => {
             let named: Vec<String> =
-                names.iter().zip(values).map(|(n, v)| format!("{n} {}", number(*v))).collect();
+                names.iter().zip(values).map(|(n, v)| format!("{n} {v}")).collect();
             format!("{{{}}}", named.join(", "))
         }
-        _ => numbers(values, " "),
+        _ => values.join(" "),
     }
 }
 

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     Error, Place,
-    error::{malformed, undeclared, unusable},
+    error::{malformed, nearest, undeclared, unusable},
     parquet::Parquet,
     robot::Notation,
 };
@@ -86,6 +86,12 @@ fn sequence(path: &Path, declared: &Declared) -> Result<Sequence, Error> {
         (None, [only]) => Some(only),
         (None, _) => None,
     };
+    if let (Some(wanted), None) = (&declared.sequence, found) {
+        let near = nearest(wanted, ids.iter().map(|(_, _, id)| id.as_str()));
+        let meant =
+            near.map_or(format!("there are {}", listed(&ids)), |n| format!("did you mean {n}?"));
+        return Err(unusable(path, format!("has no sequence {wanted}; {meant}")));
+    }
     let Some((group, row, id)) = found else {
         let question = format!("which of its {} sequences? {}", ids.len(), listed(&ids));
         return Err(undeclared(path, "--sequence", &question));

@@ -69,7 +69,8 @@ fn numbers_under(transform: &Tree) -> Option<Vec<f64>> {
     Some(numbers)
 }
 
-fn setup_of(parameters: &Tree) -> Option<Setup> {
+/// Who carries the camera, as both versions of easy_handeye say it.
+pub(super) fn setup_of(parameters: &Tree) -> Option<Setup> {
     match (parameters.get("calibration_type").and_then(Tree::text), parameters.get("eye_on_hand")) {
         (Some("eye_in_hand"), _) | (None, Some(Tree::Bool(true))) => Some(Setup::EyeInHand),
         (Some("eye_on_base"), _) | (None, Some(Tree::Bool(false))) => Some(Setup::EyeToHand),

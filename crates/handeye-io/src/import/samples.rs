@@ -9,7 +9,7 @@ use std::path::Path;
 
 use handeye::Setup;
 
-use super::{Declared, Described, quoted, split};
+use super::{Declared, Described, quoted, ros, split};
 use crate::{Error, error::unusable, files, tree::Tree};
 
 pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>, Error> {
@@ -42,16 +42,11 @@ fn easy_handeye(source: &Path, tree: &Tree, samples: &[Tree]) -> Result<Describe
         return Err(unusable(source, format!("sample {} has no `robot` and `tracking`", k + 1)));
     }
     let parameters = tree.get("parameters");
-    let said = |key: &str| parameters.and_then(|p| p.get(key));
-    let setup = match (said("calibration_type").and_then(Tree::text), said("eye_on_hand")) {
-        (Some("eye_in_hand"), _) | (None, Some(Tree::Bool(true))) => Setup::EyeInHand,
-        (Some("eye_on_base"), _) | (None, Some(Tree::Bool(false))) => Setup::EyeToHand,
-        _ => {
-            let what = "parameters.calibration_type is neither eye_in_hand nor eye_on_base: the robot's poses have \
-                        opposite directions in the two";
-            return Err(unusable(source, what));
-        }
-    };
+    let setup = parameters.and_then(ros::setup_of).ok_or_else(|| {
+        let what = "parameters.calibration_type is neither eye_in_hand nor eye_on_base: the robot's poses have \
+                    opposite directions in the two";
+        unusable(source, what)
+    })?;
     let direction = match setup {
         Setup::EyeInHand => "base_from_flange",
         Setup::EyeToHand => "flange_from_base",

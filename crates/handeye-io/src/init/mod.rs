@@ -58,6 +58,9 @@ pub fn first_manifest(folder: &Path) -> Result<FirstManifest, Error> {
     Ok(FirstManifest { text: page.text, questions: page.questions })
 }
 
+/// How a question of a manifest begins.
+pub(crate) const QUESTION: &str = "# QUESTION: ";
+
 /// Columns of a manifest.
 const WIDTH: usize = 80;
 
@@ -88,7 +91,7 @@ impl Page {
     fn ask(&mut self, question: &str, answers: &[&str]) {
         let line = self.text.lines().count() + 1;
         self.questions.push(Question { line, text: question.into() });
-        self.wrapped("# QUESTION: ", "#   ", question);
+        self.wrapped(QUESTION, "#   ", question);
         answers.iter().for_each(|answer| self.line(&format!("# {answer}")));
     }
 

@@ -36,6 +36,12 @@ const MAKERS: [Maker; 7] = [
     ("denso", &X_Y_Z_TURNS, [0, 1, 2], Extrinsic),
 ];
 
+/// The makers who write a rotation so.
+pub(super) fn of(rotation: Rotation) -> Vec<&'static str> {
+    let same = |m: &&Maker| rotation == Rotation::Euler(m.2, m.3);
+    MAKERS.iter().filter(same).map(|m| m.0).collect()
+}
+
 /// The notation of one of these makers.
 pub(super) fn notation(name: &str) -> Option<Notation> {
     let (name, columns, axes, sense) = *MAKERS.iter().find(|m| m.0 == name)?;

@@ -113,6 +113,14 @@ impl Notation {
         Ok(found)
     }
 
+    /// The makers whose robots write a rotation as this notation does.
+    pub(crate) fn makers(&self) -> Vec<&'static str> {
+        match self.rotation {
+            Rotation::Vector => vec!["ur"],
+            rotation => makers::of(rotation),
+        }
+    }
+
     /// Values in the notation's order, in the given units, as a pose in metres and radians.
     pub fn pose(&self, values: &[f64], units: Units) -> Result<Isometry3<f64>, String> {
         let si: Vec<f64> =

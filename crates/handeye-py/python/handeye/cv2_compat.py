@@ -16,7 +16,7 @@ read as they are meant, where OpenCV goes wrong.
 import functools as _functools
 import sys as _sys
 import warnings as _warnings
-from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Tuple, Type, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, Sequence, Tuple, Type, TypeVar, cast
 
 from . import _core
 from ._core import HandEyeError, InputError
@@ -79,10 +79,14 @@ def _raising(function: _Function) -> _Function:
     return cast(_Function, call)
 
 
-@_functools.lru_cache(maxsize=None)
+_known: Dict[str, Type[HandEyeError]] = {}
+
+
 def _both(kind: Type[HandEyeError], opencv: Type[Exception]) -> Type[HandEyeError]:
-    about = {"__doc__": kind.__doc__, "__module__": kind.__module__}
-    return cast("Type[HandEyeError]", type(kind.__name__, (kind, opencv), about))
+    if kind.__name__ not in _known:
+        about = {"__doc__": kind.__doc__, "__module__": kind.__module__}
+        _known[kind.__name__] = cast("Type[HandEyeError]", type(kind.__name__, (kind, opencv), about))
+    return _known[kind.__name__]
 
 
 @_raising

@@ -1,5 +1,7 @@
 //! Every way to the answer, side by side, and the choice between them.
 
+mod registered;
+
 use nalgebra::Matrix6;
 
 use super::{
@@ -16,15 +18,17 @@ use super::{
     workpiece::{Workpiece, inflation, volume},
     wrong_touches,
 };
+use registered::stored_registration;
+
 use crate::{
-    Error, HandEye, PosePair, Warning,
+    HandEye, PosePair, Warning,
     calibration::{Answer, Calibration, Candidate, PoseCovariance, rows},
     diagnose,
     evaluate::{self, Estimator},
     predict::{self, Volume},
     refine::{self, JointFit, Problem},
     solve::{self, Method, consensus::Consensus},
-    touches::{self, Registration, TouchPairs},
+    touches::{self, TouchPairs},
 };
 
 /// Makes and judges all candidates, chooses one, and reports the touches. With the views comes the
@@ -340,113 +344,8 @@ pub(super) fn stored(
     }
 }
 
-impl Judge<'_> {
-    fn touch_candidates(
-        &self,
-        fit: &JointFit,
-        config: &Config,
-        result: &mut Calibration,
-    ) -> Vec<Judged> {
-        if self.paired.is_empty() || config.method.is_some() {
-            return vec![];
-        }
-        let kinds =
-            [("two-step-svd", Registration::Svd), ("two-step-icp", Registration::Icp(config.icp))];
-        let mut all = Vec::new();
-        for (name, registration) in kinds {
-            match self.touch_candidate(fit, name, registration) {
-                Ok(judged) => all.push(judged),
-                Err(error) => result.warnings.push(Warning::new(
-                    "touches-not-enough",
-                    format!("no {name} candidate: {error}"),
-                )),
-            }
-        }
-        all
-    }
-
-    fn touch_candidate(
-        &self,
-        fit: &JointFit,
-        name: &str,
-        registration: Registration,
-    ) -> Result<Judged, Error> {
-        let (views, paired) = (self.views, self.paired);
-        let all: Vec<&TouchPairs> = paired.iter().collect();
-        let start = fit.hand_eye.mount_from_camera;
-        let found = touches::fit_touches(&all, &start, registration)?;
-        let x = found.mount_from_camera;
-        let shared = touches::view_covariance(paired, &view_noise(views, fit));
-        let covariance = found.covariance.map(|c| c + shared.unwrap_or_else(Matrix6::zeros));
-        // nearest neighbours that differ from the touched corners prove the match wrong
-        let tre = self.workpiece.tre(&x).filter(|_| found.wrong_matches == 0);
-        let placed = solve::place_target(&pairs_of(views), &x);
-        let held_out = evaluate::placed_without(&views.views, &x);
-        let candidate = Candidate {
-            name: name.into(),
-            hand_eye: stored_registration(views, fit, &placed, covariance.as_ref()),
-            in_sample: evaluate::in_sample(&placed, &views.views),
-            held_out: evaluate::rms(&held_out),
-            touch_rms_mm: touches::touch_rms(paired, &x).map(|m| m * 1e3),
-            held_out_mm: touches::held_out(paired, &start, registration).map(|m| m * 1e3),
-            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
-            note: registration_note(&found),
-        };
-        Ok(Judged { candidate, tre, held_out })
-    }
-}
-
-fn registration_note(found: &touches::TouchFit) -> Option<String> {
-    match found.stop {
-        Some((rounds, stop)) => Some(format!(
-            "{rounds} iterations, {stop:?}; {} of the matches are other corners than were touched",
-            found.wrong_matches
-        )),
-        None if found.covariance.is_none() => {
-            Some("three touches leave nothing to judge their error by; touch more".into())
-        }
-        None => None,
-    }
-}
-
-/// A registration of touches and the target's place that follows. With `Y_i = A_i X C_i` averaged
-/// over the views, `cov(Y) = J cov(X) Jᵀ + Σ S_i/N²`, `J = Σ Ad(C_i⁻¹)/N`, and `S_i` the noise of
-/// one view.
-fn stored_registration(
-    views: &Views,
-    fit: &JointFit,
-    placed: &HandEye,
-    covariance: Option<&Matrix6<f64>>,
-) -> Answer {
-    let n = views.views.len() as f64;
-    let carry = |v: &refine::View| crate::lie::adjoint(v.pair.camera_from_target.inverse().iso());
-    let j = views.views.iter().map(carry).sum::<Matrix6<f64>>() / n;
-    let setup = views.session.setup;
-    let noise = |v: &refine::View| fit.noise.covariance(v, &fit.hand_eye, setup);
-    let own = views.views.iter().map(noise).sum::<Matrix6<f64>>() / (n * n);
-    let to_origin = crate::lie::adjoint(views.target_from_corner.iso());
-    let place =
-        |x: &Matrix6<f64>| to_origin * (j * x * j.transpose() + own) * to_origin.transpose();
-    Answer {
-        covariance: PoseCovariance {
-            mount_from_camera: covariance.map(rows),
-            anchor_from_target: covariance.map(|x| rows(&place(x))),
-        },
-        ..stored(views, placed, None)
-    }
-}
-
 pub(super) fn pairs_of(views: &Views) -> Vec<PosePair> {
     views.views.iter().map(|v| v.pair).collect()
-}
-
-/// Noise of every view as the touches see it.
-fn view_noise(views: &Views, fit: &JointFit) -> Vec<touches::ViewNoise> {
-    let one = |v: &refine::View| touches::ViewNoise {
-        camera_from_target: v.pair.camera_from_target.rotation(),
-        covariance: fit.noise.covariance(v, &fit.hand_eye, views.session.setup),
-    };
-    views.views.iter().map(one).collect()
 }
 
 /// The least predicted error wins; the residual has no say.

@@ -25,6 +25,7 @@ mod named;
 mod optics;
 mod points;
 mod reach;
+mod refined;
 mod rejected;
 mod scans;
 pub(crate) mod settle;
@@ -144,6 +145,7 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
         verdict::conclude(config, &mut result);
         result
     });
+    refined::tell(&session, &mut result);
     scans::report(&session, &mut result);
     result.warnings.extend(repeated);
     Ok(result)

@@ -52,11 +52,6 @@ fn seen<'a>(session: &'a Session, target: &TargetModel, result: &Calibration) ->
     session.observations.iter().zip(&result.captures).filter_map(one).collect()
 }
 
-/// Chance of noise below which a board is called bent.
-const IMPROBABLE: f64 = 1e-4;
-/// A bend below this part of the board's size is what boards are sold with.
-const LEAST_BEND: f64 = 5e-4;
-
 fn flat(
     seen: &[Seen],
     target: &TargetModel,
@@ -69,13 +64,8 @@ fn flat(
         s.surface.iter().filter_map(one).collect()
     };
     let found = flatness(&seen.iter().map(felt).collect::<Vec<_>>())?;
-    let size = target.corners().iter().map(|c| c.vector()).fold(
-        (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)),
-        |(low, high), p| (low.inf(&p), high.sup(&p)),
-    );
-    let bend = &found.board;
-    if bend.chance < IMPROBABLE && bend.peak_to_valley_m > LEAST_BEND * (size.1 - size.0).norm() {
-        warnings.push(not_flat(bend, seen.len()));
+    if found.is_bent(target) {
+        warnings.push(not_flat(&found.board, seen.len()));
     }
     Some(as_result(&found, seen))
 }

@@ -23,7 +23,7 @@ const SLACK: f64 = 2e-3;
 const AGREES: f64 = 25.0;
 
 /// Median distance (m) between touches and views that no wrong corner makes.
-const OTHER_UNIT: f64 = 1.0;
+const ELSEWHERE: f64 = 1.0;
 
 /// One touch against what the views expect.
 struct Expected {
@@ -93,18 +93,24 @@ pub(super) fn find(
         return found;
     }
     let off = median(all.iter().map(|e| e.misfit.norm()));
-    let check = if off > OTHER_UNIT {
+    let check = if let Some(how) = in_other_units(boards, problem, fit, all.len()) {
+        how
+    } else if let Some(how) = renamed(boards, target, problem, fit, all.len()) {
+        format!(
+            "check corner ids and frame of the touches, and which placement each belongs to; with \
+             {how} they would agree"
+        )
+    } else if off > ELSEWHERE {
         "check the length unit of [touches], the same for every column, and that they are in the \
          robot's base"
+            .into()
     } else {
-        "check corner ids and frame of the touches, and which placement each belongs to"
+        "check corner ids and frame of the touches, and which placement each belongs to".into()
     };
-    let hint = renamed(boards, target, problem, fit, all.len())
-        .map_or(String::new(), |how| format!("; with {how} they would agree"));
     found.contradiction = Some(format!(
         "views and touches contradict each other: only {agreeing} of {} touches agree with any one \
          tool tip, half of them are more than {:.0} mm from where the views put their corners: \
-         {check}{hint}",
+         {check}",
         all.len(),
         off * 1e3
     ));
@@ -191,6 +197,55 @@ fn exchanged(
         let swapped = Boards { boards: vec![board], touches: vec![boards.touches[b].clone()] };
         let both = expected(&swapped, problem, fit);
         (agrees(both.get(own)?, tip) && agrees(both.get(other)?, tip)).then_some(*k)
+    })
+}
+
+/// Units of length, m.
+const UNITS: [(&str, f64); 4] = [("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("inch", 25.4e-3)];
+
+/// The unit of the touches, or of the tool's tip, with which two thirds of the touches agree, in words.
+fn in_other_units(
+    boards: &Boards,
+    problem: &Problem,
+    fit: &JointFit,
+    count: usize,
+) -> Option<String> {
+    let agreeing = |of_flange: f64, of_tip: f64| {
+        let resized = |board: &TouchedBoard| {
+            let mut board = board.clone();
+            for corner in &mut board.corners {
+                let flange = corner.base_from_flange.map_or(Vector3::zeros(), |f| f.translation());
+                let tip = corner.in_base - flange;
+                corner.in_base = match corner.base_from_flange {
+                    Some(_) => flange * of_flange + tip * of_tip,
+                    None => corner.in_base * of_flange,
+                };
+                corner.base_from_flange = corner.base_from_flange.map(|f| f.farther(of_flange));
+            }
+            board
+        };
+        let boards = Boards {
+            boards: boards.boards.iter().map(resized).collect(),
+            touches: boards.touches.clone(),
+        };
+        consensus(&expected(&boards, problem, fit)).1
+    };
+    let enough = |agreeing: usize| 3 * agreeing >= 2 * count;
+    let pairs = UNITS.into_iter().flat_map(|read| UNITS.map(|meant| (read, meant)));
+    let others = pairs.filter(|(read, meant)| read.0 != meant.0);
+    let best = others
+        .map(|(read, meant)| (agreeing(meant.1 / read.1, 1.0), read.0, meant.0))
+        .reduce(|best, next| if next.0 > best.0 { next } else { best })?;
+    if enough(best.0) {
+        let (_, read, meant) = best;
+        return Some(format!(
+            "read in {meant} instead of {read} they would agree: correct length_unit of [touches]"
+        ));
+    }
+    enough(agreeing(1.0, 1e3)).then(|| {
+        "with the tool's tip a thousand times as far from the flange they would agree: [touches.tip] \
+         in_flange_mm is in mm"
+            .into()
     })
 }
 

@@ -33,7 +33,7 @@ use crate::{
     solve::{
         self, Method,
         consensus::{self, Consensus, Readings},
-        motions,
+        few_axes, motions,
     },
 };
 
@@ -50,6 +50,10 @@ pub const FEWEST: usize = 4;
 /// Flanges nearer to the base than this in all captures, or farther, are no robot's. m.
 pub const REACH: (f64, f64) = (0.05, 6.0);
 
+/// Median misfit beyond which captures agree on nothing: twice that of the poorest measured cell that is
+/// known to be in order. degrees and mm.
+pub const BELIEVABLE: (f64, f64) = (2.5, 15.0);
+
 /// How well the captures agree under one reading.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Score {
@@ -59,7 +63,7 @@ pub struct Score {
     pub rotation_deg: f64,
     /// Median misfit of all captures, mm.
     pub translation_mm: f64,
-    /// Captures that agree.
+    /// Captures that agree; none where the median misfit is beyond [`BELIEVABLE`].
     pub agree: usize,
 }
 
@@ -192,12 +196,12 @@ fn score(captures: &[Readings], hand_eye: &HandEye, found: &Consensus) -> Score 
             (e.iso().rotation.angle(), e.translation().norm())
         })
         .collect();
-    Score {
-        score: combined(&errors),
-        rotation_deg: median(errors.iter().map(|e| e.0)).to_degrees(),
-        translation_mm: median(errors.iter().map(|e| e.1)) * 1e3,
-        agree: found.agrees.iter().filter(|a| **a).count(),
-    }
+    let rotation_deg = median(errors.iter().map(|e| e.0)).to_degrees();
+    let translation_mm = median(errors.iter().map(|e| e.1)) * 1e3;
+    // the consensus compares captures with one another: bad ones that are alike would agree
+    let believable = rotation_deg < BELIEVABLE.0 && translation_mm < BELIEVABLE.1;
+    let agree = if believable { found.agrees.iter().filter(|a| **a).count() } else { 0 };
+    Score { score: combined(&errors), rotation_deg, translation_mm, agree }
 }
 
 fn combined(errors: &[(f64, f64)]) -> f64 {
@@ -236,11 +240,12 @@ fn judged_readings(readings: &[Vec<Readings>], before: f64) -> Vec<Finding> {
 /// without a fit: 5 degrees.
 const SIFTED: f64 = 0.087;
 
-/// One closed form over all captures in their first readings.
+/// One closed form over all captures in their first readings; a robot of one axis has its own.
 fn quick_score(captures: &[Readings]) -> f64 {
     let pairs: Vec<PosePair> =
         captures.iter().filter(|c| !c.camera_from_target.is_empty()).map(|c| pair(c, 0)).collect();
-    let Ok(found) = solve::solve(&pairs, Method::Shah) else { return f64::INFINITY };
+    let found = solve::solve(&pairs, Method::Shah).ok().or_else(|| few_axes::solve(&pairs));
+    let Some(found) = found else { return f64::INFINITY };
     let error = |p: &PosePair| {
         let e = found.loop_error(p);
         (e.iso().rotation.angle(), e.translation().norm())

@@ -19,7 +19,7 @@
 use nalgebra::{Matrix3, Matrix6, Point3, Vector2, Vector3, Vector6};
 
 use crate::{
-    chance,
+    TargetModel, chance,
     detect::surface::{MAD, tukey},
     linalg::median,
 };
@@ -62,6 +62,27 @@ pub struct Flatness {
     pub map: Vec<Deviation>,
     /// Typical standard deviation of one corner across the board, m.
     pub corner_sigma_m: f64,
+}
+
+/// Chance of noise below which a board is called bent.
+const IMPROBABLE: f64 = 1e-4;
+/// A bend below this part of the board's size is what boards are sold with.
+const LEAST_BEND: f64 = 5e-4;
+
+impl Flatness {
+    /// Whether the board is bent by more than noise shows, and more than boards are.
+    pub fn is_bent(&self, target: &TargetModel) -> bool {
+        self.board.chance < IMPROBABLE && self.board.peak_to_valley_m > LEAST_BEND * extent(target)
+    }
+}
+
+/// From one end of a target's corners to the other, across (m).
+pub fn extent(target: &TargetModel) -> f64 {
+    let (low, high) = target.corners().iter().map(|c| c.vector()).fold(
+        (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)),
+        |(low, high), p| (low.inf(&p), high.sup(&p)),
+    );
+    (high - low).norm()
 }
 
 /// Fewer corners do not tell a surface of six coefficients.

@@ -22,8 +22,8 @@ pub enum DenseMethod {
     /// Distances along the mean of both normals (symmetric).
     #[default]
     Auto,
-    /// Distances between places. Where surfaces are flat this creeps, and holds on to places that are centimetres
-    /// off; what it reaches then is usually undetermined or rejected.
+    /// Distances between places. Where surfaces are flat this creeps, and of dense clouds it holds on to places that
+    /// are millimetres off: neighbours along the surface lie as near as the right one. That is rejected.
     PointToPoint,
     /// Distances along the target's normal.
     PointToPlane,
@@ -127,6 +127,8 @@ pub struct Dense {
 const ASKED: f64 = 5000.0;
 /// With less agreement, something is wrong.
 const AGREEING: f64 = 0.9;
+/// Shifts and turns.
+const ALL_MOTIONS: usize = 6;
 /// With fewer matches, nothing is sure.
 const OVERLAPPING: f64 = 0.05;
 
@@ -213,8 +215,11 @@ fn registered(
     let sigma = descent.sigma;
     let freedom = Freedom::of(&descent, &reached.target_from_source);
     let (directions, free) = freedom.directions();
-    let mut undetermined = vec![];
-    if free > 0 {
+    let (mut undetermined, mut reasons) = (vec![], vec![]);
+    if free == ALL_MOTIONS {
+        // there is no surface that leaves all free: the matches say nothing where they are
+        reasons.push(stuck(config));
+    } else if free > 0 {
         let columns: Vec<_> = (0..free).map(|k| directions.column(k).into_owned()).collect();
         undetermined = freedom.named(&columns, source.radius());
         // once more from the start, along the other directions alone
@@ -228,7 +233,7 @@ fn registered(
     let at = reached.target_from_source;
     let mut found = Dense {
         verdict: Verdict::Accepted,
-        reasons: vec![],
+        reasons,
         undetermined,
         target_from_source: at,
         covariance: freedom.covariance(&at).filter(|_| free == 0),
@@ -245,6 +250,18 @@ fn registered(
     }
     judge(&mut found, source, &rivals);
     Ok(found)
+}
+
+/// Matches that hold one another where they are, in no place that is right.
+fn stuck(config: &DenseConfig) -> String {
+    let other = match config.method {
+        DenseMethod::Auto => "",
+        _ => "take the method auto, or ",
+    };
+    let start = if config.global { "scans with more shape in common" } else { "a better start" };
+    format!(
+        "it stopped in a local minimum, where its matches tell less than they scatter: {other}give {start}"
+    )
 }
 
 fn judge(found: &mut Dense, source: &Surface, rivals: &[Rival]) {

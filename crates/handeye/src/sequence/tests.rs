@@ -33,6 +33,20 @@ fn drifting(count: usize, seed: u64, (turn, shift): (f64, f64)) -> Vec<PosePair>
 
 const SLOW: (f64, f64) = (1e-3, 1e-3);
 
+/// The same of a camera that moves in its holder.
+fn loose(count: usize, seed: u64, (turn, shift): (f64, f64)) -> Vec<PosePair> {
+    let mut random = Random::new(seed);
+    let mut drift: Pose<crate::Camera, crate::Camera> = Pose::identity();
+    let mut pairs = exact_pairs(&truths()[0], count);
+    for pair in &mut pairs {
+        let step = lie::tangent(&(random.normal3() * turn), &(random.normal3() * shift));
+        drift = drift.retract(&step);
+        let own = lie::tangent(&(random.normal3() * 3e-4), &(random.normal3() * 3e-4));
+        pair.camera_from_target = (drift.inverse() * pair.camera_from_target).retract(&own);
+    }
+    pairs
+}
+
 fn solved(session: &Session) -> Calibration {
     calibrate_sequence(session, &BTreeMap::new(), &Config::default()).unwrap()
 }
@@ -68,6 +82,28 @@ fn drift_is_found_and_the_answer_is_better() {
         }
         assert!(with < 0.5 * without, "{setup:?}: {with} {without}");
     }
+}
+
+#[test]
+fn a_camera_that_moves_in_its_holder_is_found_and_told_from_other_drift() {
+    let told = |pairs: &[PosePair], side: &str| {
+        let found = solved(&session(Setup::EyeInHand, pairs));
+        let warning = found.warnings.iter().find(|w| w.code == "drift");
+        usize::from(warning.is_some_and(|w| w.message.contains(side)))
+    };
+    let (mut camera, mut target) = (0, 0);
+    for seed in 0..10 {
+        camera += told(&loose(30, seed, SLOW), "the camera seems to move in its holder");
+        target += told(&drifting(30, seed, SLOW), "the target or the robot seems to move");
+    }
+    assert!(camera >= 9 && target >= 9, "{camera} {target}");
+}
+
+#[test]
+fn a_camera_that_walks_away_has_no_place() {
+    let found = solved(&session(Setup::EyeInHand, &loose(30, 101, SLOW)));
+    assert_eq!(found.verdict, Verdict::Rejected);
+    assert!(found.reasons[0].contains("fasten it"), "{:?}", found.reasons);
 }
 
 #[test]

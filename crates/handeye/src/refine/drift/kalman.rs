@@ -8,7 +8,7 @@ use super::{
         noise::{self, COLUMNS, Factor, Source},
         pose_fit,
     },
-    Drift, EXTRAS, Levels, Sequence, Slow,
+    Drift, EXTRAS, Levels, Sequence, Side, Slow,
 };
 use crate::{HandEye, detect::sight::Sight, lie, linalg};
 
@@ -31,8 +31,10 @@ pub(super) struct Line {
     pub rows: Rows,
     pub factor: Factor,
     pub columns: [Source; COLUMNS],
-    /// `Ad(C⁻¹)` for the pose, one for the unit.
+    /// How a step in the axes of the camera moves the slow part of the misfit.
     pub carry: Matrix6<f64>,
+    /// Takes the axes of these equations to those of the target.
+    pub to_target: Matrix6<f64>,
     pub see: See,
     pub after: f64,
     pub used: bool,
@@ -57,14 +59,26 @@ pub(super) fn lines(
                 rows.column_mut(13 + e).copy_from(&(by_c * view.by_camera(which)));
             }
         }
+        let mut factor = noise::factor(view, &pair, hand_eye, sequence.setup);
+        let mut by_size = Sight::by_size(&pair.camera_from_target);
+        let target_from_camera = lie::adjoint(pair.camera_from_target.inverse().iso());
+        let (carry, to_target) = match sequence.side {
+            Side::Target => (target_from_camera, Matrix6::identity()),
+            Side::Camera => {
+                let turn = lie::adjoint(pair.camera_from_target.iso());
+                (rows, factor, by_size) = (turn * rows, turn * factor, turn * by_size);
+                (Matrix6::identity(), target_from_camera)
+            }
+        };
         let mut see = See::zeros();
         see.fixed_view_mut::<6, 6>(0, 0).fill_with_identity();
-        see.column_mut(6).copy_from(&Sight::by_size(&pair.camera_from_target));
+        see.column_mut(6).copy_from(&by_size);
         Line {
             rows,
-            factor: noise::factor(view, &pair, hand_eye, sequence.setup),
+            factor,
             columns: noise::columns(view),
-            carry: lie::adjoint(pair.camera_from_target.inverse().iso()),
+            carry,
+            to_target,
             see,
             after: if k == 0 { 0.0 } else { sequence.after[k] },
             used: used[k],
@@ -248,7 +262,9 @@ pub(super) fn smooth(lines: &[Line], levels: &Levels) -> Vec<Slow> {
             (misfit - drift, own + see * smoothed * see.transpose())
         };
         let weighted = linalg::invert_spd(&spread).map_or_else(Vector6::zeros, |w| w * left_out);
-        all.push(Slow { drift, left_out, surprise: left_out.dot(&weighted) });
+        let surprise = left_out.dot(&weighted);
+        let (drift, left_out) = (line.to_target * drift, line.to_target * left_out);
+        all.push(Slow { drift, left_out, surprise });
     }
     all.reverse();
     all

@@ -1,6 +1,6 @@
 //! A sequence of views of which a part of the error changes slowly: drift.
 //!
-//! Odometry of a camera adds one small error to the next; a mount gives way, a robot warms up, and
+//! Odometry of a camera adds one small error to the next, a target gives way, a robot warms up, and
 //! a robot whose geometry is off errs alike in poses that are alike. The misfit of view `k` then has
 //! two parts,
 //!
@@ -12,6 +12,10 @@
 //!
 //! with `w_k` the time between two views and `m` the time after which drift is forgotten, both in
 //! mean intervals: per interval the drift moves by `ρ` (rad) and `τ` (m) in the axes of the camera.
+//! All of that is slow as the target has it ([`Side::Target`]). A camera that moves in its holder is slow
+//! in its own axes: then misfits, and all that is said above of them, are those in the camera's axes,
+//! `Ad(C_k) r_k` ([`Side::Camera`]).
+//!
 //! As `m` grows, drift becomes a random walk, and the start of it goes along with `Y`. `s_k` is the
 //! same of the unit of distances, `h_k` how the misfit moves with it; only where that is unknown.
 //!
@@ -38,11 +42,22 @@ use crate::{Error, HandEye, Setup, detect::sight::TARGET_SCALE};
 use kalman::{covariance, filter, lines, smooth};
 use search::{FIRST_STEP, Search};
 
+/// What gives way, and so in whose axes drift is slow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// The target, the odometry or the robot: slow in the axes of the target.
+    Target,
+    /// The camera in its holder: slow in its own axes.
+    Camera,
+}
+
 /// Views in the order in which they were taken.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sequence {
     /// Who carries the camera.
     pub setup: Setup,
+    /// What drifts.
+    pub side: Side,
     /// All of them, those that are not used too.
     pub views: Vec<View>,
     /// Time from the view before to each, in mean intervals; that of the first is not used.

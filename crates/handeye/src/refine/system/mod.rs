@@ -1,8 +1,10 @@
 //! The equations of the joint fit at one point, and the step that they give.
 //!
 //! The method is told in [`super::joint`]; `views` has the equations of a view, `sights` what the
-//! corners say about the camera, `reml` the noise that the misfits show.
+//! corners say about the camera, `reml` the noise that the misfits show, `regressors` what noise passes
+//! off as information.
 
+mod regressors;
 mod reml;
 mod sights;
 mod views;
@@ -246,7 +248,7 @@ impl System {
     }
 
     pub fn finish(self, problem: &Problem, state: State) -> JointFit {
-        let covariance = self.covariance();
+        let covariance = self.covariance().map(|c| self.believed(c, &state.noise));
         let rows = self.boards.iter().map(|b| b.rows.residual.len()).sum::<usize>();
         let equations = 6 * self.views.len() + rows;
         let log_h = Cholesky::new(self.h.clone()).map_or(f64::INFINITY, |c| {

@@ -447,3 +447,22 @@ fn the_size_of_a_corner_is_not_told() {
     let found = register(&source, &target, &start, &DenseConfig::default()).unwrap();
     assert_eq!((found.verdict, found.size), (Verdict::Accepted, None), "{:?}", found.reasons);
 }
+
+/// Of dense clouds, neighbours along the surface lie as near as the right one.
+#[test]
+fn distances_between_places_get_stuck_and_say_so() {
+    let config = DenseConfig { method: DenseMethod::PointToPoint, ..DenseConfig::default() };
+    let (mut stuck, mut moved) = (0, 0);
+    for seed in 0..3 {
+        let (source, target, truth) = scans_of(480, seed, |k| k);
+        let start = truth * Isometry3::translation(0.009, -0.009, 0.008);
+        let found =
+            register(&shuffled(&source, 1), &shuffled(&target, 2), &start, &config).unwrap();
+        let (turn, shift) = errors(&truth, &found.target_from_source);
+        let right = turn < 0.1 && shift < 0.5;
+        assert!(right || found.verdict != Verdict::Accepted, "{seed}: {turn} deg, {shift} mm");
+        moved += usize::from(found.target_from_source != start);
+        stuck += usize::from(found.reasons.iter().any(|r| r.contains("local minimum")));
+    }
+    assert!(stuck > 0 && moved == 3, "{stuck} {moved}");
+}
