@@ -53,7 +53,7 @@ handeye_status handeye_register(const handeye_scan *source, const handeye_scan *
 
 /* One published method and nothing else, in microseconds: `count` matrices of each pose in, `mount_from_camera` and
  * `anchor_from_target` out. `setup` is "eye-in-hand" or "eye-to-hand"; `method` is "shah", "park-martin", ...
- * On failure `error` gets JSON; it may be NULL. */
+ * On failure `error` gets JSON, else NULL; it may be NULL itself. */
 handeye_status handeye_closed_form(const char *setup, const char *method, size_t count, const double *base_from_flange,
                                    const double *camera_from_target, double mount_from_camera[16],
                                    double anchor_from_target[16], char **error);

@@ -69,7 +69,10 @@ unsafe fn give(answer: *mut *mut c_char, work: impl FnOnce() -> Answer) -> c_int
     if answer.is_null() {
         return status;
     }
-    let text = CString::new(text).map_or(ptr::null_mut(), CString::into_raw);
+    let text = match CString::new(text) {
+        Ok(text) if !text.is_empty() => text.into_raw(),
+        _ => ptr::null_mut(),
+    };
     // SAFETY: the caller promises that it can be written to.
     unsafe { answer.write(text) };
     status

@@ -10,6 +10,7 @@ use clap_complete::Shell;
 use handeye::{
     Calibration, Verdict, Warning,
     calibration::{Candidate, Certificate},
+    quaternion_xyzw,
 };
 use serde::Serialize;
 
@@ -144,11 +145,11 @@ fn transform(c: &Calibration) -> String {
         }
         return text;
     };
-    let (t, q) = (pose.translation() * 1e3, pose.iso().rotation.coords);
+    let t = pose.translation() * 1e3;
+    let [i, j, k, w] = quaternion_xyzw(&pose.iso().rotation);
     let mut text = format!("\n{}  ({})\n", c.name, c.method);
     text += &format!("  translation  {:11.3} {:11.3} {:11.3}   mm\n", t.x, t.y, t.z);
-    text +=
-        &format!("  quaternion   {:11.7} {:11.7} {:11.7} {:11.7}   x y z w\n", q.x, q.y, q.z, q.w);
+    text += &format!("  quaternion   {i:11.7} {j:11.7} {k:11.7} {w:11.7}   x y z w\n");
     if let Some(rows) = &c.hand_eye.covariance.mount_from_camera {
         let s = |k: usize| rows[k][k].max(0.0).sqrt();
         text += &format!(

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use handeye::{
-    Calibration, Camera, Mount, Pose, Setup, calibration,
+    Calibration, Camera, Mount, Pose, Setup, calibration, quaternion_xyzw,
     repeat::{Agreement, Repeat, Repetition, Scatter, repeat, scatter_at, scatter_of_rotation},
 };
 use handeye_io::read_result;
@@ -185,14 +185,11 @@ fn difference(results: &[PathBuf], a: &Pose<Mount, Camera>, b: &Pose<Mount, Came
 /// For people, in 80 columns.
 fn table(a: &Answer, count: usize) -> String {
     let mut text = format!("\n{}\n\n", sentence(a));
-    let (t, q) = (
-        a.combined.mount_from_camera.translation() * 1e3,
-        a.combined.mount_from_camera.iso().rotation.coords,
-    );
+    let t = a.combined.mount_from_camera.translation() * 1e3;
+    let [i, j, k, w] = quaternion_xyzw(&a.combined.mount_from_camera.iso().rotation);
     text += &format!("{}, combined of {count} results\n", a.name);
     text += &format!("  translation  {:11.3} {:11.3} {:11.3}   mm\n", t.x, t.y, t.z);
-    text +=
-        &format!("  quaternion   {:11.7} {:11.7} {:11.7} {:11.7}   x y z w\n", q.x, q.y, q.z, q.w);
+    text += &format!("  quaternion   {i:11.7} {j:11.7} {k:11.7} {w:11.7}   x y z w\n");
     text += &format!(
         "\n  {:<27}{:>8}{:>8}{:>9}{:>8}{:>8}{:>10}\n",
         "distance from the combined", "rms", "max", "rms x", "rms y", "rms z", "one alone"

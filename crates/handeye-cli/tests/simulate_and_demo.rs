@@ -124,6 +124,11 @@ fn an_arm_that_is_not_as_its_model_says_is_corrected_from_files() {
         ["robot_before_mm", "robot_after_mm"].map(|key| found["arm"][key].as_f64().unwrap());
     assert!(after < 0.4 * before, "{before} {after}");
     assert!(out.join("result/corrected_arm.json").exists());
+    // what the arm goes on missing is in what the answer says of itself
+    let (code, tested, said) = handeye(&["verify", result, cell, "--json"]);
+    let tested = answer(&tested);
+    assert_eq!((code, tested["verdict"].as_str()), (0, Some("accepted")), "{said}");
+    assert!(tested["agreement"]["chi_square"].as_f64().unwrap() > 3.0, "{tested}");
     // a cell without joint values has no arm to correct, and nothing of the earlier run stays
     let plain = out.join("plain");
     let plain = plain.to_str().unwrap();

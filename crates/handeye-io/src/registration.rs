@@ -3,6 +3,7 @@
 use handeye::{
     Verdict,
     calibration::{Rows, rows},
+    quaternion_xyzw,
     register::{Dense, Stop},
 };
 use serde::{Deserialize, Serialize};
@@ -66,7 +67,7 @@ impl From<&Dense> for RegistrationResult {
             reasons: found.reasons.clone(),
             target_from_source: Transform {
                 translation_m: pose.translation.vector.into(),
-                rotation_xyzw: pose.rotation.coords.into(),
+                rotation_xyzw: quaternion_xyzw(&pose.rotation),
             },
             covariance: found.covariance.as_ref().map(rows),
             sigma_mm: sigma(3, 1e3),

@@ -21,7 +21,7 @@ pub(crate) enum Tree {
 }
 
 impl Tree {
-    /// Reads a `.json`, `.yaml`, `.yml`, `.calib` or OpenCV `.xml` file.
+    /// Reads a `.json`, `.yaml`, `.yml`, `.calib`, `.samples` or OpenCV `.xml` file.
     pub(crate) fn read(path: &Path) -> Result<Tree, Error> {
         let text = files::text(path)?;
         match files::extension(path).as_str() {

@@ -42,10 +42,17 @@ fn few(item: &Bound<'_, PyAny>) -> PyResult<Few> {
 /// As an array of doubles.
 fn as_array<'py>(item: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let py = item.py();
+    let numpy = py.import("numpy")?;
+    let refused = |error: PyErr| input(format!("no array of numbers: {}", error.value(py)));
+    let given = numpy.call_method1("asarray", (item,)).map_err(refused)?;
+    let kind: char = given.getattr("dtype")?.getattr("kind")?.extract()?;
+    if !"fiubO".contains(kind) {
+        let what = given.getattr("dtype")?.str()?;
+        return Err(input(format!("no array of real numbers, but of {what}")));
+    }
     let options = PyDict::new(py);
     options.set_item("dtype", "float64")?;
-    let array = py.import("numpy")?.call_method("asarray", (item,), Some(&options));
-    array.map_err(|error| input(format!("no array of numbers: {}", error.value(py))))
+    numpy.call_method("asarray", (given,), Some(&options)).map_err(refused)
 }
 
 /// A 3 x 3 matrix, or a rotation vector of three numbers (rad).

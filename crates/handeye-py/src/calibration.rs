@@ -139,11 +139,11 @@ pub fn solve(
         known: known(robot_rotation_deg, robot_position_mm)?,
         ..Config::default()
     };
-    let work = move |_: &(dyn Fn(usize, usize) + Sync)| match unknown_scale {
+    let work = move || match unknown_scale {
         true => calibrate_unscaled(&session, &config),
         false => calibrate_sequence(&session, &BTreeMap::new(), &config),
     };
-    let calibration = working::run(py, None, work)?.map_err(|error| errors::of_core(&error))?;
+    let calibration = working::compute(py, work)?.map_err(|error| errors::of_core(&error))?;
     Ok(Calibrated { calibration, measured: None })
 }
 
@@ -200,7 +200,7 @@ pub fn solve_streams(
         return Err(errors::input(format!("camera_from_target[{k}] lies beyond any camera")));
     }
     let calibration =
-        working::run(py, None, move |_| calibrate_streams(&streams, &Config::default()))?
+        working::compute(py, move || calibrate_streams(&streams, &Config::default()))?
             .map_err(|error| errors::of_core(&error))?;
     Ok(Calibrated { calibration, measured: None })
 }

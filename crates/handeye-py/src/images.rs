@@ -20,7 +20,7 @@ pub fn detect<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let target = target(py, target_json, target_file)?;
     let image = picture(image)?;
-    let found = working::run(py, None, move |_| detection::detect(&image, &target))?;
+    let found = working::compute(py, move || detection::detect(&image, &target))?;
     let answer = PyDict::new(py);
     let (corners, reason) = match found {
         Ok(corners) => (corners, None),
@@ -112,10 +112,20 @@ fn picture(image: &Bound<'_, PyAny>) -> PyResult<GrayImage> {
         return grey(array, |v| f32::from(v) * scale).ok_or_else(|| wrong(array.shape()));
     }
     if let Ok(array) = image.cast::<PyArrayDyn<f32>>() {
-        return grey(array, |v| v).ok_or_else(|| wrong(array.shape()));
+        return up_to_255(grey(array, |v| v).ok_or_else(|| wrong(array.shape()))?);
     }
     if let Ok(array) = image.cast::<PyArrayDyn<f64>>() {
-        return grey(array, |v| v as f32).ok_or_else(|| wrong(array.shape()));
+        return up_to_255(grey(array, |v| v as f32).ok_or_else(|| wrong(array.shape()))?);
     }
     Err(errors::input("the image must be an array of uint8, uint16, float32 or float64 (0 to 255)"))
+}
+
+/// Floating pictures from 0 to 1 are so dark to us that no board would be found in them.
+fn up_to_255(picture: GrayImage) -> PyResult<GrayImage> {
+    let brightest = picture.values().iter().copied().fold(0.0, f32::max);
+    if brightest > 0.0 && brightest <= 1.0 {
+        let what = "the image has no value above 1: from 0 to 255 is needed; multiply it by 255";
+        return Err(errors::input(what));
+    }
+    Ok(picture)
 }

@@ -15,12 +15,12 @@ mod scans;
 mod simulation;
 mod working;
 
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyDict};
 
 /// Compiled functions of handeye.
 #[pymodule]
 mod _core {
-    use super::{Bound, PyModule, PyModuleMethods, PyResult};
+    use super::{Bound, PyDict, PyDictMethods, PyModule, PyModuleMethods, PyResult};
     #[pymodule_export]
     use super::{
         bags::{bag_contents, extract_bag},
@@ -37,6 +37,10 @@ mod _core {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-        module.add("METHODS", Method::ALL.map(Method::name).to_vec())
+        let methods = PyDict::new(module.py());
+        for method in Method::ALL {
+            methods.set_item(method.name(), method.source())?;
+        }
+        module.add("METHODS", methods)
     }
 }

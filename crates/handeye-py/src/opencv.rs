@@ -184,7 +184,7 @@ impl Cell {
         }
         let (given, name) = (found.as_ref().ok().copied(), method.name());
         // where the method failed, what the estimator says of the same data is clearer
-        let warnings = working::run(py, None, move |_| self.examined(given.as_ref(), name))??;
+        let warnings = working::compute(py, move || self.examined(given.as_ref(), name))??;
         Ok((found.map_err(|error| errors::of_core(&error))?, warnings))
     }
 

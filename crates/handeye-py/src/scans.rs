@@ -41,10 +41,8 @@ pub fn register(
         let (r, t) = arrays::pose(matrix, "initial")?;
         PyResult::Ok(*Pose::<(), ()>::from_parts(&r, t).iso())
     })?;
-    let work = move |_: &(dyn Fn(usize, usize) + Sync)| {
-        registration::register(&source, &target, &start, &config)
-    };
-    let found = working::run(py, None, work)?.map_err(|error| errors::of_core(&error))?;
+    let work = move || registration::register(&source, &target, &start, &config);
+    let found = working::compute(py, work)?.map_err(|error| errors::of_core(&error))?;
     serde_json::to_string(&RegistrationResult::from(&found))
         .map_err(|error| PyRuntimeError::new_err(error.to_string()))
 }

@@ -16,7 +16,7 @@ use pyo3::{exceptions::PyRuntimeError, prelude::*};
 /// How often signals are looked for.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// How long a worker that was stopped is waited for.
+/// How long a worker that was stopped is waited for, where it writes files.
 const CLEARING: Duration = Duration::from_secs(2);
 
 /// What the worker sends.
@@ -40,10 +40,27 @@ fn await_end<T>(receiver: &Mutex<Receiver<News<T>>>) {
     }
 }
 
+/// The result of work that only computes: after a Ctrl-C nobody waits for it.
+pub fn compute<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    awaited(py, None, |_| {}, move |_| work())
+}
+
 /// The result of work that is told how to tell its progress; `progress` is called with what is done, and all.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Py<PyAny>>,
+    work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T + Send + 'static,
+) -> PyResult<T> {
+    awaited(py, progress, await_end, work)
+}
+
+fn awaited<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<&Py<PyAny>>,
+    when_stopped: fn(&Mutex<Receiver<News<T>>>),
     work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T + Send + 'static,
 ) -> PyResult<T> {
     let (sender, receiver) = mpsc::channel();
@@ -88,7 +105,7 @@ pub fn run<T: Send + 'static>(
             Ok(None) => {}
             Err(error) => {
                 stop.store(true, Ordering::Relaxed);
-                py.detach(|| await_end(&receiver));
+                py.detach(|| when_stopped(&receiver));
                 return Err(error);
             }
         }

@@ -1,5 +1,8 @@
 """The drop-in beside OpenCV itself."""
 
+import pickle
+import subprocess
+import sys
 import warnings
 
 import cv2
@@ -105,6 +108,39 @@ def test_a_method_in_the_place_of_an_output_is_refused():
     given = (*parts(camera), *parts(np.linalg.inv(robot)))
     with pytest.raises(handeye.InputError, match="method=1"):
         cv2_compat.calibrateRobotWorldHandEye(*given, 1)
+    for output in (np.int64(1), np.array(1), "1", [], {}, object()):
+        with pytest.raises(handeye.InputError, match="an output array belongs"):
+            cv2_compat.calibrateHandEye(*parts(robot), *parts(camera), output)
+
+
+def test_complex_numbers_are_no_rotations():
+    robot, camera = cell()
+    r, t = parts(robot)
+    for bad in (robot[:, :3, :3] + 0j, [x.astype(str) for x in robot[:, :3, :3]]):
+        with pytest.raises(handeye.InputError, match="no array of real numbers"):
+            cv2_compat.calibrateHandEye(bad, t, *parts(camera))
+
+
+def test_errors_can_be_sent_to_other_processes():
+    robot, camera = about_one_axis()
+    with pytest.raises(handeye.NotDetermined) as caught:
+        cv2_compat.calibrateHandEye(*parts(robot), *parts(camera))
+    back = pickle.loads(pickle.dumps(caught.value))
+    assert type(back) is type(caught.value) and isinstance(back, cv2.error) and str(back) == str(caught.value)
+
+
+def test_errors_are_opencvs_in_a_script_that_has_not_imported_it():
+    script = """
+import sys
+from handeye import cv2_compat as cv2
+assert "cv2" not in sys.modules
+try:
+    cv2.calibrateHandEye([], [], [], [])
+except cv2.error as error:
+    print(type(error).__name__)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() in ("InputError", "NotDetermined")
 
 
 def hand_eye(robot, camera, name):

@@ -363,3 +363,32 @@ def test_what_a_calibration_tells_does_not_change_it():
     found.captures[0]["id"] = "other"
     found.to_dict()["verdict"] = "other"
     assert found.accepted and found.captures[0]["id"] == "0"
+
+
+def test_numbers_of_numpy_are_numbers_of_a_target():
+    target = {"kind": "checkerboard", "columns": np.int64(9), "rows": np.int32(6), "square_mm": np.float32(30)}
+    found = handeye.detect(np.zeros((200, 300), np.uint8), target)
+    assert not found.found and found.reason
+
+
+def test_pictures_from_0_to_1_are_refused():
+    target = {"kind": "checkerboard", "columns": 9, "rows": 6, "square_mm": 30.0}
+    picture = np.random.default_rng(1).uniform(size=(200, 300))
+    with pytest.raises(handeye.InputError, match="multiply it by 255"):
+        handeye.detect(picture, target)
+    assert not handeye.detect(255 * picture, target).found
+
+
+def test_counts_out_of_range_are_named(tmp_path):
+    for name in ("captures", "width", "height", "seed"):
+        with pytest.raises(handeye.InputError, match=f"{name} is -1"):
+            handeye.simulate(tmp_path / "cell", **{name: -1})
+    points = np.random.default_rng(1).uniform(size=(100, 3))
+    for name in ("max_iterations", "threads"):
+        with pytest.raises(handeye.InputError, match=f"{name} is 0"):
+            handeye.register(points, points, **{name: 0})
+
+
+def test_methods_name_their_papers():
+    assert handeye.METHODS["park-martin"] == "F. Park, B. Martin, 1994"
+    assert all(who.endswith(tuple("0123456789")) for who in handeye.METHODS.values())

@@ -333,6 +333,9 @@ pub struct Certificate {
     pub translation_to_answer_mm: f64,
 }
 
+/// Name of the candidate that knows of the arm's deviations.
+pub const WITH_ARM: &str = "joint-with-arm";
+
 /// A finished calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {

@@ -232,6 +232,12 @@ impl<A, B> Mul<Point<B>> for Pose<A, B> {
     }
 }
 
+/// The quaternion of a rotation, as files and people get it: of the two that mean the same, the one with `w >= 0`.
+pub fn quaternion_xyzw(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
+    let [x, y, z, w]: [f64; 4] = rotation.coords.into();
+    if w < 0.0 { [-x, -y, -z, -w] } else { [x, y, z, w] }
+}
+
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Stored {
@@ -249,7 +255,7 @@ impl<A: Frame, B: Frame> Serialize for Pose<A, B> {
             to: Some(A::NAME.into()),
             from: Some(B::NAME.into()),
             translation_m: self.iso.translation.vector.into(),
-            rotation_xyzw: self.iso.rotation.coords.into(),
+            rotation_xyzw: quaternion_xyzw(&self.iso.rotation),
         }
         .serialize(s)
     }

@@ -46,7 +46,7 @@ pub use camera::{Distortion, Intrinsics};
 pub use error::{Error, Warning};
 pub use frame::{
     Anchor, Base, Camera, FirstJoint, Flange, Frame, LastLink, Mount, Point, Pose, Target, Tip,
-    Tool,
+    Tool, quaternion_xyzw,
 };
 pub use image::GrayImage;
 /// Vectors, matrices and rotations of this library's functions, in the version that they take.

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use handeye::{
-    Calibration, Config, Setup, calibrate,
+    Calibration, Config, Method, Setup, calibrate,
     calibration::{Verdict, matrix},
     linalg::invert_spd,
     simulate::{Cell, CellNoise, DepthSensor, Truth},
@@ -72,6 +72,29 @@ fn errors_are_as_large_as_the_stated_covariance_in_many_cells() {
 }
 
 /// With touches the chosen answer may be the two-step one, whose touches share the views' errors.
+/// Where the robot is better than the pictures, closed forms are far from the likeliest answer.
+#[test]
+fn a_method_asked_for_by_name_states_its_own_error() {
+    for method in [Method::Shah, Method::TsaiLenz, Method::Andreff] {
+        let config = Config { method: Some(method), ..Config::default() };
+        let mut sum = 0.0;
+        for trial in 0..8 {
+            let usual = Cell::new(Setup::EyeInHand, 3000 + trial);
+            let noise = CellNoise {
+                corner_px: 1.0,
+                robot_absolute_m: 2e-5,
+                robot_absolute_rad: 1e-4,
+                ..usual.noise
+            };
+            let (session, truth) = Cell { noise, ..usual }.session(40 + trial).unwrap();
+            let found = calibrate(&session, &config).unwrap();
+            sum += normalised_error_squared(&found, &truth) / 8.0;
+        }
+        // 1/6 at least: its distance from the likeliest answer is all of its covariance in one direction
+        assert!((0.17..1.6).contains(&sum), "{}: {sum:.2}", method.name());
+    }
+}
+
 fn mean_with_touches(setup: Setup, cells: u64) -> f64 {
     let each = (0..cells).map(|seed| {
         let (found, truth) = solved(&Cell::new(setup, seed), 2000 + seed);

@@ -22,6 +22,15 @@ fn robot_sigma(calibration: &Calibration) -> (f64, f64) {
     (rotation, of("robot position").and_then(|b| b.sigma_mm).unwrap_or(0.0) * 1e-3)
 }
 
+/// What the robot's position misses from place to place, m, each axis: by the error of its reports, or by that of an
+/// arm whose deviations it does not know.
+fn place_sigma(calibration: &Calibration) -> f64 {
+    let tre = calibration.predicted_tre_mm.as_ref().map_or(0.0, |tre| tre.rms * 1e-3);
+    let by_arm =
+        if calibration.method == calibration::WITH_ARM { tre / 3.0f64.sqrt() } else { 0.0 };
+    robot_sigma(calibration).1.max(by_arm)
+}
+
 /// The test of a calibration, and what to know about its touches.
 pub(super) fn test(
     args: &VerifyArgs,
@@ -33,7 +42,6 @@ pub(super) fn test(
         let what = "holds no transform (the data did not determine it): there is nothing to test";
         return Err(Failure::input(path, what));
     };
-    let (_, robot) = robot_sigma(calibration);
     let mut test = Test {
         mount_from_camera,
         covariance: calibration
@@ -43,7 +51,7 @@ pub(super) fn test(
             .as_ref()
             .map(calibration::matrix),
         poses: vec![],
-        touch_sigma: (args.touch_noise_mm * 1e-3).hypot(robot),
+        touch_sigma: (args.touch_noise_mm * 1e-3).hypot(place_sigma(calibration)),
         touches: vec![],
     };
     let is_dataset = args.touches.is_dir() || args.touches.extension().is_some_and(|e| e == "toml");

@@ -1,16 +1,16 @@
 //! ROS: static transforms, URDF, easy_handeye2 and moveit_calibration.
 
-use handeye::Setup;
+use handeye::{Setup, quaternion_xyzw};
 
 use super::{CameraPose, METRES, TURNS, number, numbers};
 use crate::robot::Notation;
 
 /// Translation and quaternion, `x y z qx qy qz qw`.
 fn seven(pose: &CameraPose) -> [String; 7] {
-    let (t, q) =
-        (pose.parent_from_child.translation.vector, pose.parent_from_child.rotation.coords);
+    let t = pose.parent_from_child.translation.vector;
     let [x, y, z] = [t.x, t.y, t.z].map(|v| number(v, METRES));
-    let [qx, qy, qz, qw] = [q.x, q.y, q.z, q.w].map(|v| number(v, TURNS));
+    let [qx, qy, qz, qw] =
+        quaternion_xyzw(&pose.parent_from_child.rotation).map(|v| number(v, TURNS));
     [x, y, z, qx, qy, qz, qw]
 }
 

@@ -3,12 +3,12 @@
 //! Lengths are metres, poses `x y z qx qy qz qw`. A guess for `base_to_camera` says that the camera stands still, one
 //! for `wrist_to_camera` that the robot carries it. Focal lengths without distortion are not taken: the views tell more.
 
-use std::path::Path;
+use std::{collections::BTreeSet, path::Path};
 
 use handeye::{Setup, TargetModel};
 
 use super::{Declared, Described, quoted};
-use crate::{Error, error::unusable, files, target_file::target_toml, tree::Tree};
+use crate::{Error, Place, error::unusable, files, target_file::target_toml, tree::Tree};
 
 /// OpenCV's dictionaries by their numbers.
 const DICTIONARIES: [&str; 17] = [
@@ -61,6 +61,7 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
         );
         return Err(unusable(&file, what));
     }
+    let exclude = not_listed(&pairs, [&poses, &images], &file)?;
     let others = ["target.yaml", "pose_guesses.yaml"].map(|name| folder.join(name));
     let beside: Vec<Tree> =
         others.iter().filter(|f| f.is_file()).map(|f| Tree::read(f)).collect::<Result<_, _>>()?;
@@ -76,13 +77,44 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     };
     let sections = format!(
         "\n{target}\n[robot]\nposes = {}\nnotation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n\
-         direction = \"base_from_flange\"\n\n[images]\nfiles = {}\n",
+         direction = \"base_from_flange\"\n\n[images]\nfiles = {}\n{exclude}",
         quoted(&poses),
         quoted(&images)
     );
     let layout =
         if tree.get("data").is_some() { "industrial_calibration" } else { "robot_cal_tools" };
     Ok(Some(Described { layout, folder, setup: all().find_map(setup), sections, questions }))
+}
+
+/// The line that leaves out what lies in the folders, but is not in the list: samples that were deleted.
+fn not_listed(
+    pairs: &[(String, String)],
+    patterns: [&str; 2],
+    list: &Path,
+) -> Result<String, Error> {
+    let (folder, _) = super::split(list);
+    let listed = |which: fn(&(String, String)) -> &String| pairs.iter().map(which);
+    let gone = listed(|p| &p.0).chain(listed(|p| &p.1)).find(|name| !folder.join(name).is_file());
+    if let Some(name) = gone {
+        return Err(unusable(list, format!("lists {name}, which is not there")));
+    }
+    let place = Place::file(list);
+    let stems = |pattern: &str| -> Result<Vec<String>, Error> {
+        let found = files::expand(&folder, pattern, &place)?;
+        Ok(found.iter().map(|path| files::stem(path)).collect())
+    };
+    let pictures = stems(patterns[1])?;
+    let names: BTreeSet<String> = pairs.iter().map(|p| files::stem(Path::new(&p.1))).collect();
+    let others: Vec<String> = stems(patterns[0])?
+        .into_iter()
+        .filter(|name| pictures.contains(name) && !names.contains(name))
+        .map(|name| quoted(&name))
+        .collect();
+    if others.is_empty() {
+        return Ok(String::new());
+    }
+    let (_, name) = super::split(list);
+    Ok(format!("\n[captures]\n# not in {name}\nexclude = [{}]\n", others.join(", ")))
 }
 
 /// `poses/*.yaml` of `poses/0.yaml`, `poses/1.yaml` ...

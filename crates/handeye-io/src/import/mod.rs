@@ -10,6 +10,7 @@ mod declared;
 mod halcon;
 mod industrial;
 mod kinhec;
+mod opencv;
 mod results;
 mod ros;
 mod samples;

@@ -1,7 +1,7 @@
 //! Samples of ROS programs: pairs of poses in one file.
 //!
-//! easy_handeye2 keeps `{parameters: {calibration_type}, samples: [{robot, tracking}]}`; for a camera beside the robot
-//! its `robot` is the inverse, `effector_from_base`. moveit_calibration keeps a list of
+//! easy_handeye2 keeps `{parameters: {calibration_type}, samples: [{robot, tracking}]}`, or the samples alone; for a
+//! camera beside the robot its `robot` is the inverse, `effector_from_base`. moveit_calibration keeps a list of
 //! `{effector_wrt_world, object_wrt_sensor}`, sixteen numbers each, or of `[[4 x 4], [4 x 4]]`; who carries the camera
 //! it does not say.
 
@@ -9,17 +9,22 @@ use std::path::Path;
 
 use handeye::Setup;
 
-use super::{Declared, Described, quoted, ros, split};
-use crate::{Error, error::unusable, files, tree::Tree};
+use super::{Declared, Described, declared::WHO_CARRIES, quoted, ros, split};
+use crate::{
+    Error,
+    error::{undeclared, unusable},
+    files,
+    tree::Tree,
+};
 
-pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>, Error> {
+pub(super) fn describe(source: &Path, declared: &Declared) -> Result<Option<Described>, Error> {
     let is_text = ["yaml", "yml", "json", "samples"].contains(&files::extension(source).as_str());
     if !source.is_file() || !is_text {
         return Ok(None);
     }
     let tree = Tree::read(source)?;
     if let Some(Tree::List(samples)) = tree.get("samples") {
-        return easy_handeye(source, &tree, samples).map(Some);
+        return easy_handeye(source, &tree, samples, declared).map(Some);
     }
     let Tree::List(samples) = &tree else { return Ok(None) };
     let Some(first) = samples.first() else { return Ok(None) };
@@ -35,17 +40,24 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     Ok(samples.iter().all(is_pair).then(|| moveit(source, ["*.0", "*.1"])))
 }
 
-fn easy_handeye(source: &Path, tree: &Tree, samples: &[Tree]) -> Result<Described, Error> {
+fn easy_handeye(
+    source: &Path,
+    tree: &Tree,
+    samples: &[Tree],
+    declared: &Declared,
+) -> Result<Described, Error> {
     let wrong =
         samples.iter().position(|s| s.get("robot").is_none() || s.get("tracking").is_none());
     if let Some(k) = wrong {
         return Err(unusable(source, format!("sample {} has no `robot` and `tracking`", k + 1)));
     }
-    let parameters = tree.get("parameters");
-    let setup = parameters.and_then(ros::setup_of).ok_or_else(|| {
-        let what = "parameters.calibration_type is neither eye_in_hand nor eye_on_base: the robot's poses have \
-                    opposite directions in the two";
-        unusable(source, what)
+    let own = tree.get("parameters").and_then(ros::setup_of);
+    let setup = own.or(declared.setup).ok_or_else(|| {
+        let question = format!(
+            "{WHO_CARRIES} The file has no parameters.calibration_type, and the robot's poses have opposite \
+             directions in the two"
+        );
+        undeclared(source, "--setup", &question)
     })?;
     let direction = match setup {
         Setup::EyeInHand => "base_from_flange",

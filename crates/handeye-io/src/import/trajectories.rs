@@ -1,18 +1,18 @@
 //! Trajectories: lines of `t x y z qx qy qz qw` in seconds and metres, apart by commas (`hand_eye_calibration` of
-//! ethz-asl) or blanks (TUM). Robot and camera have a file and a clock each. Neither format says what its poses take to
+//! ethz-asl) or blanks (TUM), or in nanoseconds with names above (EuRoC). Robot and camera have a file and a clock each. Neither format says what its poses take to
 //! what: that is declared. Of robot and camera one is enough where the data prove the other: only in the right
 //! direction do both move as one body does.
 
 use std::path::{Path, PathBuf};
 
-use handeye::{Calibration, Config, Setup, Stamped, Verdict, calibrate_streams};
+use handeye::{Calibration, Config, Setup, Stamped, Verdict, calibrate_streams, linalg::median};
 
 use super::{
     Declared, Direction, Imported, declared, split,
     streams::{self, CAMERA, Directions, ROBOT, Recorded},
 };
 use crate::{
-    Error,
+    Error, Place,
     error::{malformed, undeclared, unusable},
     files,
     robot::Notation,
@@ -21,17 +21,31 @@ use crate::{
 
 /// Usual names of the columns.
 const COLUMNS: [&[&str]; 8] = [
-    &["t", "time", "timestamp", "time_s", "stamp"],
-    &["x", "tx", "t_x", "px", "p_x"],
-    &["y", "ty", "t_y", "py", "p_y"],
-    &["z", "tz", "t_z", "pz", "p_z"],
-    &["qx", "q_x"],
-    &["qy", "q_y"],
-    &["qz", "q_z"],
-    &["qw", "q_w"],
+    &[
+        "t",
+        "time",
+        "timestamp",
+        "time_s",
+        "stamp",
+        "time_ns",
+        "timestamp_ns",
+        "time_us",
+        "timestamp_us",
+        "time_ms",
+        "timestamp_ms",
+    ],
+    &["x", "tx", "t_x", "px", "p_x", "p_RS_R_x"],
+    &["y", "ty", "t_y", "py", "p_y", "p_RS_R_y"],
+    &["z", "tz", "t_z", "pz", "p_z", "p_RS_R_z"],
+    &["qx", "q_x", "q_RS_x"],
+    &["qy", "q_y", "q_RS_y"],
+    &["qz", "q_z", "q_RS_z"],
+    &["qw", "q_w", "q_RS_w"],
 ];
-/// Seconds since 1970 are below this; milliseconds and nanoseconds are not.
-const LATEST_S: f64 = 1e11;
+/// Smaller units of time, as names of columns have them, and the least number that can only be a date in them.
+const SMALLER: [(&str, f64, f64); 3] = [("ns", 1e-9, 1e17), ("us", 1e-6, 1e14), ("ms", 1e-3, 1e11)];
+/// Nobody's poses are so far apart, s.
+const LONGEST_STEP_S: f64 = 100.0;
 /// Parts of names of files that are the robot's, or the camera's.
 const OF_ROBOT: [&str; 7] = ["robot", "hand", "flange", "gripper", "base", "tool", "vicon"];
 const OF_CAMERA: [&str; 6] = ["camera", "cam", "eye", "target", "board", "marker"];
@@ -122,22 +136,54 @@ fn is_trajectory(path: &Path) -> bool {
     if !is_text || !path.is_file() {
         return false;
     }
-    let Ok(records) = table::records(path, &Layout::default()) else { return false };
+    let Ok(records) = records(path) else { return false };
     records.iter().take(3).all(|record| sample(record).is_ok())
 }
 
 fn read(path: &Path) -> Result<Vec<Stamped<nalgebra::Isometry3<f64>>>, Error> {
-    table::records(path, &Layout::default())?.iter().map(sample).collect()
+    let all: Vec<Stamped<_>> = records(path)?.iter().map(sample).collect::<Result<_, _>>()?;
+    let step = median(all.windows(2).map(|two| (two[1].time_s - two[0].time_s).abs()));
+    if step > LONGEST_STEP_S {
+        let what = format!("poses {step} s apart: its times cannot be in seconds");
+        let advice = "name their unit in a first line: time_ns x y z qx qy qz qw, or time_ms ...";
+        return Err(malformed(Place::file(path), what, advice));
+    }
+    Ok(all)
+}
+
+/// The lines of a file, with names where a comment above them has them all.
+fn records(path: &Path) -> Result<Vec<Record>, Error> {
+    let mut all = table::records(path, &Layout::default())?;
+    let Some(first) = all.first().filter(|record| record.names.is_empty()) else { return Ok(all) };
+    let text = files::text(path)?;
+    let comment = text.lines().take_while(|line| line.starts_with('#')).last().unwrap_or_default();
+    let comment = comment.trim_start_matches('#');
+    let names: Vec<String> = match comment.contains(',') {
+        true => comment.split(',').map(|name| name.trim().into()).collect(),
+        false => comment.split_whitespace().map(String::from).collect(),
+    };
+    let named = Record { names: names.clone(), ..first.clone() };
+    if names.len() == first.cells.len() && named.names_of(&COLUMNS).is_some() {
+        all.iter_mut().for_each(|record| record.names = names.clone());
+    }
+    Ok(all)
+}
+
+/// What a time is to be multiplied with, by its column's name, or because it is a date.
+fn seconds(record: &Record, time: f64) -> f64 {
+    let name = record.names_of(&COLUMNS[..1]).and_then(|names| names.first().cloned());
+    let name = name.unwrap_or_default().to_lowercase();
+    let is_named =
+        |unit: &str| name.contains(&format!("[{unit}]")) || name.ends_with(&format!("_{unit}"));
+    let said = SMALLER.iter().find(|(unit, _, _)| is_named(unit));
+    let unit = said.or_else(|| SMALLER.iter().find(|(_, _, least)| time.abs() >= *least));
+    unit.map_or(1.0, |(_, factor, _)| *factor)
 }
 
 fn sample(record: &Record) -> Result<Stamped<nalgebra::Isometry3<f64>>, Error> {
     let advice = "a line holds t x y z qx qy qz qw, in seconds and metres";
     let numbers = record.numbers(&COLUMNS, "a trajectory")?;
-    let time_s = numbers[0];
-    if time_s.abs() > LATEST_S {
-        let what = format!("the time {time_s:e} cannot be in seconds");
-        return Err(malformed(record.place.clone(), what, advice));
-    }
+    let time_s = numbers[0] * seconds(record, numbers[0]);
     let refuse = |what: String| malformed(record.place.clone(), what, advice);
     let notation = Notation::named("quaternion-xyzw").map_err(refuse)?;
     let pose = notation.pose(&numbers[1..], notation.own_units()).map_err(refuse)?;

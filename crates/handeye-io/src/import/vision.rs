@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use super::{
-    Declared, Direction,
+    Declared, Direction, opencv,
     results::{Found, pose},
     split,
 };
 use crate::{
     Error, Place,
-    error::{malformed, undeclared},
+    error::{malformed, undeclared, unusable},
     files,
     table::{self, halcon},
     tree::Tree,
@@ -19,20 +19,30 @@ use crate::{
 /// Keys of Zivid's matrices, in millimetres: of its own format, and of its older samples (OpenCV's).
 pub(super) const ZIVID: [&str; 2] = ["FloatMatrix", "PoseState"];
 
-/// A 4 x 4 matrix alone in a YAML, XML or JSON file.
+/// A 4 x 4 matrix in a YAML, XML or JSON file, or a rotation and a translation beside each other.
 pub(super) fn zivid_or_opencv(source: &Path, declared: &Declared) -> Result<Option<Found>, Error> {
     if !["yaml", "yml", "xml", "json"].contains(&files::extension(source).as_str()) {
         return Ok(None);
     }
     let Tree::Map(entries) = Tree::read(source)? else { return Ok(None) };
-    let matrices: Vec<(&String, Vec<f64>)> = entries
-        .iter()
-        .filter_map(|(key, value)| Some((key, value.numbers().filter(|n| n.len() == 16)?)))
-        .collect();
-    let [(key, numbers)] = &matrices[..] else { return Ok(None) };
-    let own = Direction::named(key).ok().filter(|d| d.to == "camera" || d.from == "camera");
+    let all = opencv::transforms(&entries);
+    let named: Vec<&opencv::Transform> = all.iter().filter(|t| t.direction.is_some()).collect();
+    let transform = match (&all[..], &named[..]) {
+        ([], _) => return Ok(None),
+        (_, [one]) => *one,
+        ([one], _) => one,
+        _ => {
+            let names: Vec<&str> = all.iter().map(|t| t.name.as_str()).collect();
+            let what = format!(
+                "holds {}: leave one in it, or call it cam2gripper or cam2base",
+                names.join(", ")
+            );
+            return Err(unusable(source, what));
+        }
+    };
+    let (key, own) = (&transform.name, transform.direction);
     let found = |layout, unit, is_cameras, notes| {
-        let pose = pose(numbers, "matrix4x4", unit, source)?;
+        let pose = pose(&transform.numbers, "matrix4x4", unit, source)?;
         let setup = own.and_then(Direction::setup);
         Ok(Some(Found { layout, pose, setup, is_cameras, notes }))
     };
@@ -44,15 +54,16 @@ pub(super) fn zivid_or_opencv(source: &Path, declared: &Declared) -> Result<Opti
         );
         return found("result of Zivid", unit, Some(true), vec![note]);
     }
-    let unit = match (own, declared.length_unit) {
-        (_, Some(unit)) => unit,
-        (Some(_), None) => LengthUnit::Metre, // as this program exports it
-        (None, None) => {
+    let unit = match declared.length_unit {
+        Some(unit) => unit,
+        None if Direction::named(key).is_ok() => LengthUnit::Metre, // as this program exports it
+        None => {
             let question = format!("is the position in {key} in m, mm, cm or inch?");
             return Err(undeclared(source, "--length-unit", &question));
         }
     };
-    let notes = vec![format!("{key} is in {}", unit.name())];
+    let read = own.map_or(String::new(), |d| format!(" is read as {}, and", d.name()));
+    let notes = vec![format!("{key}{read} is in {}", unit.name())];
     found("matrix of OpenCV", unit, own.map(|d| d.from == "camera"), notes)
 }
 

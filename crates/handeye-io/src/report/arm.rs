@@ -6,6 +6,7 @@ use handeye::{
     Calibration,
     calibration::{ArmDeviation, ArmResult},
     kinematics::Parameter,
+    quaternion_xyzw,
 };
 
 use super::{mm, section};
@@ -26,7 +27,7 @@ pub(super) fn arm(c: &Calibration) -> String {
         mm(arm.predicted_tre_mm),
     );
     let [x, y, z] = (arm.mount_from_camera.translation() * 1e3).into();
-    let [i, j, k, w] = arm.mount_from_camera.iso().rotation.coords.into();
+    let [i, j, k, w] = quaternion_xyzw(&arm.mount_from_camera.iso().rotation);
     let _ = write!(
         content,
         "<p><code>{}</code> with the corrected model: translation ({x:.3}, {y:.3}, {z:.3}) mm, \

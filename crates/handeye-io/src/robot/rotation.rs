@@ -57,13 +57,13 @@ impl Rotation {
 
     /// A rotation as numbers (radians).
     pub(super) fn write(self, rotation: &UnitQuaternion<f64>) -> Vec<f64> {
-        let q = rotation.coords;
+        let [x, y, z, w] = handeye::quaternion_xyzw(rotation);
         match self {
             Rotation::Matrix => {
                 rotation.to_rotation_matrix().matrix().transpose().iter().copied().collect()
             }
-            Rotation::QuaternionXyzw => vec![q.x, q.y, q.z, q.w],
-            Rotation::QuaternionWxyz => vec![q.w, q.x, q.y, q.z],
+            Rotation::QuaternionXyzw => vec![x, y, z, w],
+            Rotation::QuaternionWxyz => vec![w, x, y, z],
             Rotation::Vector => rotation.scaled_axis().iter().copied().collect(),
             Rotation::Euler(axes, sense) => euler::angles(axes, sense, rotation).to_vec(),
         }

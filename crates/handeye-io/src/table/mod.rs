@@ -66,7 +66,7 @@ pub(crate) enum Column {
 /// All records of one file.
 pub(crate) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error> {
     let records = match files::extension(path).as_str() {
-        "json" | "yaml" | "yml" | "calib" | "xml" => field::records(path, layout)?,
+        "json" | "yaml" | "yml" | "calib" | "samples" | "xml" => field::records(path, layout)?,
         "npy" | "npz" => array::records(path, layout)?,
         "dat" if let Some(text) = pose_of_halcon(path)? => vec![halcon::record(&text, path)?],
         _ => lines::records(path, layout)?,

@@ -4,8 +4,8 @@ Lengths are metres and angles radians, but where a name ends in ``_mm`` or ``_de
 ``a_from_b`` and takes points of ``b`` into ``a``; as an array it is a homogeneous 4 x 4 matrix.
 
 >>> import handeye
->>> sorted(handeye.METHODS)[:3]
-['andreff', 'andreff-scaled', 'chou-kamel']
+>>> handeye.METHODS["tsai-lenz"]  # who published it; the keys are all methods there are
+'R. Tsai, R. Lenz, 1989'
 """
 
 from ._calibration import Calibration, Candidate

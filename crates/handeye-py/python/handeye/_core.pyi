@@ -32,7 +32,7 @@ __all__ = [
 ]
 
 __version__: str
-METHODS: list[str]
+METHODS: dict[str, str]
 
 class HandEyeError(ValueError):
     code: Optional[str]

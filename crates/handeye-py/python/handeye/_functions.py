@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from operator import index
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
@@ -156,7 +157,7 @@ def extract_bag(
     :raises InputError: a bag that cannot be used, or lacks what is asked for.
     """
     file = target if isinstance(target, (str, PathLike)) else None
-    table = None if target is None or file is not None else json.dumps(dict(target))  # type: ignore[arg-type]
+    table = None if target is None or file is not None else _json(target)  # type: ignore[arg-type]
     text = _core.extract_bag(
         fspath(bag),
         fspath(out),
@@ -172,7 +173,7 @@ def extract_bag(
         depth=depth,
         camera_info=camera_info,
         motion=motion,
-        most=most,
+        most=_count("most", most),
         stamps=stamps,
     )
     return Extracted(**json.loads(text))
@@ -235,6 +236,12 @@ def solve(
     :param unknown_scale: the target's distances are known up to one factor.
     :param robot_times_s: stamps of the robot's poses (s), where both lists have clocks of their own.
     :param camera_times_s: stamps of the target's poses; both lists may then differ in length.
+    :returns: the answer with its covariance, and a verdict: look at that first. Where ``method`` is not given, the
+        maximum-likelihood estimate of both poses and of the noise, or a closed form where that predicts less error.
+    :raises InputError: arrays of another shape or length, numbers that are not finite, rotations that are none.
+    :raises NotDetermined: fewer than three poses.
+
+    Bad data end in a verdict, not in an exception.
     """
     robot = _poses(base_from_flange, "base", "flange")
     camera = _poses(camera_from_target, "camera", "target")
@@ -272,7 +279,9 @@ def closed_form(
 
     Arguments are those of :func:`solve`. Takes microseconds, and says nothing of how sure it is.
 
+    :param method: one of ``METHODS``, which says who published it.
     :raises NotDetermined: all rotations are about one axis, or the method has no single answer.
+    :raises InputError: arrays of another shape or length, a method that is not there.
     """
     x, y = _core.closed_form(
         setup,
@@ -290,11 +299,13 @@ def detect(image: Any, target: Union[Mapping[str, Any], Path]) -> Corners:
     :param image: H x W, H x W x 3 or x 4 (alpha is left out); uint8, uint16, or floating from 0 to 255.
     :param target: ``{"kind": "checkerboard", "columns": 11, "rows": 8, "square_mm": 30.0}`` and the like, as under
         ``[target]`` of a manifest, or a TOML file with these keys.
+    :returns: ids, pixels and their covariances; where there is no target, none of them, and ``reason`` says why.
+    :raises InputError: an array that is no picture, floating numbers up to 1 only, or a target that is none.
     """
     if isinstance(target, (str, PathLike)):
         found = _core.detect(image, target_file=fspath(target))
     else:
-        found = _core.detect(image, target_json=json.dumps(dict(target)))
+        found = _core.detect(image, target_json=_json(target))
     return Corners(found["ids"], found["pixels"], found["covariances"], found["reason"])
 
 
@@ -320,6 +331,10 @@ def register(
     :param max_iterations: most rounds.
     :param search: look for a beginning everywhere, and take no ``initial``.
     :param threads: the answer is the same with any number.
+    :returns: the pose with its covariance, and a verdict: look at that first.
+    :raises InputError: arrays of another shape or without points, an ``initial`` that is no rigid transform.
+
+    Methods: Besl and McKay 1992 (point-to-point), Chen and Medioni 1992 (point-to-plane), Segal et al. 2009 (GICP).
     """
     if isinstance(initial, Pose) and (initial.to, initial.from_frame) != ("target", "source"):
         raise InputError(f"initial is {initial.name}: target_from_source is needed")
@@ -329,9 +344,9 @@ def register(
         initial=initial.matrix if isinstance(initial, Pose) else initial,
         method=method,
         max_distance_m=max_distance_m,
-        max_iterations=max_iterations,
+        max_iterations=_count("max_iterations", max_iterations),
         is_global=search,
-        threads=max(1, int(threads)),
+        threads=_count("threads", threads),
     )
     import numpy as np
 
@@ -383,17 +398,29 @@ def simulate(
     return _core.simulate(
         fspath(out),
         setup,
-        seed=seed,
-        captures=captures,
-        width=width,
-        height=height,
-        target_json=None if target is None else json.dumps(dict(target)),
+        seed=_count("seed", seed, least=0),
+        captures=_count("captures", captures),
+        width=_count("width", width),
+        height=_count("height", height),
+        target_json=None if target is None else _json(target),
         images=images,
         scans=scans,
         arm=arm,
         exact=exact,
         force=force,
     )
+
+
+def _json(target: Mapping[str, Any]) -> str:
+    """With numbers of NumPy as numbers."""
+    return json.dumps(dict(target), default=lambda value: value.tolist())
+
+
+def _count(name: str, value: int, least: int = 1) -> int:
+    number = index(value)
+    if not least <= number < 2**63:
+        raise InputError(f"{name} is {number}: a number from {least} on is needed")
+    return number
 
 
 def _poses(poses: Any, to: str, from_frame: str) -> Any:

@@ -8,13 +8,12 @@ answers wrongly without a word, an error says why:
 * :class:`handeye.Rejected`: poses contradict each other, or the method fails on them.
 * :class:`handeye.InputError`: an array is no rotation, has another shape, or lists differ in length.
 
-All three are a ``ValueError``, and where OpenCV is imported a ``cv2.error`` as well: scripts that catch that go on. What is only worth knowing comes as a
-:class:`HandEyeWarning`. Lengths may be metres or millimetres, the same for all. Translations of the shape 1 x 3 are
+All three are a ``ValueError``, and where OpenCV is installed a ``cv2.error`` as well: scripts that catch that go on.
+What is only worth knowing comes as a :class:`HandEyeWarning`. Lengths may be metres or millimetres, the same for all. Translations of the shape 1 x 3 are
 read as they are meant, where OpenCV goes wrong.
 """
 
 import functools as _functools
-import sys as _sys
 import warnings as _warnings
 from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, Sequence, Tuple, Type, TypeVar, cast
 
@@ -64,29 +63,35 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def _raising(function: _Function) -> _Function:
-    """Its errors are errors of OpenCV as well, where that is imported."""
+    """Its errors are errors of OpenCV as well, where that is installed."""
 
     @_functools.wraps(function)
     def call(*args: Any, **keywords: Any) -> Any:
         try:
             return function(*args, **keywords)
         except HandEyeError as error:
-            opencv = getattr(_sys.modules.get("cv2"), "error", None)
-            if opencv is None:
-                raise
-            raise _both(type(error), opencv)(*error.args) from None
+            raise _of_opencv(type(error), error.args) from None
 
     return cast(_Function, call)
 
 
-_known: Dict[str, Type[HandEyeError]] = {}
+_known: Dict[Type[HandEyeError], Type[HandEyeError]] = {}
 
 
-def _both(kind: Type[HandEyeError], opencv: Type[Exception]) -> Type[HandEyeError]:
-    if kind.__name__ not in _known:
-        about = {"__doc__": kind.__doc__, "__module__": kind.__module__}
-        _known[kind.__name__] = cast("Type[HandEyeError]", type(kind.__name__, (kind, opencv), about))
-    return _known[kind.__name__]
+def _of_opencv(kind: Type[HandEyeError], args: Tuple[Any, ...]) -> HandEyeError:
+    """An error that both ``except`` clauses catch; it is pickled as what it is here, for other processes."""
+    try:
+        from cv2 import error as opencv
+    except ImportError:
+        return kind(*args)
+    if kind not in _known:
+        about = {
+            "__doc__": kind.__doc__,
+            "__module__": kind.__module__,
+            "__reduce__": lambda self: (_of_opencv, (kind, self.args)),
+        }
+        _known[kind] = cast("Type[HandEyeError]", type(kind.__name__, (kind, opencv), about))
+    return _known[kind](*args)
 
 
 @_raising
@@ -158,11 +163,15 @@ def calibrateRobotWorldHandEye(
 
 def _refuse_method(outputs: Sequence[Any]) -> None:
     """OpenCV takes a method in these places for an array to fill, and runs its default instead."""
+    import numpy as np
+
     for output in outputs:
-        if isinstance(output, (int, float, str)):
-            raise InputError(
-                f"{output!r} stands where an output array belongs: write method={output!r}"
-            )
+        if output is None or (isinstance(output, np.ndarray) and output.ndim > 0):
+            continue
+        what = f"{output!r} stands where an output array belongs: "
+        if isinstance(output, (bool, list, tuple, dict)):
+            raise InputError(what + "leave it out, the results are returned")
+        raise InputError(f"{what}write method={output!r}")
 
 
 def _flag(method: Any) -> int:

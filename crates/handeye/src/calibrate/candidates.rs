@@ -2,7 +2,7 @@
 
 mod registered;
 
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, SVector};
 
 use super::{
     Config,
@@ -21,12 +21,12 @@ use super::{
 use registered::stored_registration;
 
 use crate::{
-    HandEye, PosePair, Warning,
-    calibration::{Answer, Calibration, Candidate, PoseCovariance, rows},
+    Camera, HandEye, Mount, Pose, PosePair, Warning,
+    calibration::{Answer, Calibration, Candidate, PoseCovariance, WITH_ARM, rows},
     diagnose,
     evaluate::{self, Estimator},
     predict::{self, Volume},
-    refine::{self, JointFit, Problem},
+    refine::{self, JointFit, Problem, pose_fit::Matrix12},
     solve::{self, Method, consensus::Consensus},
     touches::{self, TouchPairs},
 };
@@ -181,11 +181,20 @@ struct Judged {
 
 /// Covariance of X and Y in their own frames, widened for noise estimated from few captures, and
 /// for data that fit worse than their noise says.
-pub(super) fn stated_covariance(fit: &JointFit) -> Option<refine::pose_fit::Matrix12> {
+pub(super) fn stated_covariance(fit: &JointFit) -> Option<Matrix12> {
     fit.pose_covariance().zip(inflation(fit)).map(|(c, factor)| c * factor)
 }
 
-fn blocks(covariance: &refine::pose_fit::Matrix12) -> (Matrix6<f64>, Matrix6<f64>) {
+/// What an answer is more uncertain than the likeliest one: their difference and the likeliest one's error are
+/// independent (J. Hausman, Econometrica 46(6), 1978), and it is the only sample of its covariance.
+fn excess(likeliest: &HandEye, answer: &HandEye) -> Matrix12 {
+    let x = likeliest.mount_from_camera.local(&answer.mount_from_camera);
+    let y = likeliest.anchor_from_target.local(&answer.anchor_from_target);
+    let off = SVector::<f64, 12>::from_iterator(x.iter().chain(&y).copied());
+    off * off.transpose()
+}
+
+fn blocks(covariance: &Matrix12) -> (Matrix6<f64>, Matrix6<f64>) {
     (
         covariance.fixed_view::<6, 6>(0, 0).into_owned(),
         covariance.fixed_view::<6, 6>(6, 6).into_owned(),
@@ -258,7 +267,8 @@ impl Judge<'_> {
         let tre = self.workpiece.tre(&x);
         let held_out = evaluate::rms(&left_out);
         let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
-        let covariance = stated_covariance(fit);
+        let covariance =
+            stated_covariance(fit).map(|c| self.of_both(c + excess(&fit.hand_eye, answer), answer));
         let candidate = Candidate {
             name,
             hand_eye: stored(views, answer, covariance.as_ref()),
@@ -272,6 +282,21 @@ impl Judge<'_> {
         Judged { candidate, tre, held_out: left_out }
     }
 
+    /// Covariance of an answer for the camera. Where the arm deviates, every answer misses what the best one does, and
+    /// its distance from that one.
+    fn of_camera(&self, own: Matrix6<f64>, x: &Pose<Mount, Camera>) -> Matrix6<f64> {
+        let Some((best, covariance)) = self.workpiece.rigid() else { return own };
+        let off = best.local(x);
+        covariance + off * off.transpose()
+    }
+
+    /// The same beside that for the target.
+    fn of_both(&self, mut own: Matrix12, answer: &HandEye) -> Matrix12 {
+        let of_camera = self.of_camera(blocks(&own).0, &answer.mount_from_camera);
+        own.fixed_view_mut::<6, 6>(0, 0).copy_from(&of_camera);
+        own
+    }
+
     /// The fit of everything.
     fn joint_candidate(&self, joint: &Joint) -> Option<Judged> {
         let fit = &joint.fit;
@@ -279,10 +304,11 @@ impl Judge<'_> {
         let tre = self.workpiece.tre(&x);
         let left_out = held_out_views(&joint.problem, fit, &self.known);
         let held_out = evaluate::rms(&left_out);
+        let covariance = stated_covariance(fit).map(|c| self.of_both(c, &fit.hand_eye));
         let touch_held_out = joint.held_out_touches(&self.known).map(|m| m * 1e3);
         let candidate = Candidate {
             name: "joint".into(),
-            hand_eye: stored(self.views, &fit.hand_eye, stated_covariance(fit).as_ref()),
+            hand_eye: stored(self.views, &fit.hand_eye, covariance.as_ref()),
             in_sample: evaluate::in_sample(&fit.hand_eye, &as_fitted(fit, &self.views.views)),
             held_out,
             touch_rms_mm: joint.touch_rms().map(|m| m * 1e3),
@@ -293,9 +319,6 @@ impl Judge<'_> {
         Some(Judged { candidate, tre, held_out: left_out })
     }
 }
-
-/// Name of the candidate that knows of the arm's deviations.
-const WITH_ARM: &str = "joint-with-arm";
 
 impl Judge<'_> {
     /// The answer that does best for a robot whose arm deviates and which does not know.
@@ -326,11 +349,7 @@ impl Judge<'_> {
 }
 
 /// The answer for files: about the target's own origin again.
-pub(super) fn stored(
-    views: &Views,
-    answer: &HandEye,
-    covariance: Option<&refine::pose_fit::Matrix12>,
-) -> Answer {
+pub(super) fn stored(views: &Views, answer: &HandEye, covariance: Option<&Matrix12>) -> Answer {
     let carry = crate::lie::adjoint(views.target_from_corner.iso());
     let moved = answer.retarget(views.target_from_corner.inverse());
     Answer {

@@ -7,7 +7,7 @@
 //! `m` is not a rigid motion of `p`; the answer for the robot as it is comes nearest to it over the
 //! volume, and what is left adds to its error.
 
-use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
+use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix6, Vector3};
 
 use super::{agreement::Views, arm::ArmFit};
 use crate::{
@@ -91,7 +91,8 @@ impl Reach {
         self.near(p).map_or_else(Vec::new, of)
     }
 
-    /// The answer that comes nearest, and its covariance for one of all unknowns.
+    /// The answer that comes nearest, and its covariance for one of all unknowns. That no rigid motion comes nearer
+    /// is in it: as if the answer were another one at every place, by as much as the robot misses it there.
     pub fn rigid(&self, covariance: &DMatrix<f64>) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
         let from: Vec<Vector3<f64>> = self.places.iter().map(|k| k.p).collect();
         let to: Vec<Vector3<f64>> = self.places.iter().map(|k| k.p + k.shift).collect();
@@ -110,7 +111,23 @@ impl Reach {
         by_all.view_mut((0, 0), (6, 6)).copy_from(&squares);
         let carry = DMatrix::from_column_slice(6, 6, squares.try_inverse()?.as_slice()) * by_all;
         let own = &carry * covariance * carry.transpose();
-        Some((x, own.fixed_view::<6, 6>(0, 0).into_owned()))
+        let missed = self.missed(&fit.target_from_source, &squares)?;
+        Some((x, own.fixed_view::<6, 6>(0, 0) + missed))
+    }
+
+    /// A covariance that predicts what the robot misses all over the volume, where it is sent by a rigid motion;
+    /// `squares` are `Σ JᵀJ` over it.
+    fn missed(&self, motion: &Isometry3<f64>, squares: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        let mut sum = Matrix6::zeros();
+        for place in &self.places {
+            let off = motion.transform_vector(&place.p) + motion.translation.vector
+                - (place.p + place.shift);
+            let j = point_jacobian(&place.p);
+            sum += j.transpose() * (off * off.transpose() + place.scatter) * j;
+        }
+        let inverse = squares.try_inverse()?;
+        // a pose of six unknowns carries each of them to points of three: half of it is their share
+        Some(inverse * sum * inverse * (0.5 * self.places.len() as f64))
     }
 }
 

@@ -4,7 +4,7 @@ use super::{Config, agreement::Views};
 use crate::{
     Camera, Mount, Pose, Warning,
     calibration::{Answer, Calibration, Determined, Scale, Verdict},
-    diagnose,
+    diagnose, quaternion_xyzw,
     refine::{JointFit, noise::Source},
 };
 
@@ -103,9 +103,8 @@ pub(super) fn determined(x: &Pose<Mount, Camera>, free: &[diagnose::Free]) -> De
     let across = along(false).fold(t, |t, axis| t - axis * axis.dot(&t));
     // a rotation that is free swings the camera about: no position is left
     let turns = along(true).next().is_some();
-    let q = x.iso().rotation;
     Determined {
-        rotation_xyzw: (!turns).then(|| [q.i, q.j, q.k, q.w]),
+        rotation_xyzw: (!turns).then(|| quaternion_xyzw(&x.iso().rotation)),
         translation_across_m: (!turns).then(|| across.into()),
         free_rotations: along(true).map(Into::into).collect(),
         free_translations: along(false).map(Into::into).collect(),

@@ -130,6 +130,30 @@ impl Method {
         }
     }
 
+    /// Who published it, and when.
+    pub fn source(self) -> &'static str {
+        match self {
+            Method::Shah => "M. Shah, 2013",
+            Method::ParkMartin => "F. Park, B. Martin, 1994",
+            Method::Daniilidis => "K. Daniilidis, 1999",
+            Method::TsaiLenz => "R. Tsai, R. Lenz, 1989",
+            Method::ShiuAhmad => "Y. Shiu, S. Ahmad, 1989",
+            Method::ChouKamel => "J. Chou, M. Kamel, 1991",
+            Method::HoraudDornaika | Method::HoraudDornaikaNonlinear => {
+                "R. Horaud, F. Dornaika, 1995"
+            }
+            Method::Andreff | Method::AndreffScaled => "N. Andreff, R. Horaud, B. Espiau, 2001",
+            Method::LuChou => "Y. Lu, J. Chou, 1995",
+            Method::Wu => "J. Wu, Y. Sun, M. Wang, M. Liu, 2020",
+            Method::Zhuang => "H. Zhuang, Z. Roth, R. Sudhakar, 1994",
+            Method::DornaikaHoraud => "F. Dornaika, R. Horaud, 1998",
+            Method::Li => "A. Li, L. Wang, D. Wu, 2010",
+            Method::TabbAhmadYousefC1 | Method::TabbAhmadYousefC2 => {
+                "A. Tabb, K. Ahmad Yousef, 2017"
+            }
+        }
+    }
+
     /// The method of that name.
     pub fn from_name(name: &str) -> Option<Method> {
         Method::ALL.into_iter().find(|m| m.name() == name)

@@ -72,6 +72,23 @@ fn a_setup_that_contradicts_the_samples_is_refused() {
 }
 
 #[test]
+fn samples_without_parameters_need_a_setup_that_is_declared() {
+    let folder = folder("bare-samples");
+    let file = folder.join("cell.samples");
+    let whole = easy_handeye("eye_on_base");
+    fs::write(&file, &whole[whole.find("samples:").unwrap()..]).unwrap();
+    let error = import(&file, &Declared::default()).unwrap_err().to_string();
+    assert!(error.contains("--setup is missing; who carries the camera"), "{error}");
+    for setup in [Setup::EyeInHand, Setup::EyeToHand] {
+        let set = opened(&import(&file, &of(setup)).unwrap());
+        let first = set.captures[0].base_from_flange.iso();
+        let as_it_stands = if setup == Setup::EyeInHand { *first } else { first.inverse() };
+        assert!((as_it_stands.translation.vector.x - 0.1).abs() < 1e-12);
+    }
+    fs::remove_dir_all(folder).ok();
+}
+
+#[test]
 fn samples_of_moveit_calibration_ask_who_carries_the_camera() {
     let folder = folder("moveit");
     let matrix = "[1, 0, 0, 0.1, 0, 1, 0, 0.2, 0, 0, 1, 0.3, 0, 0, 0, 1]";
@@ -121,6 +138,14 @@ fn robot_cal_tools_says_target_and_setup() {
     let set = opened(&imported);
     assert_eq!((set.setup, set.captures.len()), (Setup::EyeInHand, 3));
     assert!(imported.text.contains("DICT_6X6_250") && imported.text.contains("36.195"));
+    // a sample that was deleted from the list, but not from the disk
+    fs::copy(folder.join("poses/1.yaml"), folder.join("poses/7.yaml")).unwrap();
+    fs::copy(folder.join("images/1.png"), folder.join("images/7.png")).unwrap();
+    let set = opened(&import(&folder, &Declared::default()).unwrap());
+    assert_eq!(set.captures.iter().map(|c| c.id.as_str()).collect::<Vec<_>>(), ["0", "1", "2"]);
+    fs::remove_file(folder.join("images/1.png")).unwrap();
+    let error = import(&folder, &Declared::default()).unwrap_err().to_string();
+    assert!(error.contains("lists images/1.png, which is not there"), "{error}");
     let named = [
         ("poses/0.yaml", "images/0.png"),
         ("poses/1.yaml", "images/2.png"),

@@ -200,6 +200,67 @@ fn mech_mind_and_zivid_count_in_millimetres() {
 }
 
 #[test]
+fn transforms_of_opencv_are_read_by_their_names() {
+    let folder = folder("opencv");
+    let matrix = |name: &str, rows: u32, cols: u32, data: &str| {
+        format!(
+            "{name}: !!opencv-matrix\n   rows: {rows}\n   cols: {cols}\n   dt: d\n   data: [ {data} ]\n"
+        )
+    };
+    let file = |entries: &[String]| format!("%YAML:1.0\n---\n{}", entries.concat());
+    let turn = "-0.28, 0., 0.96, 0., -1., 0., 0.96, 0., 0.28";
+    let expected = Isometry3::from_parts(
+        Translation3::new(0.5, -0.25, 0.7),
+        UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(0.0, 0.6, 0.0, 0.8)),
+    );
+    let whole = "-0.28, 0., 0.96, 500., 0., -1., 0., -250., 0.96, 0., 0.28, 700., 0., 0., 0., 1.";
+    let other = "1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.";
+    let [r, t] = [(3, 3, turn), (3, 1, "500., -250., 700.")];
+    let both = |suffix: &str| {
+        [("R", r), ("t", t)]
+            .map(|(name, (rows, cols, data))| matrix(&format!("{name}{suffix}"), rows, cols, data))
+            .concat()
+    };
+    let camera = matrix("camera_matrix", 3, 3, "900., 0., 320., 0., 900., 240., 0., 0., 1.");
+    let in_mm =
+        |declared| Declared { length_unit: Some(crate::units::LengthUnit::Millimetre), ..declared };
+    let named = [
+        (file(&[both("_cam2gripper")]), Setup::EyeInHand, false),
+        (
+            file(&[both("_cam2base"), camera, matrix("T_base2gripper", 4, 4, other)]),
+            Setup::EyeToHand,
+            false,
+        ),
+        (file(&[matrix("T_cam2base", 4, 4, whole)]), Setup::EyeToHand, false),
+        (file(&[matrix("gripper2cam", 4, 4, whole)]), Setup::EyeInHand, true),
+        (file(&[matrix("H_camera_to_base", 4, 4, whole)]), Setup::EyeToHand, false),
+        (
+            file(&[matrix("rvec_cam2base", 3, 1, "0., 0., 0."), both("_cam2gripper")]),
+            Setup::EyeInHand,
+            false,
+        ),
+    ];
+    for (text, setup, is_inverse) in &named {
+        let (found, pose) = imported(&folder, "cv.yaml", text, &in_mm(Declared::default()));
+        assert_eq!(found, *setup, "{text}");
+        let expected = if *is_inverse { expected.inverse() } else { expected };
+        same(&pose, &expected, text);
+    }
+    let (_, pose) =
+        imported(&folder, "cv.yaml", &file(&[both("")]), &in_mm(directed("base_from_camera")));
+    same(&pose, &expected, "R and t alone");
+    let error = refused(&folder, "cv.yaml", &named[0].0, &Declared::default());
+    assert!(error.contains("--length-unit is missing; is the position in cam2gripper"), "{error}");
+    let two = file(&[both(""), matrix("A", 4, 4, other)]);
+    let error = refused(&folder, "cv.yaml", &two, &in_mm(of(Setup::EyeInHand)));
+    assert!(error.contains("holds A, R and t: leave one in it"), "{error}");
+    let stretched = named[2].0.replace("0.96", "1.96");
+    let error = refused(&folder, "cv.yaml", &stretched, &in_mm(Declared::default()));
+    assert!(error.contains("rotation") || error.contains("orthogonal"), "{error}");
+    fs::remove_dir_all(folder).ok();
+}
+
+#[test]
 fn a_pose_without_names_of_frames_is_no_result() {
     let folder = folder("nameless");
     let path = folder.join("pose.json");

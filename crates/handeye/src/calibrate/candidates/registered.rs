@@ -50,7 +50,8 @@ impl Judge<'_> {
         let found = touches::fit_touches(&all, &start, registration)?;
         let x = found.mount_from_camera;
         let shared = touches::view_covariance(paired, &view_noise(views, fit));
-        let covariance = found.covariance.map(|c| c + shared.unwrap_or_else(Matrix6::zeros));
+        let covariance =
+            found.covariance.map(|c| self.of_camera(c + shared.unwrap_or_else(Matrix6::zeros), &x));
         // nearest neighbours that differ from the touched corners prove the match wrong
         let tre = self.workpiece.tre(&x).filter(|_| found.wrong_matches == 0);
         let placed = solve::place_target(&pairs_of(views), &x);
