@@ -93,7 +93,7 @@ pub fn run(args: &BagArgs, manners: &Manners) -> Result<u8, Failure> {
     let mut text = format!("{}: {} captures\n\n", out.display(), done.captures);
     text += &done.notes.iter().map(|n| output::wrapped("  ", n)).collect::<String>();
     text += &match done.questions.is_empty() {
-        true => format!("\nnext: handeye calibrate {}\n", out.display()),
+        true => format!("\nnext: handeye calibrate {}\n", output::word(out)),
         false => {
             let all: String = done.questions.iter().map(|q| output::wrapped("  ", q)).collect();
             format!("\nanswer in {}:\n\n{all}", out.join(handeye_io::MANIFEST).display())

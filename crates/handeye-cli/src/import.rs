@@ -17,7 +17,7 @@ pub fn run(args: &ImportArgs, manners: &Manners) -> Result<u8, Failure> {
         return Err(Failure::in_the_way(path, what));
     }
     write_atomically(&path, imported.text.as_bytes())?;
-    let next = imported.next.replace("{}", &path.display().to_string());
+    let next = imported.next.replace("{}", &output::word(&path));
     if manners.json {
         let key = if imported.name == handeye_io::MANIFEST { "manifest" } else { "file" };
         output::json(&json!({

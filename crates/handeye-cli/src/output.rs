@@ -2,6 +2,7 @@
 
 use std::{
     io::{self, ErrorKind, IsTerminal, Write},
+    path::Path,
     sync::atomic::{AtomicBool, Ordering},
 };
 
@@ -33,6 +34,16 @@ pub fn print(text: &str) {
 
 /// Columns of a terminal that everybody has.
 const WIDTH: usize = 80;
+
+/// A path as one word of a shell.
+pub fn word(path: &Path) -> String {
+    let text = path.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "/\\._-+=:,@".contains(c);
+    match !text.is_empty() && text.chars().all(is_plain) {
+        true => text,
+        false => format!("'{}'", text.replace('\'', r"'\''")),
+    }
+}
 
 /// Lines of at most 80 columns; all but the first are indented as far as the first one's heading.
 pub fn wrapped(heading: &str, text: &str) -> String {

@@ -220,6 +220,9 @@ fn an_old_result_is_tested_by_touches_and_exported_anew() {
         exported.stdout
     );
     assert!(exported.stderr.contains("[not-judged]"), "{}", exported.stderr);
+    let spaced = handeye(&folder, &["import", "old.calib", "--out", "an old one.json"]);
+    let next = "next: handeye verify 'an old one.json' touches.csv";
+    assert!(ends(&spaced, 0).stdout.contains(next), "{}", spaced.stdout);
     let again = handeye(&folder, &["import", "old.calib"]);
     assert!(ends(&again, 1).error().contains("is there already"), "{}", again.stderr);
 }

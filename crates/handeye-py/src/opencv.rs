@@ -43,6 +43,8 @@ const MEDIAN_LENGTH: f64 = 1.538;
 const ROUNDING: f64 = 1e-7;
 /// Rotations about other axes than the first one, rad, below which they count as about one.
 const SEVERAL_AXES: f64 = 0.1;
+/// So many times as large positions of robot and target are not in one unit.
+const MOST_UNLIKE: f64 = 100.0;
 /// Lengths of a cell beyond this are in millimetres.
 const LARGEST_M: f64 = 20.0;
 /// Another size of the target, and neighbours that err alike, count from so many standard deviations on.
@@ -216,6 +218,19 @@ impl Cell {
         median(self.equations.iter().map(|p| self.seen(p).translation().norm()))
     }
 
+    /// What is wrong with the units, where positions of robot and target are of very different size.
+    fn units(&self) -> Option<String> {
+        let robot = median(self.equations.iter().map(|p| self.reported(p).translation().norm()));
+        let ratio = robot / self.distance();
+        let (larger, times) = if ratio > 1.0 { ("robot", ratio) } else { ("target", 1.0 / ratio) };
+        (times.is_finite() && times > MOST_UNLIKE).then(|| {
+            format!(
+                "positions of the {larger} are some {times:.0} times as large as the other ones: is one list in \
+                 millimetres, and the other in metres?"
+            )
+        })
+    }
+
     /// Whether most targets are behind the camera.
     fn is_behind(&self) -> bool {
         let behind = self.equations.iter().filter(|p| self.seen(p).translation().z <= 0.0);
@@ -241,7 +256,13 @@ impl Cell {
         });
         let metre = if size.fold(0.0, f64::max) > LARGEST_M { 1e-3 } else { 1.0 };
         let calibration = self.estimated(metre)?;
-        let reasons = || calibration.reasons.join("; ");
+        let reasons = || {
+            self.units()
+                .into_iter()
+                .chain(calibration.reasons.clone())
+                .collect::<Vec<_>>()
+                .join("; ")
+        };
         match calibration.verdict {
             Verdict::Accepted => {}
             Verdict::Rejected => return Err(Rejected::new_err(reasons())),

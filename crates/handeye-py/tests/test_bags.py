@@ -336,6 +336,17 @@ def test_joint_values_that_are_no_numbers_are_left_out(arm, tmp_path):
     assert done.captures == 14 and any("not finite" in note for note in done.notes)
 
 
+def test_joint_values_in_degrees_are_noticed(arm, tmp_path):
+    def in_degrees(bag):
+        for _, _, topic, _, fields in bag.messages:
+            if topic == "/joint_states":
+                fields["position"][:] = np.degrees(fields["position"])
+
+    record_still(Cell(arm), tmp_path / "bag", "mcap", before=in_degrees)
+    done = extract(tmp_path / "bag", tmp_path / "out", joints=True)
+    assert any("are they degrees?" in note for note in done.notes), done.notes
+
+
 def test_joint_values_of_a_robot_in_motion(arm, tmp_path):
     """The arm's own errors are found from them, as of one that stands still."""
     folder = tmp_path / "cell"
@@ -361,3 +372,12 @@ def test_ctrl_c_leaves_nothing_behind(bags, tmp_path):
         if process.returncode != 0:
             assert not list(tmp_path.iterdir())
         shutil.rmtree(tmp_path / "out", ignore_errors=True)
+
+
+def test_an_empty_folder_is_filled_and_may_be_the_one_we_are_in(bags, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = extract(bags["ros1"], ".")
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert done.captures == COUNT and names == ["camera.yaml", "handeye.toml", "images", "robot.csv"]
+    with pytest.raises(handeye.InputError, match="is there already"):
+        extract(bags["ros1"], ".")

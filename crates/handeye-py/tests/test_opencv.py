@@ -101,6 +101,14 @@ def test_lengths_may_be_millimetres():
         cv2_compat.calibrateHandEye(*parts(robot), *parts(camera))
 
 
+@pytest.mark.parametrize("side", [0, 1])
+def test_two_units_are_named(side):
+    both = cell()
+    both[side][:, :3, 3] *= 1e3
+    with pytest.raises(handeye.Rejected, match="is one list in millimetres"):
+        cv2_compat.calibrateHandEye(*parts(both[0]), *parts(both[1]))
+
+
 def test_a_method_in_the_place_of_an_output_is_refused():
     robot, camera = cell()
     with pytest.raises(handeye.InputError, match="method=1"):

@@ -392,3 +392,26 @@ def test_counts_out_of_range_are_named(tmp_path):
 def test_methods_name_their_papers():
     assert handeye.METHODS["park-martin"] == "F. Park, B. Martin, 1994"
     assert all(who.endswith(tuple("0123456789")) for who in handeye.METHODS.values())
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_calibration_that_was_pickled_is_the_same(seed):
+    found = handeye.solve(*cell(12, seed=seed), setup="eye-in-hand")
+    again = pickle.loads(pickle.dumps(found))
+    assert again == found and again.to_json() == found.to_json()
+    assert handeye.Calibration.from_dict(found.to_dict()) == found
+
+
+def test_repeated_poses_count_once():
+    robot, camera = cell(10)
+    once = handeye.solve(robot, camera, setup="eye-in-hand")
+    found = handeye.solve(np.repeat(robot, 5, 0), np.repeat(camera, 5, 0), setup="eye-in-hand")
+    assert np.allclose(found.covariance, once.covariance) and np.allclose(found.pose.matrix, once.pose.matrix)
+    assert any("repeat others" in warning for warning in found.warnings)
+
+
+def test_another_unit_of_one_side_is_named():
+    robot, camera = cell(12)
+    camera[:, :3, 3] *= 1000
+    found = handeye.solve(robot, camera, setup="eye-in-hand")
+    assert found.verdict == "rejected" and "were millimetres read as metres?" in found.reasons[0]

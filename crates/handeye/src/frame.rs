@@ -263,6 +263,8 @@ impl<A: Frame, B: Frame> Serialize for Pose<A, B> {
 
 /// How far a stored quaternion's length may be from one before it is refused.
 const UNIT_TOLERANCE: f64 = 1e-3;
+/// Lengths this close to one come from long products of rotations.
+const ROUNDING: f64 = 1e-12;
 
 impl<'de, A: Frame, B: Frame> Deserialize<'de> for Pose<A, B> {
     fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
@@ -292,7 +294,7 @@ impl<'de, A: Frame, B: Frame> Deserialize<'de> for Pose<A, B> {
             return Err(de::Error::custom("translation_m is not finite"));
         }
         // what was written is read again bit for bit
-        let rotation = if (quaternion.norm_squared() - 1.0).abs() < 8.0 * f64::EPSILON {
+        let rotation = if (quaternion.norm_squared() - 1.0).abs() < ROUNDING {
             UnitQuaternion::new_unchecked(quaternion)
         } else {
             UnitQuaternion::from_quaternion(quaternion)

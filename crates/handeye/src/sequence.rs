@@ -13,7 +13,8 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
 use crate::{
-    Calibration, Config, Error, HandEye, PosePair, Session, Verdict, Warning, calibrate,
+    Calibration, Config, Error, HandEye, PosePair, Session, Verdict, Warning,
+    calibrate::{self, repeated},
     calibration::{Answer, Candidate, Misfit, PoseCovariance, rows},
     detect::sight::{CLOCK, TARGET_SCALE},
     diagnose, evaluate, lie,
@@ -64,12 +65,13 @@ const NAME: &str = "drift";
 const ANYTHING: f64 = 10.0;
 
 /// Warnings of captures that are wrong in a way that is no drift.
-const WRONG: [&str; 5] = [
+const WRONG: [&str; 6] = [
     "order-shifted",
     "poses-inverted",
     "target-poses-inverted",
     "robot-poses-inverted",
     "robot-length-unit",
+    "target-length-unit",
 ];
 
 /// Calibrates from bare target poses that were taken one after the other, in the order of their
@@ -79,6 +81,19 @@ const WRONG: [&str; 5] = [
 /// # Errors
 /// As [`calibrate::calibrate`].
 pub fn calibrate_sequence(
+    session: &Session,
+    times: &BTreeMap<String, f64>,
+    config: &Config,
+) -> Result<Calibration, Error> {
+    let mut session = calibrate::in_order(session);
+    let repeated = repeated::take_out(&mut session);
+    let mut result = each_once(&session, times, config)?;
+    repeated.report(&mut result);
+    Ok(result)
+}
+
+/// The same of captures that do not repeat one another.
+fn each_once(
     session: &Session,
     times: &BTreeMap<String, f64>,
     config: &Config,

@@ -72,6 +72,34 @@ fn errors_are_as_large_as_the_stated_covariance_in_many_cells() {
 }
 
 /// With touches the chosen answer may be the two-step one, whose touches share the views' errors.
+/// Five copies of every capture, some of them with noise of the camera alone, are worth little more than one.
+#[test]
+fn captures_that_repeat_one_another_count_once() {
+    let cell = Cell { touches: 0, ..Cell::new(Setup::EyeToHand, 5) };
+    let (session, truth) = cell.session(6).unwrap();
+    let once = calibrate(&session, &Config::default()).unwrap();
+    let mut repeated = session.clone();
+    for copy in 1..5 {
+        for observation in &session.observations {
+            let mut again = observation.clone();
+            again.capture = format!("{}-{copy}", observation.capture);
+            repeated.observations.push(again);
+        }
+    }
+    let found = calibrate(&repeated, &Config::default()).unwrap();
+    assert_eq!(found.hand_eye, once.hand_eye);
+    assert_eq!(found.captures.len(), 5 * session.observations.len());
+    assert_eq!(found.captures.iter().filter(|c| c.used).count(), session.observations.len());
+    let warning = found.warnings.iter().find(|w| w.code == "captures-repeated").unwrap();
+    assert!(
+        warning.message.contains("001-1") && warning.message.contains("more repeat others"),
+        "{}",
+        warning.message
+    );
+    assert!(normalised_error_squared(&found, &truth) < 4.0);
+    assert!(found.rejected.is_empty());
+}
+
 /// Where the robot is better than the pictures, closed forms are far from the likeliest answer.
 #[test]
 fn a_method_asked_for_by_name_states_its_own_error() {

@@ -1,7 +1,8 @@
 //! From a bag to a dataset: pictures, scans and robot poses as files, and the manifest that describes them.
 
 use std::{
-    fs,
+    ffi::OsString,
+    fs, io,
     path::{Path, PathBuf},
 };
 
@@ -17,7 +18,7 @@ use super::{
     writing,
 };
 use crate::{
-    Targets,
+    MANIFEST, Targets,
     error::{Error, unusable},
     robot::Urdf,
 };
@@ -97,21 +98,36 @@ pub fn extract(
     let plan = Plan::new(&survey, bag, options)?;
     let aside = Aside::new(out);
     let extracted = writing::write(plan, &aside.folder, tick)?;
-    fs::remove_dir(out).ok(); // an empty one is in the way
-    fs::rename(&aside.folder, out).map_err(|source| Error::Write { path: out.into(), source })?;
+    aside.take_its_place(out).map_err(|source| Error::Write { path: out.into(), source })?;
     Ok(extracted)
 }
 
-/// A folder beside the one that is wanted, until all is written; whatever happens, it does not stay.
+/// A folder beside the one that is wanted, or in it where it is there and empty, until all is written; whatever
+/// happens, it does not stay.
 struct Aside {
     folder: PathBuf,
 }
 
 impl Aside {
     fn new(out: &Path) -> Self {
+        let part = format!("{}.part", std::process::id());
         let name = out.file_name().unwrap_or_default().to_string_lossy();
-        let folder = out.with_file_name(format!(".{name}.{}.part", std::process::id()));
+        let folder = match out.is_dir() {
+            true => out.join(format!(".{part}")),
+            false => out.with_file_name(format!(".{name}.{part}")),
+        };
         Self { folder }
+    }
+
+    /// The manifest comes last: without it nothing is complete.
+    fn take_its_place(&self, out: &Path) -> io::Result<()> {
+        if !out.is_dir() {
+            return fs::rename(&self.folder, out);
+        }
+        let entries = fs::read_dir(&self.folder)?.collect::<io::Result<Vec<_>>>()?;
+        let mut names: Vec<OsString> = entries.into_iter().map(|e| e.file_name()).collect();
+        names.sort_by_key(|name| name == MANIFEST);
+        names.iter().try_for_each(|name| fs::rename(self.folder.join(name), out.join(name)))
     }
 }
 

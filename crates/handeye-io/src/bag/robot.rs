@@ -103,6 +103,9 @@ const USUAL: f64 = 0.95;
 /// Pauses longer than this (s) are gaps, however seldom samples come: a robot goes a long way in that time.
 const LONGEST_PAUSE_S: f64 = 0.5;
 
+/// Joints seldom turn farther, rad.
+const MOST_TURNED_RAD: f64 = 4.0 * std::f64::consts::PI;
+
 impl Robot {
     pub(super) fn of(
         survey: &Survey,
@@ -200,7 +203,11 @@ impl Robot {
                 moving.flatten().collect()
             }
             Robot::Poses(stream) => said("the robot's topic", stream).collect(),
-            Robot::Joints { values: JointStream { times, limit, left_out, .. }, .. } => {
+            Robot::Joints { values: JointStream { times, values, limit, left_out }, .. } => {
+                let largest = values.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
+                let turned = format!(
+                    "joint values reach {largest:.0}: are they degrees? JointState holds radians, and so they are read"
+                );
                 let gaps = times.windows(2).filter(|w| w[1] - w[0] > *limit).count();
                 let what = format!(
                     "joint values have {gaps} gaps, pauses longer than {limit:.3} s; none are made up within"
@@ -208,7 +215,11 @@ impl Robot {
                 let bad = format!(
                     "{left_out} messages with joint values that are not finite are left out"
                 );
-                let notes = [(gaps > 0).then_some(what), (*left_out > 0).then_some(bad)];
+                let notes = [
+                    (largest > MOST_TURNED_RAD).then_some(turned),
+                    (gaps > 0).then_some(what),
+                    (*left_out > 0).then_some(bad),
+                ];
                 notes.into_iter().flatten().collect()
             }
         }

@@ -64,6 +64,12 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
             "the pictures of these captures are exchanged: {names}; exchange the files, or leave \
              them out"
         ),
+        Fault::Scale(s) if unit(s.value).is_some() => format!(
+            "the target's poses count in another unit than the robot's: they are {:.4} times as large as they would be \
+             in its unit ({})",
+            1.0 / s.value,
+            unit(s.value).unwrap_or_default(),
+        ),
         Fault::Scale(s) => format!(
             "the target is {:.4} +- {:.4} times as large as declared{}: measure it",
             s.value,
@@ -90,7 +96,7 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
              stored twice, or target and camera ride together: {names}"
         ),
         Fault::Repeated(_) => {
-            format!("these captures repeat one another and add nothing new: {names}")
+            format!("these captures repeat one another, and of each place one counts: {names}")
         }
         Fault::Disagreeing(_) => format!(
             "these captures agree with no others, and no single mistake explains them; look at \
@@ -130,9 +136,9 @@ pub(super) fn by_hand(fault: &Fault, captures: &[String], left: usize) -> String
         Fault::CameraStill(_) => {
             format!("take these captures again, or leave them out with {leaving_out}")
         }
-        Fault::Repeated(_) => "nothing needs correcting; of captures that repeat one another, all \
-                               but one can be left out with [captures] exclude = [..]"
-            .into(),
+        Fault::Repeated(_) => {
+            "nothing needs correcting: a calibration counts one of each place".into()
+        }
         Fault::Disagreeing(_) => format!(
             "which of these captures are wrong is for you to say: look at their pictures and robot \
              poses first; {leaving_out} leaves all of them out"
@@ -149,6 +155,21 @@ pub(super) fn by_hand(fault: &Fault, captures: &[String], left: usize) -> String
             format!("only {left} captures would be left without these: take them again")
         }
     }
+}
+
+/// Lengths that are in proportions like these are of two units.
+const UNITS: [(f64, &str); 3] = [
+    (1000.0, "millimetres and metres"),
+    (10.0, "millimetres and centimetres"),
+    (100.0, "centimetres and metres"),
+];
+/// A target is printed better than this.
+const ABOUT: f64 = 0.03;
+
+/// The two units that a size would be of.
+fn unit(size: f64) -> Option<&'static str> {
+    let is = |factor: f64| (size / factor - 1.0).abs() < ABOUT;
+    UNITS.iter().find(|(factor, _)| is(*factor) || is(1.0 / factor)).map(|(_, units)| *units)
 }
 
 /// The other way to see a wrong size.

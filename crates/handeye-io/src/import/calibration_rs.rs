@@ -54,6 +54,7 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
         setup: None,
         sections: format!("\n{target}{robot}\n[images]\nfiles = {}\n{pairing}", quoted(&images)),
         questions: set.questions,
+        notes: vec![],
     }))
 }
 

@@ -64,6 +64,7 @@ pub(super) fn describe(source: &Path, declared: &Declared) -> Result<Option<Desc
         setup: None,
         sections,
         questions,
+        notes: vec![],
     }))
 }
 

@@ -83,7 +83,16 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     );
     let layout =
         if tree.get("data").is_some() { "industrial_calibration" } else { "robot_cal_tools" };
-    Ok(Some(Described { layout, folder, setup: all().find_map(setup), sections, questions }))
+    let beside = files::expand(&folder, "camera_intr*.yaml", &Place::file(&file)).is_ok();
+    let notes = match beside || all().any(|t| t.get("intrinsics").is_some()) {
+        true => vec![
+            "the intrinsics beside it have no distortion and are not taken: the camera is calibrated from the pictures. To have \
+             them all the same, add [camera] with width, height, fx, fy, cx and cy"
+                .into(),
+        ],
+        false => vec![],
+    };
+    Ok(Some(Described { layout, folder, setup: all().find_map(setup), sections, questions, notes }))
 }
 
 /// The line that leaves out what lies in the folders, but is not in the list: samples that were deleted.

@@ -54,6 +54,8 @@ struct Described {
     /// All but the line of the setup.
     sections: String,
     questions: Vec<String>,
+    /// What was taken from where, or left.
+    notes: Vec<String>,
 }
 
 /// Describes a data set whose layout it knows.
@@ -123,7 +125,7 @@ fn with_setup(set: Described, given: Option<Setup>, source: &Path) -> Result<Imp
         name: MANIFEST.into(),
         text: format!("# {}\n{line}\n{}", set.layout, set.sections),
         questions,
-        notes: vec![],
+        notes: set.notes,
         next: "handeye calibrate {}",
     })
 }

@@ -77,9 +77,28 @@ fn resolved(found: Found, source: &Path, declared: &Declared) -> Result<Imported
         undeclared(source, "--direction", &question)
     })?;
     let pose = if is_cameras { found.pose } else { found.pose.inverse() };
+    let place = Place::file(source);
+    let refused = |what: String, advice: &str| Err(malformed(place, what, advice));
     if let Some(far) = farthest(pose.translation.vector.as_slice()) {
-        let advice = "is the unit right? (--length-unit)";
-        return Err(malformed(Place::file(source), too_far(far), advice));
+        return refused(too_far(far), "is the unit right? (--length-unit)");
+    }
+    let (body, most) = match setup {
+        Setup::EyeInHand => ("flange", FARTHEST_IN_HAND_M),
+        Setup::EyeToHand => ("base", FARTHEST_M),
+    };
+    let far = pose.translation.vector.norm();
+    if far > most {
+        let what = format!("puts the camera {far:.1} m away from the {body}");
+        return refused(
+            what,
+            "is its position in another unit? (--length-unit), or correct the file",
+        );
+    }
+    if far < SAME_PLACE && pose.rotation.angle() < SAME_PLACE {
+        let what = format!(
+            "puts the camera exactly into the {body}: programs write this where nothing was found"
+        );
+        return refused(what, "calibrate anew");
     }
     Ok(Imported {
         layout: found.layout,
@@ -91,6 +110,12 @@ fn resolved(found: Found, source: &Path, declared: &Declared) -> Result<Imported
         next: "handeye verify {} touches.csv --tolerance-mm 1",
     })
 }
+
+/// Cameras are mounted nearer than this, m.
+const FARTHEST_IN_HAND_M: f64 = 3.0;
+const FARTHEST_M: f64 = 30.0;
+/// No camera is so near, m and rad.
+const SAME_PLACE: f64 = 1e-9;
 
 const IN_BASE: Direction = Direction::of("base", "camera");
 const ON_FLANGE: Direction = Direction::of("flange", "camera");

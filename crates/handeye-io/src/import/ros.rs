@@ -151,15 +151,31 @@ fn published(layout: &'static str, words: &[String], source: &Path) -> Result<Fo
     let (numbers, frames) = flags(words).or_else(|| in_order(words)).ok_or_else(refuse)?;
     let notation = if numbers.len() == 7 { "quaternion-xyzw" } else { "euler-zyx-intrinsic" };
     let [parent, child] = frames;
-    let mut notes = vec![format!("{parent} is taken as the body that carries the camera {child}")];
-    notes.extend(optical(Some(&child)));
+    let is_cameras = !is_camera(&parent) || is_camera(&child);
+    let (body, camera) = if is_cameras { (&parent, &child) } else { (&child, &parent) };
+    let mut notes = vec![format!("{body} is taken as the body that carries the camera {camera}")];
+    if !is_cameras {
+        notes.push(format!(
+            "{camera} is the parent: the pose is that of {body} in the camera, and is inverted"
+        ));
+    }
+    notes.extend(optical(Some(camera)));
     Ok(Found {
         layout,
         pose: pose(&numbers, notation, LengthUnit::Metre, source)?,
         setup: None,
-        is_cameras: Some(true),
+        is_cameras: Some(is_cameras),
         notes,
     })
+}
+
+/// Whether a frame is called like a camera's.
+fn is_camera(frame: &str) -> bool {
+    let lower = frame.to_lowercase();
+    ["optical", "camera", "cam_", "_cam", "depth", "rgb", "sensor"]
+        .iter()
+        .any(|word| lower.contains(word))
+        || lower == "cam"
 }
 
 type Published = (Vec<f64>, [String; 2]);

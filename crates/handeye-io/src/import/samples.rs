@@ -72,6 +72,7 @@ fn easy_handeye(
         setup: Some(setup),
         sections,
         questions: vec![],
+        notes: vec![],
     })
 }
 
@@ -84,6 +85,7 @@ fn moveit(source: &Path, fields: [&str; 2]) -> Described {
         setup: None,
         sections,
         questions: vec![],
+        notes: vec![],
     }
 }
 

@@ -61,5 +61,6 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
         setup: Some(Setup::EyeInHand),
         sections,
         questions,
+        notes: vec![],
     }))
 }

@@ -15,8 +15,9 @@ use crate::{
     Error, Place,
     error::{malformed, undeclared, unusable},
     files,
-    robot::Notation,
+    robot::{Notation, Units},
     table::{self, Layout, Record},
+    units::LengthUnit,
 };
 
 /// Usual names of the columns.
@@ -180,13 +181,26 @@ fn seconds(record: &Record, time: f64) -> f64 {
     unit.map_or(1.0, |(_, factor, _)| *factor)
 }
 
+/// The unit of positions, by the name of their column; metres where that says nothing.
+fn length_unit(record: &Record) -> LengthUnit {
+    let name = record.names_of(&COLUMNS[1..2]).and_then(|names| names.first().cloned());
+    let name = name.unwrap_or_default().to_lowercase();
+    let is_named = |unit: &LengthUnit| {
+        let unit = unit.name();
+        name.contains(&format!("[{unit}]")) || name.ends_with(&format!("_{unit}"))
+    };
+    let known = [LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Inch];
+    known.into_iter().find(is_named).unwrap_or(LengthUnit::Metre)
+}
+
 fn sample(record: &Record) -> Result<Stamped<nalgebra::Isometry3<f64>>, Error> {
     let advice = "a line holds t x y z qx qy qz qw, in seconds and metres";
     let numbers = record.numbers(&COLUMNS, "a trajectory")?;
     let time_s = numbers[0] * seconds(record, numbers[0]);
     let refuse = |what: String| malformed(record.place.clone(), what, advice);
     let notation = Notation::named("quaternion-xyzw").map_err(refuse)?;
-    let pose = notation.pose(&numbers[1..], notation.own_units()).map_err(refuse)?;
+    let units = Units { length: length_unit(record), ..notation.own_units() };
+    let pose = notation.pose(&numbers[1..], units).map_err(refuse)?;
     Ok(Stamped { time_s, pose })
 }
 

@@ -36,6 +36,7 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
         setup: None,
         sections,
         questions: vec![question.into()],
+        notes: vec![],
     }))
 }
 

@@ -239,9 +239,8 @@ def solve(
     :returns: the answer with its covariance, and a verdict: look at that first. Where ``method`` is not given, the
         maximum-likelihood estimate of both poses and of the noise, or a closed form where that predicts less error.
     :raises InputError: arrays of another shape or length, numbers that are not finite, rotations that are none.
-    :raises NotDetermined: fewer than three poses.
 
-    Bad data end in a verdict, not in an exception.
+    Bad data, and too few, end in a verdict and not in an exception.
     """
     robot = _poses(base_from_flange, "base", "flange")
     camera = _poses(camera_from_target, "camera", "target")

@@ -8,6 +8,7 @@ use crate::{
     calibration::{Calibration, CaptureResult, Verdict},
     diagnose::{self, Convention},
     evaluate,
+    linalg::median,
     refine::View,
     solve::{
         consensus::{self, Consensus, Readings},
@@ -108,6 +109,9 @@ fn no_consensus(session: &Session, readings: &[Readings], error: &Error, result:
 /// An inversion explains the data when most captures agree under it, the misfit in position falls
 /// to less than this part, and that in rotation does not rise (rotations alone often fit both ways).
 const EXPLAINS: f64 = 0.2;
+/// Of fewer captures than this only a misfit (m) as large as an inversion brings is to be explained.
+const FEWEST_TO_JUDGE: usize = 5;
+const LARGE: f64 = 0.01;
 /// A misfit (m) up to this is rounding: there is nothing to explain.
 const ROUNDING: f64 = 1e-7;
 
@@ -153,8 +157,8 @@ fn suspect_conventions(
             && (bare || e.convention != Convention::TargetInverted)
             && 2 * e.agree > readings.len()
             && declared.is_none_or(|d| {
-                // a few captures can be left out until the rest fits anything
-                d.median_m > ROUNDING
+                // a few captures can be left out until the rest fits anything, and fit anything themselves
+                d.median_m > if readings.len() < FEWEST_TO_JUDGE { LARGE } else { ROUNDING }
                     && e.agree >= d.agree
                     && e.median_m < EXPLAINS * d.median_m
                     && e.median_rad < 1.2 * d.median_rad + 1e-3
@@ -237,11 +241,25 @@ fn warn_few(used: usize, result: &mut Calibration) {
 /// Robot positions beyond this, m, are no robot's.
 pub(super) const FARTHEST: f64 = 20.0;
 
-/// Millimetres read as metres put the flange beyond any robot's reach. Captures that do not belong
+/// Millimetres read as metres put the flange beyond any robot's reach, and the target beyond any camera's. Captures that do not belong
 /// have no say.
 fn suspect_units(used: &[&Observation], result: &mut Calibration) {
     let reach = |o: &&Observation| o.base_from_flange.translation().norm();
     let far = used.iter().map(reach).fold(0.0, f64::max);
+    let distance = |o: &&Observation| {
+        let seen = o.candidates.first()?;
+        Some(seen.camera_from_target.translation().norm())
+    };
+    let distance = median(used.iter().filter_map(distance));
+    if distance > FARTHEST {
+        let message = format!(
+            "the target poses lie {distance:.0} m from the camera: were millimetres read as metres? \
+             check the length unit"
+        );
+        result.reasons.push(message.clone());
+        result.warnings.push(Warning::new("target-length-unit", message));
+        result.verdict = Verdict::Rejected;
+    }
     if far > FARTHEST {
         let message = format!(
             "the robot poses lie up to {far:.0} m from the base: were millimetres read as metres? \

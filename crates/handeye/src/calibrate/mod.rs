@@ -1,6 +1,6 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
-//! `agreement` (which captures agree, and on which reading: `gate`, and `masked` for those that hide
+//! `repeated` (of captures of one place one counts) → `agreement` (which captures agree, and on which reading: `gate`, and `masked` for those that hide
 //! one another; why the others do not: `rejected`; whether that is a clear majority: `doubt`) →
 //! `candidates` (touches of other corners taken out: `wrong_touches`; closed forms, least squares,
 //! maximum likelihood, registration of touches, each judged on what it has not seen; the choice by
@@ -27,6 +27,7 @@ mod points;
 mod reach;
 mod refined;
 mod rejected;
+pub(crate) mod repeated;
 mod scans;
 pub(crate) mod settle;
 mod sources;
@@ -126,7 +127,8 @@ const FORMAT: &str = "handeye-calibration-1";
 pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Error> {
     check(session)?;
     let mut session = in_order(session);
-    let repeated = touches::each_once(&mut session.touches);
+    let touched_twice = touches::each_once(&mut session.touches);
+    let repeated = repeated::take_out(&mut session);
     if session.observations.is_empty() {
         let mut result = empty(session.setup);
         points::from_points(&session, &mut result);
@@ -137,6 +139,7 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
         let mut result = empty(session.setup);
         balls::from_balls(&session, config, &mut result);
         verdict::conclude(config, &mut result);
+        repeated.report(&mut result);
         return Ok(result);
     }
     let mut result = sources::best_source(&session, |session| {
@@ -147,7 +150,8 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
     });
     refined::tell(&session, &mut result);
     scans::report(&session, &mut result);
-    result.warnings.extend(repeated);
+    result.warnings.extend(touched_twice);
+    repeated.report(&mut result);
     Ok(result)
 }
 

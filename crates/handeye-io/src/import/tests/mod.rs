@@ -138,6 +138,10 @@ fn robot_cal_tools_says_target_and_setup() {
     let set = opened(&imported);
     assert_eq!((set.setup, set.captures.len()), (Setup::EyeInHand, 3));
     assert!(imported.text.contains("DICT_6X6_250") && imported.text.contains("36.195"));
+    assert!(imported.notes.is_empty());
+    fs::write(folder.join("camera_intr.yaml"), "intrinsics:\n  fx: 500.0\n").unwrap();
+    let imported = import(&folder, &Declared::default()).unwrap();
+    assert!(imported.notes[0].contains("no distortion and are not taken"), "{:?}", imported.notes);
     // a sample that was deleted from the list, but not from the disk
     fs::copy(folder.join("poses/1.yaml"), folder.join("poses/7.yaml")).unwrap();
     fs::copy(folder.join("images/1.png"), folder.join("images/7.png")).unwrap();

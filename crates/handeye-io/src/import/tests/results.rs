@@ -132,6 +132,44 @@ fn launch_files_are_read_in_all_their_notations() {
 }
 
 #[test]
+fn a_launch_file_whose_parent_is_the_camera_is_turned_around() {
+    let folder = folder("launch-inverse");
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let text = |frames: &str| {
+        format!(
+            "<launch><node exec=\"static_transform_publisher\" args=\"0.5 0 0 0 0 {half} {half} {frames}\"/></launch>"
+        )
+    };
+    let published = Isometry3::new(0.5 * Vector3::x(), Vector3::z() * std::f64::consts::FRAC_PI_2);
+    let ways = [
+        ("tool0 camera_color_optical_frame", published),
+        ("camera_color_optical_frame tool0", published.inverse()),
+        ("camera_link camera_optical_frame", published),
+    ];
+    for (frames, expected) in ways {
+        let (_, pose) = imported(&folder, "a.launch", &text(frames), &of(Setup::EyeInHand));
+        same(&pose, &expected, frames);
+    }
+    fs::remove_dir_all(folder).ok();
+}
+
+#[test]
+fn what_no_camera_can_be_is_refused() {
+    let folder = folder("impossible");
+    let timeout = "ExtrinsicParameters:\n0,0,0,1,0,0,0\n";
+    let error = refused(&folder, "a.txt", timeout, &of(Setup::EyeToHand));
+    assert!(error.contains("exactly into the base: programs write this"), "{error}");
+    let far = "ExtrinsicParameters:\n500,0,700,1,0,0,0\n";
+    let in_m = |setup| Declared { length_unit: Some(crate::units::LengthUnit::Metre), ..of(setup) };
+    let error = refused(&folder, "a.txt", far, &in_m(Setup::EyeInHand));
+    assert!(
+        error.contains("860.2 m away from the flange") && error.contains("--length-unit"),
+        "{error}"
+    );
+    fs::remove_dir_all(folder).ok();
+}
+
+#[test]
 fn a_pose_of_halcon_is_read_in_the_direction_that_is_said() {
     let folder = folder("halcon-pose");
     let dat = "f 0\nr 0 0 90\nt 1 0 0\n";

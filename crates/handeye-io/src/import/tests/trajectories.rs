@@ -132,6 +132,33 @@ fn nanoseconds_and_scalars_in_front_are_understood() {
 }
 
 #[test]
+fn positions_are_in_the_unit_that_their_columns_name() {
+    let folder = folder("trajectories-mm");
+    write(&folder);
+    let declared = directed(Setup::EyeInHand, &["base_from_flange", "camera_from_target"]);
+    let expected = import(&folder, &declared).unwrap().text;
+    let robot = fs::read_to_string(folder.join("hand_poses.csv")).unwrap();
+    let line = |line: &str| {
+        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        let mm = |k: usize| 1e3 * cells[k].parse::<f64>().unwrap();
+        format!("{},{:.6},{:.6},{:.6},{}\n", cells[0], mm(1), mm(2), mm(3), cells[4..].join(","))
+    };
+    for header in
+        ["t,x_mm,y_mm,z_mm,qx,qy,qz,qw\n", "# time, x [mm], y [mm], z [mm], qx, qy, qz, qw\n"]
+    {
+        let text: String = robot.lines().skip(1).map(line).collect();
+        fs::write(folder.join("hand_poses.csv"), header.to_owned() + &text).unwrap();
+        let imported = import(&folder, &declared).unwrap();
+        let number = |text: &str| -> f64 {
+            let (_, at) = text.split_once("translation_m\":[").unwrap();
+            at.split(',').next().unwrap().parse().unwrap()
+        };
+        assert!((number(&imported.text) - number(&expected)).abs() < 1e-9, "{header}");
+    }
+    fs::remove_dir_all(folder).ok();
+}
+
+#[test]
 fn what_trajectories_do_not_say_is_asked() {
     let folder = folder("trajectories-asked");
     write(&folder);
