@@ -5,7 +5,7 @@ use super::{Session, agreement, natural};
 use crate::{Observation, Warning, calibration::Calibration};
 
 /// Robot poses this close are one place: rad and m. Nobody moves by less; what a robot reads of itself varies by less.
-const SAME_PLACE: (f64, f64) = (1e-4, 5e-5);
+const SAME_PLACE: (f64, f64) = (3e-4, 1e-4);
 /// Target poses this close show the same.
 const SAME_VIEW: (f64, f64) = (3e-3, 1e-3);
 /// So many are named.
