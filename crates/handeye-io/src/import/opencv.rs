@@ -1,4 +1,4 @@
-//! Transforms in files of OpenCV's FileStorage: 4 x 4 matrices, and rotations with a translation beside them, under
+//! Transforms in files of OpenCV's FileStorage: 4 x 4 and 3 x 4 matrices, and rotations with a translation beside them, under
 //! the names that scripts of OpenCV have. `cam2gripper` takes points of the camera into the gripper.
 
 use nalgebra::{Matrix3, Matrix4, Rotation3, Vector3};
@@ -23,10 +23,10 @@ const TRANSLATIONS: [&str; 4] = ["translation", "trans", "tvec", "t"];
 pub(super) fn transforms(entries: &[(String, Tree)]) -> Vec<Transform> {
     let numbers: Vec<(&str, Vec<f64>)> =
         entries.iter().filter_map(|(key, value)| Some((key.as_str(), value.numbers()?))).collect();
-    let whole = numbers.iter().filter(|(_, n)| n.len() == 16).map(|(key, n)| Transform {
-        name: key.to_string(),
-        numbers: n.clone(),
-        direction: direction(key),
+    let whole = numbers.iter().filter_map(|(key, n)| {
+        let numbers = if n.len() == 12 { completed(n)? } else { n.clone() };
+        let name = key.to_string();
+        (numbers.len() == 16).then(|| Transform { name, numbers, direction: direction(key) })
     });
     let parted = numbers.iter().filter_map(|(key, turn)| {
         let of = behind(key, &ROTATIONS)?;
@@ -41,6 +41,16 @@ pub(super) fn transforms(entries: &[(String, Tree)]) -> Vec<Transform> {
     });
     whole.chain(parted).collect()
 }
+
+/// The last row below three; `None` of twelve numbers that are something else, as coefficients of a lens.
+fn completed(rows: &[f64]) -> Option<Vec<f64>> {
+    let turn = Matrix3::from_fn(|i, j| rows[4 * i + j]);
+    let is_rotation = (turn * turn.transpose() - Matrix3::identity()).amax() < NEAR;
+    is_rotation.then(|| [rows, &[0.0, 0.0, 0.0, 1.0]].concat())
+}
+
+/// Rounded rotations are as near to one.
+const NEAR: f64 = 1e-2;
 
 /// `cam2gripper` of `R_cam2gripper`, in small letters.
 fn behind(key: &str, prefixes: &[&str]) -> Option<String> {

@@ -252,6 +252,7 @@ fn transforms_of_opencv_are_read_by_their_names() {
         UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(0.0, 0.6, 0.0, 0.8)),
     );
     let whole = "-0.28, 0., 0.96, 500., 0., -1., 0., -250., 0.96, 0., 0.28, 700., 0., 0., 0., 1.";
+    let rows = whole.strip_suffix(", 0., 0., 0., 1.").unwrap();
     let other = "1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.";
     let [r, t] = [(3, 3, turn), (3, 1, "500., -250., 700.")];
     let both = |suffix: &str| {
@@ -270,6 +271,15 @@ fn transforms_of_opencv_are_read_by_their_names() {
             false,
         ),
         (file(&[matrix("T_cam2base", 4, 4, whole)]), Setup::EyeToHand, false),
+        (
+            file(&[
+                matrix("X", 3, 4, rows),
+                matrix("dist", 1, 12, &("0.1, ".repeat(11) + "0.1")),
+                matrix("cam2base", 3, 4, rows),
+            ]),
+            Setup::EyeToHand,
+            false,
+        ),
         (file(&[matrix("gripper2cam", 4, 4, whole)]), Setup::EyeInHand, true),
         (file(&[matrix("H_camera_to_base", 4, 4, whole)]), Setup::EyeToHand, false),
         (
