@@ -169,10 +169,10 @@ def said(module, name, robot, camera, truth):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             r, t = call(module, name, robot, camera)
+    except handeye.HandEyeError as error:  # which is a cv2.error as well
+        return f"`{type(error).__name__}`: {str(error).split(';')[0].split(': read so')[0]}"
     except cv2.error as error:
         return "error: " + str(error).split("error: ")[-1].split("\n")[0][:60]
-    except handeye.HandEyeError as error:
-        return f"`{type(error).__name__}`: {str(error).split(';')[0].split(': read so')[0]}"
     if not (np.isfinite(r).all() and np.isfinite(t).all()):
         return "NaN"
     degrees, mm = apart((r, t), (truth[:3, :3], truth[:3, 3:]))

@@ -4,7 +4,8 @@ use std::{collections::BTreeMap, path::PathBuf};
 
 use handeye::{
     Calibration, Config, Observation, Pose, Session, Stamped, Streams, calibrate_sequence,
-    calibrate_streams, calibrate_unscaled, refine::noise::KnownNoise,
+    calibrate_streams, calibrate_unscaled,
+    refine::{KnownPosition, noise::KnownNoise},
 };
 use handeye_io::{
     Dataset,
@@ -12,6 +13,7 @@ use handeye_io::{
     export::{self, CameraPose, Format},
     report::{calibration_html, dataset_html},
 };
+use nalgebra::Vector3;
 use pyo3::{exceptions::PyRuntimeError, prelude::*, types::PyBytes};
 
 use crate::{
@@ -84,7 +86,7 @@ impl Calibrated {
 }
 
 /// What a user says of the robot's noise.
-fn known(robot_rotation_deg: Option<f64>, robot_position_mm: Option<f64>) -> PyResult<KnownNoise> {
+fn noise(robot_rotation_deg: Option<f64>, robot_position_mm: Option<f64>) -> PyResult<KnownNoise> {
     for (name, value) in
         [("robot_rotation_deg", robot_rotation_deg), ("robot_position_mm", robot_position_mm)]
     {
@@ -102,9 +104,22 @@ fn known(robot_rotation_deg: Option<f64>, robot_position_mm: Option<f64>) -> PyR
     })
 }
 
+/// The camera's place along one direction of the mount: the direction, mm, and its standard deviation, mm.
+type Known = ([f64; 3], f64, f64);
+
+fn known_position((axis, value_mm, sigma_mm): Known) -> PyResult<KnownPosition> {
+    let axis = Vector3::from(axis).try_normalize(1e-9).filter(|a| a.norm().is_finite());
+    let axis = axis.ok_or_else(|| errors::input("the axis of known_position has no length"))?;
+    let is_known = value_mm.is_finite() && sigma_mm.is_finite() && sigma_mm > 0.0;
+    if !is_known {
+        return Err(errors::input("known_position needs a position and a standard deviation, mm"));
+    }
+    Ok(KnownPosition { axis, value_m: value_mm * 1e-3, sigma_m: sigma_mm * 1e-3 })
+}
+
 /// From poses of the same moments.
 #[pyfunction]
-#[pyo3(signature = (setup_name, base_from_flange, camera_from_target, *, ids, method_name=None, robot_rotation_deg=None, robot_position_mm=None, unknown_scale=false))]
+#[pyo3(signature = (setup_name, base_from_flange, camera_from_target, *, ids, method_name=None, robot_rotation_deg=None, robot_position_mm=None, unknown_scale=false, known=None))]
 #[allow(clippy::too_many_arguments, reason = "each is one of Python's keywords")]
 pub fn solve(
     py: Python<'_>,
@@ -116,6 +131,7 @@ pub fn solve(
     robot_rotation_deg: Option<f64>,
     robot_position_mm: Option<f64>,
     unknown_scale: bool,
+    known: Option<Known>,
 ) -> PyResult<Calibrated> {
     let robot = arrays::poses(base_from_flange, "base_from_flange")?;
     let camera = arrays::poses(camera_from_target, "camera_from_target")?;
@@ -132,11 +148,12 @@ pub fn solve(
     let observation = |((id, (r, t)), (q, s)): ((String, (_, _)), (_, _))| {
         Observation::bare(id, Pose::from_parts(&r, t), Pose::from_parts(&q, s))
     };
-    let session = Session::of_captures(setup(setup_name)?, poses.map(observation).collect());
+    let mut session = Session::of_captures(setup(setup_name)?, poses.map(observation).collect());
+    session.known_position = known.map(known_position).transpose()?;
     check_distances(&session)?;
     let config = Config {
         method: method_name.map(method).transpose()?,
-        known: known(robot_rotation_deg, robot_position_mm)?,
+        known: noise(robot_rotation_deg, robot_position_mm)?,
         ..Config::default()
     };
     let work = move || match unknown_scale {

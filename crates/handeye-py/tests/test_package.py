@@ -415,3 +415,16 @@ def test_another_unit_of_one_side_is_named():
     camera[:, :3, 3] *= 1000
     found = handeye.solve(robot, camera, setup="eye-in-hand")
     assert found.verdict == "rejected" and "were millimetres read as metres?" in found.reasons[0]
+
+
+def test_a_known_position_makes_up_for_a_robot_of_one_axis():
+    robot, camera = about_one_axis()
+    open_one = handeye.solve(robot, camera, setup="eye-in-hand")
+    assert open_one.verdict == "undetermined" and "`known_position`" in open_one.reasons[0]
+    height = 1e3 * X[2, 3]
+    found = handeye.solve(robot, camera, setup="eye-in-hand", known_position=([0, 0, 1], height, 0.5))
+    assert found.pose is not None and abs(1e3 * found.pose.translation[2] - height) < 0.1
+    assert 0.4 < 1e3 * np.sqrt(found.covariance[3:, 3:].diagonal().sum()) < 2
+    for bad in (([0, 0, 0], 1, 1), ([0, 0, 1], 1, 0), ([0, 0, 1], float("nan"), 1)):
+        with pytest.raises(handeye.InputError, match="known_position"):
+            handeye.solve(robot, camera, setup="eye-in-hand", known_position=bad)

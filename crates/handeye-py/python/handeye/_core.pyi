@@ -96,6 +96,7 @@ def solve(
     robot_rotation_deg: Optional[float] = None,
     robot_position_mm: Optional[float] = None,
     unknown_scale: bool = False,
+    known: Optional[Tuple[Sequence[float], float, float]] = None,
 ) -> Calibrated: ...
 def solve_streams(
     setup_name: str,

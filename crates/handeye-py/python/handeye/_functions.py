@@ -221,6 +221,7 @@ def solve(
     robot_rotation_deg: Optional[float] = None,
     robot_position_mm: Optional[float] = None,
     unknown_scale: bool = False,
+    known_position: Optional[Tuple[Sequence[float], float, float]] = None,
     robot_times_s: Optional[Sequence[float]] = None,
     camera_times_s: Optional[Sequence[float]] = None,
 ) -> Calibration:
@@ -234,6 +235,8 @@ def solve(
     :param robot_rotation_deg: standard deviation of the robot's rotation, per axis, where it is known.
     :param robot_position_mm: of its position.
     :param unknown_scale: the target's distances are known up to one factor.
+    :param known_position: where the camera sits along one direction that the poses leave open, as those of a robot of
+        one axis do: the direction in the body that carries the camera, the position (mm) and its standard deviation.
     :param robot_times_s: stamps of the robot's poses (s), where both lists have clocks of their own.
     :param camera_times_s: stamps of the target's poses; both lists may then differ in length.
     :returns: the answer with its covariance, and a verdict: look at that first. Where ``method`` is not given, the
@@ -247,8 +250,8 @@ def solve(
     if (robot_times_s is None) != (camera_times_s is None):
         raise InputError("give the times of both streams, or of none")
     if robot_times_s is not None and camera_times_s is not None:
-        if any(given is not None for given in (ids, method, robot_rotation_deg, robot_position_mm)):
-            raise InputError("streams take neither ids nor a method nor the robot's noise")
+        if any(given is not None for given in (ids, method, robot_rotation_deg, robot_position_mm, known_position)):
+            raise InputError("streams take neither ids nor a method nor the robot's noise nor a known position")
         robot_times = [float(time) for time in robot_times_s]
         camera_times = [float(time) for time in camera_times_s]
         return Calibration(
@@ -267,6 +270,7 @@ def solve(
             robot_rotation_deg=robot_rotation_deg,
             robot_position_mm=robot_position_mm,
             unknown_scale=unknown_scale,
+            known=known_position,
         )
     )
 

@@ -34,7 +34,7 @@ pub(super) fn judge(
         result.warnings.push(Warning::new(
             "determined-by-known-position",
             format!(
-                "the data do not determine {what}: it rests on the `[known_position]` of {:.1} mm \
+                "the data do not determine {what}: it rests on the `known_position` of {:.1} mm \
                  alone, and nothing checks that; touch a corner, or tilt the robot",
                 known.value_m * 1e3
             ),
@@ -47,7 +47,7 @@ pub(super) fn judge(
             result.warnings.push(Warning::new(
                 "known-position-disagrees",
                 format!(
-                    "`[known_position]` says {:.1} mm, the data {:.1} mm: measure it again, or \
+                    "`known_position` says {:.1} mm, the data {:.1} mm: measure it again, or \
                      leave it out",
                     known.value_m * 1e3,
                     (known.value_m + off) * 1e3

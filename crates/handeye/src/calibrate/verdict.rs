@@ -74,7 +74,7 @@ fn hide_undetermined(result: &mut Calibration) {
     if result.reasons.is_empty() {
         result.reasons.push(format!(
             "the data do not determine {}: tilt the robot by 30 degrees and more about two axes, \
-             {}or give the position along that direction as `[known_position]`",
+             {}or give the position along that direction as `known_position`",
             result.undetermined.join(", "),
             if has_corners(result) { "or touch corners, " } else { "" }
         ));
