@@ -85,20 +85,21 @@ pub fn calibrate_sequence(
     times: &BTreeMap<String, f64>,
     config: &Config,
 ) -> Result<Calibration, Error> {
+    calibrate::check(session)?;
     let mut session = calibrate::in_order(session);
     let repeated = repeated::take_out(&mut session);
-    let mut result = each_once(&session, times, config)?;
+    let mut result = of_distinct(&session, times, config)?;
     repeated.report(&mut result);
     Ok(result)
 }
 
 /// The same of captures that do not repeat one another.
-fn each_once(
+fn of_distinct(
     session: &Session,
     times: &BTreeMap<String, f64>,
     config: &Config,
 ) -> Result<Calibration, Error> {
-    let plain = calibrate::calibrate(session, config)?;
+    let plain = calibrate::calibrate_distinct(session.clone(), config);
     let bare = session.target.is_none()
         && session.touches.is_empty()
         && session.correspondences.is_empty()
@@ -145,7 +146,7 @@ fn with_drift(
         return Ok((sequence.side == Side::Camera).then(|| loose(&found, plain)));
     }
     let steady = without(session, &sequence, &found);
-    let mut result = calibrate::calibrate(&steady, config)?;
+    let mut result = calibrate::calibrate_distinct(calibrate::in_order(&steady), config);
     if result.hand_eye.mount_from_camera.is_none() {
         return Ok(None);
     }

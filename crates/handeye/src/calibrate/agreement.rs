@@ -241,8 +241,8 @@ fn warn_few(used: usize, result: &mut Calibration) {
 /// Robot positions beyond this, m, are no robot's.
 pub(super) const FARTHEST: f64 = 20.0;
 
-/// Millimetres read as metres put the flange beyond any robot's reach, and the target beyond any camera's. Captures that do not belong
-/// have no say.
+/// Millimetres read as metres put the flange beyond any robot's reach, and the target beyond any
+/// camera's. Captures that do not belong have no say.
 fn suspect_units(used: &[&Observation], result: &mut Calibration) {
     let reach = |o: &&Observation| o.base_from_flange.translation().norm();
     let far = used.iter().map(reach).fold(0.0, f64::max);

@@ -1,7 +1,8 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
-//! `repeated` (of captures of one place one counts) → `agreement` (which captures agree, and on which reading: `gate`, and `masked` for those that hide
-//! one another; why the others do not: `rejected`; whether that is a clear majority: `doubt`) →
+//! `repeated` (of captures of one place one counts) → `agreement` (which captures agree, and on
+//! which reading: `gate`, and `masked` for those that hide one another; why the others do not:
+//! `rejected`; whether that is a clear majority: `doubt`) →
 //! `candidates` (touches of other corners taken out: `wrong_touches`; closed forms, least squares,
 //! maximum likelihood, registration of touches, each judged on what it has not seen; the choice by
 //! predicted error; methods by name: `named`; what rests on a given position: `known_position`) →
@@ -127,20 +128,26 @@ const FORMAT: &str = "handeye-calibration-1";
 pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Error> {
     check(session)?;
     let mut session = in_order(session);
-    let touched_twice = touches::each_once(&mut session.touches);
     let repeated = repeated::take_out(&mut session);
+    let mut result = calibrate_distinct(session, config);
+    repeated.report(&mut result);
+    Ok(result)
+}
+
+/// The same of captures in the order of their names, each of which counts.
+pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calibration {
+    let touched_twice = touches::each_once(&mut session.touches);
     if session.observations.is_empty() {
         let mut result = empty(session.setup);
         points::from_points(&session, &mut result);
         verdict::conclude(config, &mut result);
-        return Ok(result);
+        return result;
     }
     if let Some(TargetModel::Sphere { .. }) = session.target {
         let mut result = empty(session.setup);
         balls::from_balls(&session, config, &mut result);
         verdict::conclude(config, &mut result);
-        repeated.report(&mut result);
-        return Ok(result);
+        return result;
     }
     let mut result = sources::best_source(&session, |session| {
         let mut result = empty(session.setup);
@@ -151,8 +158,7 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
     refined::tell(&session, &mut result);
     scans::report(&session, &mut result);
     result.warnings.extend(touched_twice);
-    repeated.report(&mut result);
-    Ok(result)
+    result
 }
 
 /// Refuses a session that holds nothing.

@@ -63,6 +63,8 @@ pub(super) struct Workpiece<'a> {
     reach: Option<&'a Reach>,
     /// Covariance of each point of the volume under the best answer, m².
     spread: Option<Vec<Matrix3<f64>>>,
+    /// The answer for a robot that does not know of its arm's deviations, and its covariance.
+    rigid: Option<(Pose<Mount, Camera>, Matrix6<f64>)>,
 }
 
 impl<'a> Workpiece<'a> {
@@ -72,7 +74,8 @@ impl<'a> Workpiece<'a> {
         best: &'a JointFit,
         reach: Option<&'a Reach>,
     ) -> Self {
-        let mut workpiece = Self { views, volume, best, reach, spread: None };
+        let mut workpiece = Self { views, volume, best, reach, spread: None, rigid: None };
+        workpiece.rigid = workpiece.find_rigid();
         workpiece.spread = best.covariance.as_ref().and_then(|c| workpiece.spread_of(c));
         workpiece
     }
@@ -121,6 +124,10 @@ impl<'a> Workpiece<'a> {
 
     /// The answer for a robot that does not, and its covariance.
     pub fn rigid(&self) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
+        self.rigid
+    }
+
+    fn find_rigid(&self) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
         let covariance = self.best.covariance.as_ref()? * inflation(self.best)?;
         self.reach?.rigid(&covariance)
     }
