@@ -47,7 +47,7 @@ pub enum Command {
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
     Init(InitArgs),
     /// Take over what another program recorded, and write a file of ours beside it.
-    Import(ImportArgs),
+    Import(crate::import::ImportArgs),
     /// Show what a ROS bag holds, or make a folder of captures of it.
     Bag(Box<crate::bag::BagArgs>),
     /// Draw a board to print, in true scale.
@@ -164,47 +164,6 @@ pub struct InitArgs {
     /// Folder with pictures, scans and robot poses.
     pub folder: PathBuf,
     /// Write over a manifest that is there.
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// Arguments of `import`.
-#[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye import cell.samples.yaml && handeye calibrate .\n  handeye import pose_samples.json --setup eye-to-hand\n  handeye import flange.csv board.csv --setup eye-in-hand --direction base_from_flange\n  handeye import kinhec/ --sequence temporal-000001\n  handeye import old.calib && handeye verify flange_from_camera.json touches.csv --tolerance-mm 1\n\n\
-Data sets get a manifest, handeye.toml: samples of easy_handeye2 and moveit_calibration, cal_data.yaml\n\
-of robot_cal_tools, sets of industrial_calibration, manifests of calibration-rs, Tabb's layout, Zivid's,\n\
-folders of HALCON's poses.\n\
-Trajectories of robot and camera, lines of t x y z qx qy qz qw (s, m; apart by commas or blanks), and\n\
-KinHEC become JSON for `solve`. Name both files, or a folder with the two. Of their directions one must\n\
-be declared; the data prove the other.\n\
-Results become the camera's pose as JSON, for `verify`, `export`, `repeat` and `view`: easy_handeye,\n\
-easy_handeye2, launch files of moveit_calibration and ROS 2, Zivid, OpenCV, HALCON, Mech-Mind.\n\
-Other folders: handeye init."
-)]
-pub struct ImportArgs {
-    /// Its file or folder; of two trajectories, the robot's.
-    pub source: PathBuf,
-    /// The camera's trajectory.
-    pub camera: Option<PathBuf>,
-    /// Who carries the camera, where the files do not say it.
-    #[arg(long, value_enum)]
-    pub setup: Option<crate::simulate::SetupArg>,
-    /// What poses take to what, where the files do not say it: base_from_flange (where the flange is),
-    /// camera_from_target (what OpenCV's solvePnP gives), of a result flange_from_camera or
-    /// base_from_camera; or the other way round.
-    #[arg(long, value_delimiter = ',', value_name = "A_FROM_B")]
-    pub direction: Vec<String>,
-    /// Which sequence of a KinHEC folder.
-    #[arg(long, value_name = "ID")]
-    pub sequence: Option<String>,
-    /// Unit of positions, where neither the file nor its program says it.
-    #[arg(long)]
-    pub length_unit: Option<Length>,
-    /// Where to write, if not beside the source.
-    #[arg(long, short)]
-    pub out: Option<PathBuf>,
-    /// Write over a file that is there.
     #[arg(long)]
     pub force: bool,
 }

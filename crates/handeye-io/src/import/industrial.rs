@@ -31,6 +31,10 @@ const DICTIONARIES: [&str; 17] = [
     "DICT_ARUCO_ORIGINAL",
 ];
 
+/// Of focal lengths.
+const NOT_TAKEN: &str = "the intrinsics beside it have no distortion and are not taken: the camera is calibrated from \
+                         the pictures. To have them all the same, add [camera] with width, height, fx, fy, cx and cy";
+
 pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>, Error> {
     let file = if source.is_dir() { source.join("cal_data.yaml") } else { source.to_path_buf() };
     if !file.is_file() || !["yaml", "yml"].contains(&files::extension(&file).as_str()) {
@@ -84,14 +88,8 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     let layout =
         if tree.get("data").is_some() { "industrial_calibration" } else { "robot_cal_tools" };
     let beside = files::expand(&folder, "camera_intr*.yaml", &Place::file(&file)).is_ok();
-    let notes = match beside || all().any(|t| t.get("intrinsics").is_some()) {
-        true => vec![
-            "the intrinsics beside it have no distortion and are not taken: the camera is calibrated from the pictures. To have \
-             them all the same, add [camera] with width, height, fx, fy, cx and cy"
-                .into(),
-        ],
-        false => vec![],
-    };
+    let has_intrinsics = beside || all().any(|t| t.get("intrinsics").is_some());
+    let notes = if has_intrinsics { vec![NOT_TAKEN.into()] } else { vec![] };
     Ok(Some(Described { layout, folder, setup: all().find_map(setup), sections, questions, notes }))
 }
 
