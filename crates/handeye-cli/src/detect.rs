@@ -269,7 +269,7 @@ fn table(answer: &Answer, targets: &Targets) -> String {
     let lines: String = answer.images.iter().map(line).collect();
     let count = answer.images.len();
     match targets {
-        Targets::One(_) => format!("{lines}target found in {found} of {count} pictures\n"),
+        Targets::One(..) => format!("{lines}target found in {found} of {count} pictures\n"),
         Targets::Several(_) => format!("{lines}targets found in {count} pictures: {of_each}\n"),
     }
 }

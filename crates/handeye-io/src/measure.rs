@@ -399,6 +399,7 @@ fn session(
         setup: dataset.setup,
         camera_from_views: dataset.intrinsics.is_none(),
         target: dataset.target.clone(),
+        target_size: dataset.target_size,
         camera,
         observations,
         placements,

@@ -2,10 +2,13 @@
 
 use std::{fmt, path::Path};
 
-use handeye::TargetModel;
+use handeye::{TargetModel, TargetSize};
 use serde::{
     Deserialize, Deserializer,
-    de::{Error as _, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer},
+    de::{
+        DeserializeSeed, Error as _, IntoDeserializer, MapAccess, SeqAccess, Visitor,
+        value::{MapAccessDeserializer, MapDeserializer},
+    },
 };
 
 use crate::{
@@ -20,13 +23,15 @@ pub struct NamedTarget {
     pub name: String,
     /// The target.
     pub model: TargetModel,
+    /// How well its size is known.
+    pub size: TargetSize,
 }
 
 /// What stands under `target`: one, or a list of them, each with a name.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Targets {
     /// `[target]`
-    One(TargetModel),
+    One(TargetModel, TargetSize),
     /// `[[target]]`
     Several(Vec<NamedTarget>),
 }
@@ -37,9 +42,20 @@ impl Targets {
     /// # Errors
     /// What is wrong, and what to do, where there is not just one of that name.
     pub fn pick(&self, name: Option<&str>) -> Result<&TargetModel, (String, String)> {
+        self.pick_with_size(name).map(|(model, _)| model)
+    }
+
+    /// The same, and how well its size is known.
+    ///
+    /// # Errors
+    /// As [`Self::pick`].
+    pub fn pick_with_size(
+        &self,
+        name: Option<&str>,
+    ) -> Result<(&TargetModel, TargetSize), (String, String)> {
         let (targets, name) = match (self, name) {
-            (Self::One(model), None) => return Ok(model),
-            (Self::One(_), Some(name)) => {
+            (Self::One(model, size), None) => return Ok((model, *size)),
+            (Self::One(..), Some(name)) => {
                 let what = format!("is {name:?}, but the only target has no name");
                 return Err((what, "leave it out".into()));
             }
@@ -51,9 +67,9 @@ impl Targets {
             Some(name) => targets
                 .iter()
                 .find(|t| t.name == name)
-                .map(|t| &t.model)
+                .map(|t| (&t.model, t.size))
                 .ok_or_else(|| (format!("is {name:?}, and no target has that name"), advice)),
-            None if targets.len() == 1 => Ok(&targets[0].model),
+            None if targets.len() == 1 => Ok((&targets[0].model, targets[0].size)),
             None => Err((format!("is missing, with {} targets", targets.len()), advice)),
         }
     }
@@ -61,7 +77,7 @@ impl Targets {
     /// All of them.
     pub fn models(&self) -> Vec<&TargetModel> {
         match self {
-            Self::One(model) => vec![model],
+            Self::One(model, _) => vec![model],
             Self::Several(targets) => targets.iter().map(|t| &t.model).collect(),
         }
     }
@@ -69,7 +85,7 @@ impl Targets {
     /// What the `k`-th is called, where there are several.
     pub fn name(&self, k: usize) -> Option<&str> {
         match self {
-            Self::One(_) => None,
+            Self::One(..) => None,
             Self::Several(targets) => targets.get(k).map(|t| t.name.as_str()),
         }
     }
@@ -78,11 +94,11 @@ impl Targets {
     pub fn toml(&self) -> String {
         let lines = |target: &NamedTarget| {
             let name = toml::Value::String(target.name.clone());
-            let table = target_toml(&target.model);
+            let table = target_toml(&target.model) + &size_toml(target.size, &target.model);
             table.replacen("[target]\n", &format!("[[target]]\nname = {name}\n"), 1)
         };
         match self {
-            Self::One(model) => target_toml(model),
+            Self::One(model, size) => target_toml(model) + &size_toml(*size, model),
             Self::Several(targets) => targets.iter().map(lines).collect::<Vec<_>>().join("\n"),
         }
     }
@@ -93,7 +109,7 @@ impl Targets {
     /// What is wrong, and what it should be.
     pub fn check(&self) -> Result<(), handeye::Error> {
         let targets = match self {
-            Self::One(model) => return model.check(),
+            Self::One(model, _) => return model.check(),
             Self::Several(targets) => targets,
         };
         for (k, target) in targets.iter().enumerate() {
@@ -131,7 +147,11 @@ impl<'de> Visitor<'de> for TargetsVisitor {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Targets, A::Error> {
-        TargetModel::deserialize(MapAccessDeserializer::new(map)).map(Targets::One)
+        let mut size = SizeKeys::default();
+        let rest = WithoutSize { map, size: &mut size };
+        let model = TargetModel::deserialize(MapAccessDeserializer::new(rest))?;
+        let size = size.of(&model).map_err(A::Error::custom)?;
+        Ok(Targets::One(model, size))
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Targets, A::Error> {
@@ -141,16 +161,89 @@ impl<'de> Visitor<'de> for TargetsVisitor {
                 let what = "one of several targets has no name: write name = \"left\" or the like";
                 return Err(A::Error::custom(what));
             };
-            let model = TargetModel::deserialize(toml::Value::Table(keys));
-            let model = model.map_err(|e| {
-                A::Error::custom(format!("target {name:?}: {}", e.message().trim()))
-            })?;
-            targets.push(NamedTarget { name, model });
+            let in_words =
+                |what: &str| A::Error::custom(format!("target {name:?}: {}", what.trim()));
+            let one = TargetsVisitor.visit_map(MapDeserializer::new(keys.into_iter()));
+            let one = one.map_err(|e: toml::de::Error| in_words(e.message()))?;
+            if let Targets::One(model, size) = one {
+                targets.push(NamedTarget { name, model, size });
+            }
         }
         if targets.is_empty() {
             return Err(A::Error::custom("the list of targets is empty"));
         }
         Ok(Targets::Several(targets))
+    }
+}
+
+/// Standard deviation of a size that a caliper told, mm over the longest side of the target.
+const CALIPER_MM: f64 = 0.03;
+/// Least standard deviation of a target's size, as a share: no board is known better.
+const LEAST_SIGMA: f64 = 1e-5;
+
+/// The keys beside a target's dimensions that say how well its size is known.
+#[derive(Default)]
+struct SizeKeys {
+    measured: Option<bool>,
+    square_sigma_mm: Option<f64>,
+}
+
+impl SizeKeys {
+    fn of(&self, model: &TargetModel) -> Result<TargetSize, String> {
+        let pitch_mm = model.pitch_m() * 1e3;
+        if self.measured.or(self.square_sigma_mm.map(|_| true)).is_some() && pitch_mm <= 0.0 {
+            return Err("measured and square_sigma_mm belong to targets of a declared size".into());
+        }
+        match (self.square_sigma_mm, self.measured) {
+            (Some(sigma), _) if !(sigma > 0.0 && sigma < 0.5 * pitch_mm) => Err(format!(
+                "square_sigma_mm = {sigma} is not the standard deviation of a length of {pitch_mm} mm"
+            )),
+            (Some(sigma), _) => Ok(TargetSize::Measured((sigma / pitch_mm).max(LEAST_SIGMA))),
+            (None, Some(true)) => {
+                let longest = model.corners().iter().map(|c| c.vector().norm()).fold(0.0, f64::max);
+                let share = CALIPER_MM / (longest * 1e3).max(pitch_mm);
+                Ok(TargetSize::Measured(share.max(LEAST_SIGMA)))
+            }
+            (None, _) => Ok(TargetSize::Printed),
+        }
+    }
+}
+
+/// The keys of a target without those, which are put aside.
+struct WithoutSize<'a, A> {
+    map: A,
+    size: &'a mut SizeKeys,
+}
+
+impl<'de, A: MapAccess<'de>> MapAccess<'de> for WithoutSize<'_, A> {
+    type Error = A::Error;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, A::Error> {
+        while let Some(key) = self.map.next_key::<String>()? {
+            match key.as_str() {
+                "measured" => self.size.measured = Some(self.map.next_value()?),
+                "square_sigma_mm" => self.size.square_sigma_mm = Some(self.map.next_value()?),
+                _ => return seed.deserialize(key.into_deserializer()).map(Some),
+            }
+        }
+        Ok(None)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, A::Error> {
+        self.map.next_value_seed(seed)
+    }
+}
+
+/// The line of a manifest that says how well a target's size is known.
+fn size_toml(size: TargetSize, model: &TargetModel) -> String {
+    match size {
+        TargetSize::Printed => String::new(),
+        TargetSize::Measured(share) => {
+            format!("square_sigma_mm = {}\n", share * model.pitch_m() * 1e3)
+        }
     }
 }
 
@@ -188,7 +281,7 @@ pub fn read_targets(path: &Path) -> Result<Targets, Error> {
     let targets = if table.contains_key("target") {
         toml::from_str::<WithTargets>(&text).map_err(refuse)?.target
     } else if table.contains_key("kind") {
-        Targets::One(toml::from_str(&text).map_err(refuse)?)
+        toml::from_str(&text).map_err(refuse)?
     } else {
         return Err(malformed(Place::file(path), "describes no target", ADVICE));
     };
@@ -240,6 +333,27 @@ mod tests {
             first_id: 0,
         };
         assert_eq!(read("written.toml", &target_toml(&board)), Ok(board));
+    }
+
+    #[test]
+    fn how_well_the_size_is_known_stands_beside_it() {
+        let keys = "kind = \"checkerboard\"\ncolumns = 9\nrows = 6\nsquare_mm = 20.0\n";
+        let size = |name: &str, more: &str| {
+            let targets = several(name, &format!("[target]\n{keys}{more}"))?;
+            Ok::<_, String>(targets.pick_with_size(None).unwrap().1)
+        };
+        assert_eq!(size("printed.toml", ""), Ok(TargetSize::Printed));
+        assert_eq!(size("not.toml", "measured = false\n"), Ok(TargetSize::Printed));
+        assert_eq!(
+            size("sigma.toml", "square_sigma_mm = 0.01\n"),
+            Ok(TargetSize::Measured(0.01 / 20.0))
+        );
+        let Ok(TargetSize::Measured(share)) = size("caliper.toml", "measured = true\n") else {
+            panic!("a caliper was used")
+        };
+        assert!((1e-4..3e-4).contains(&share), "{share}");
+        let message = size("zero.toml", "square_sigma_mm = 0\n").unwrap_err();
+        assert!(message.contains("square_sigma_mm = 0 is not"), "{message}");
     }
 
     #[test]

@@ -44,7 +44,9 @@ pub fn extract_bag(
     stamps: &str,
 ) -> PyResult<String> {
     let target = match (target_json, target_file) {
-        (Some(text), _) => Some(Targets::One(target_from_json(text)?)),
+        (Some(text), _) => {
+            Some(Targets::One(target_from_json(text)?, handeye::TargetSize::Printed))
+        }
         (None, Some(file)) => {
             Some(read_targets(&file).map_err(|error| errors::of_files(py, &error))?)
         }

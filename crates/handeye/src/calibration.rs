@@ -192,6 +192,9 @@ pub struct Scale {
     pub value: f64,
     /// Standard deviation.
     pub sigma: f64,
+    /// Whether the answer rests on it, and not on the declared size.
+    #[serde(default)]
+    pub used: bool,
 }
 
 /// The determined part of `mount_from_camera` where the data leave directions free.

@@ -226,6 +226,31 @@ impl TargetModel {
         }
     }
 
+    /// The same board, all its lengths multiplied by `factor`.
+    pub fn resized(&self, factor: f64) -> Self {
+        let mut other = self.clone();
+        match &mut other {
+            Self::Checkerboard { square_mm, .. } => *square_mm *= factor,
+            Self::Charuco { square_mm, marker_mm, .. } => {
+                *square_mm *= factor;
+                *marker_mm *= factor;
+            }
+            Self::Tag { size_mm, .. } => *size_mm *= factor,
+            Self::CircleGrid { pitch_mm, .. }
+            | Self::AsymmetricCircleGrid { pitch_mm, .. }
+            | Self::ModifiedCircleGrid { pitch_mm, .. } => *pitch_mm *= factor,
+            Self::Aprilgrid { tag_mm, .. } => *tag_mm *= factor,
+            Self::TagGrid { tag_mm, gap_mm, .. } => {
+                *tag_mm *= factor;
+                *gap_mm *= factor;
+            }
+            Self::Sphere { diameter_mm } => {
+                diameter_mm.iter_mut().for_each(|d| *d *= factor);
+            }
+        }
+        other
+    }
+
     /// Number of corners.
     pub fn len(&self) -> usize {
         let (columns, rows) = self.grid();

@@ -177,7 +177,7 @@ impl<'a> Plan<'a> {
             Plan { bag, survey, options, chosen, robot, moving: false, captures: vec![], notes };
         plan.take_moments()?;
         plan.take_scans()?;
-        if let (None, Some(Targets::One(target))) = (&plan.chosen.image, &options.target)
+        if let (None, Some(Targets::One(target, _))) = (&plan.chosen.image, &options.target)
             && !matches!(target, TargetModel::Sphere { .. })
         {
             plan.notes.push("there are no pictures, and of scans alone only a ball can be found (kind = \"sphere\")".into());

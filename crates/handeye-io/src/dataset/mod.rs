@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 
 use handeye::{
     Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics, Pose, Scan, Setup,
-    Target, TargetModel, Touch, Warning, Workspace, intrinsics::LensModel, kinematics::Arm,
-    refine::KnownPosition,
+    Target, TargetModel, TargetSize, Touch, Warning, Workspace, intrinsics::LensModel,
+    kinematics::Arm, refine::KnownPosition,
 };
 use serde::Deserialize;
 
@@ -48,6 +48,8 @@ pub struct Dataset {
     pub setup: Setup,
     /// What the camera looks at; `None` with poses of the board, point pairs alone, or a shape.
     pub target: Option<TargetModel>,
+    /// How well its size is known.
+    pub target_size: TargetSize,
     /// What takes a board's place, where scans are brought together by their shape.
     pub shape: Option<Shape>,
     /// What else the pictures may show, and is not used.

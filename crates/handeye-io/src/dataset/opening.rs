@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use handeye::{
-    Base, Camera, Flange, Intrinsics, Pose, Setup, Target, TargetModel, Touch, Warning, Workspace,
-    refine::KnownPosition,
+    Base, Camera, Flange, Intrinsics, Pose, Setup, Target, TargetModel, TargetSize, Touch, Warning,
+    Workspace, refine::KnownPosition,
 };
 use nalgebra::Vector3;
 
@@ -72,6 +72,7 @@ impl Opening {
             manifest: self.source.path.clone(),
             setup: m.setup,
             target: self.target()?.cloned(),
+            target_size: self.target_and_size()?.map_or_else(Default::default, |(_, size)| size),
             shape,
             other_targets: self.other_targets()?,
             intrinsics,
@@ -119,8 +120,12 @@ impl Opening {
 
     /// The target that the calibration uses.
     fn target(&self) -> Result<Option<&TargetModel>, Error> {
+        Ok(self.target_and_size()?.map(|(target, _)| target))
+    }
+
+    fn target_and_size(&self) -> Result<Option<(&TargetModel, TargetSize)>, Error> {
         let Some(targets) = self.boards() else { return Ok(None) };
-        let picked = targets.pick(self.manifest.captures.target.as_deref());
+        let picked = targets.pick_with_size(self.manifest.captures.target.as_deref());
         picked.map(Some).map_err(|(what, advice)| {
             malformed(
                 self.source.place("captures.target"),

@@ -7,6 +7,7 @@ use nalgebra::{Matrix6, SVector};
 use super::{
     Config,
     agreement::Views,
+    alternatives::{Alternatives, Averaged},
     arm,
     boards::{self, Boards},
     budget, captures,
@@ -40,7 +41,8 @@ pub(super) fn estimate<'a>(
     config: &Config,
     result: &mut Calibration,
 ) -> Option<(Views<'a>, Option<JointFit>)> {
-    let (problem, fit) = fit_views(&mut views, found, optics, config, result)?;
+    let Averaged { problem, fit, as_declared } =
+        fit_views(&mut views, found, optics, config, result)?;
     let volume = volume(&views, &fit)?;
     let paired = captures::pair_touches(&views, &fit, result);
     let (boards, trusted) = right_touches(&views, &paired, optics, (&problem, &fit), result);
@@ -50,6 +52,14 @@ pub(super) fn estimate<'a>(
     }
     let used = joint.as_ref().map_or(&[][..], |j| &j.used);
     let (best, whole) = joint.as_ref().map_or((&fit, &problem), |j| (&j.fit, &j.problem));
+    let as_declared = joint.as_ref().map_or(as_declared, |j| j.as_declared);
+    verdict::judge_size(
+        &views,
+        (&fit, best),
+        (1.0 + optics.size, as_declared.size),
+        config,
+        result,
+    );
     let arm = arm::look(&views, whole, best, used, config).unwrap_or_else(|warning| {
         result.warnings.push(warning);
         None
@@ -61,8 +71,8 @@ pub(super) fn estimate<'a>(
         (Some(arm), Some(_)) => (&arm.fit, &arm.problem),
         _ => (best, whole),
     };
-    let workpiece = Workpiece::new(&views, &volume, best, reach.as_ref());
-    optics.report(views.session, best, result);
+    let workpiece = Workpiece::new(&views, &volume, best, config.unknown.scale, reach.as_ref());
+    optics.report(views.session, best, as_declared, result);
     if let Some(arm) = &arm {
         arm.report(&views, workpiece.rms_of_best_mm().filter(|_| reach.is_some()), result);
     }
@@ -101,7 +111,7 @@ fn fit_views(
     optics: &Optics,
     config: &Config,
     result: &mut Calibration,
-) -> Option<(Problem, JointFit)> {
+) -> Option<Averaged> {
     let setup = views.session.setup;
     result.diversity = Some(evaluate::diversity(&pairs_of(views)));
     if !optics.extras.is_empty() {
@@ -110,18 +120,22 @@ fn fit_views(
     config.unknown.set_free(views, &found.hand_eye);
     let extras = [optics.extras.as_slice(), &config.unknown.extras()].concat();
     let problem = joint::views_problem(views.session, &views.views, &extras);
-    let mut fit = match refine::fit_joint(&problem, &found.hand_eye, &config.known) {
-        Ok(fit) => fit,
-        Err(error) => {
-            result.reasons.push(error.to_string());
-            result.undetermined.push(format!("the pose of the camera on the {}", setup.mount()));
-            return None;
-        }
-    };
+    let alternatives = Alternatives::of(views.session);
+    let Averaged { problem, mut fit, as_declared } =
+        match alternatives.fit(&problem, &found.hand_eye, &config.known) {
+            Ok(averaged) => averaged,
+            Err(error) => {
+                result.reasons.push(error.to_string());
+                result
+                    .undetermined
+                    .push(format!("the pose of the camera on the {}", setup.mount()));
+                return None;
+            }
+        };
     captures::orient_target(views, &mut fit);
     config.unknown.report(&fit, result);
-    verdict::judge_scale(views, &fit, config, result);
-    Some((joint::views_problem(views.session, &views.views, &extras), fit))
+    let problem = joint::views_problem(views.session, &views.views, &problem.extras);
+    Some(Averaged { problem, fit, as_declared })
 }
 
 /// The predicted error of the chosen answer all over the workpiece.

@@ -5,7 +5,11 @@ use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
     TargetPose, Touch, Warning,
     calibration::{Calibration, TouchResult},
-    detect, evaluate, lie,
+    detect::{
+        self,
+        sight::{Sight, TARGET_SCALE},
+    },
+    evaluate, lie,
     refine::{JointFit, View},
     touches::{self, TouchPairs},
 };
@@ -16,7 +20,7 @@ pub fn relabelling(o: &Observation, pose: &Pose<Camera, Target>, target: &Target
     relabelling_of(&o.candidates, pose, target)
 }
 
-fn relabelling_of(
+pub(super) fn relabelling_of(
     candidates: &[TargetPose],
     pose: &Pose<Camera, Target>,
     target: &TargetModel,
@@ -67,13 +71,25 @@ fn turn_all(views: &mut Views, fit: &mut JointFit, old_from_new: &Pose<Target, T
     for view in &mut views.views {
         view.pair.camera_from_target = view.pair.camera_from_target * turn;
         view.covariance = view.covariance.map(|c| carry * c * carry.transpose());
-        view.sight = view.sight.take().map(|s| s.carried(&carry).into());
+        view.sight = view
+            .sight
+            .take()
+            .map(|s: std::sync::Arc<Sight>| grown_from_its_corner(s.carried(&carry), &turn).into());
     }
     fit.hand_eye = fit.hand_eye.retarget(turn);
     let n = fit.information.nrows();
     let mut both = nalgebra::DMatrix::identity(n, n);
     both.fixed_view_mut::<6, 6>(6, 6).copy_from(&carry);
     fit.covariance = fit.covariance.take().map(|c| &both * c * both.transpose());
+}
+
+/// A larger board grows away from its first corner, which is another one when the board is turned.
+fn grown_from_its_corner(mut sight: Sight, turn: &Pose<Target, Target>) -> Sight {
+    let outward = turn.rotation().transpose() * turn.translation();
+    for k in 0..3 {
+        sight.by_camera[(3 + k, TARGET_SCALE)] += outward[k];
+    }
+    sight
 }
 
 /// A placement in the reading that puts its corners where they were touched.

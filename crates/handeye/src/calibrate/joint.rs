@@ -3,13 +3,18 @@
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use super::{Session, agreement::Views, boards::Boards};
+use super::{
+    Session,
+    agreement::Views,
+    alternatives::{Alternatives, Averaged, Declared},
+    boards::Boards,
+};
 use crate::{
     Warning,
     calibration::{Calibration, TipResult},
     chance, evaluate,
     refine::{
-        self, Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, View,
+        Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, View,
         extra::{SYSTEMATIC, TIP_PRIOR, systematic, tip},
         joint,
     },
@@ -27,6 +32,8 @@ pub(super) struct Joint {
     pub conflict: Option<Conflict>,
     /// A tool tip that is wrong.
     pub wrong_tip: Option<WrongTip>,
+    /// Posterior probabilities that size and depth are as declared.
+    pub as_declared: Declared<f64>,
 }
 
 /// How far views and touches are from agreeing.
@@ -66,7 +73,11 @@ pub(super) fn fit(
         return None;
     }
     let mut touches = boards.touches.clone();
-    let mut fit = refine::fit_joint(&problem, &start.hand_eye, known).ok()?;
+    let alternatives = Alternatives::of(views.session);
+    let first = alternatives.fit(&problem, &start.hand_eye, known).ok()?;
+    // what follows looks for other mistakes under the likeliest size
+    problem = first.problem;
+    let mut fit = joint::refit(&problem, &first.fit, known);
     let left_out = leave_out_wrong(&mut problem, &mut touches, &mut fit, known);
     let wrong_tip = free_wrong_tip(&mut problem, &mut fit, known);
     let conflict = conflict(&problem, &fit, wrong_tip.is_some());
@@ -76,7 +87,8 @@ pub(super) fn fit(
         problem.extras.extend(systematic(conflict.strength));
         fit = joint::refit(&problem, &fit, known);
     }
-    Some(Joint { problem, fit, used: touches.concat(), left_out, conflict, wrong_tip })
+    let Averaged { problem, fit, as_declared } = alternatives.refit(&problem, &fit, known);
+    Some(Joint { problem, fit, used: touches.concat(), left_out, conflict, wrong_tip, as_declared })
 }
 
 /// The tip as free as the user's knowledge of it leaves it.

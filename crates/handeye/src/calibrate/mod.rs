@@ -11,6 +11,7 @@
 //! through `points`, captures of a ball through `balls`.
 
 mod agreement;
+mod alternatives;
 mod arm;
 mod balls;
 mod boards;
@@ -23,6 +24,7 @@ mod joint;
 mod known_position;
 mod masked;
 mod named;
+mod offset;
 mod optics;
 mod points;
 mod reach;
@@ -59,6 +61,8 @@ pub struct Session {
     pub setup: Setup,
     /// What the camera looked at; `None` for bare poses or points.
     pub target: Option<TargetModel>,
+    /// How well the target's size is known.
+    pub target_size: TargetSize,
     /// The camera, where pictures were used.
     pub camera: Option<Intrinsics>,
     /// Whether the camera was calibrated from these very views.
@@ -79,6 +83,16 @@ pub struct Session {
     pub arm: Option<Arm>,
 }
 
+/// How well the size of a target is known beforehand.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum TargetSize {
+    /// As declared, unless the printer scaled it or nobody measured it: the data may say otherwise.
+    #[default]
+    Printed,
+    /// It was measured, with this standard deviation as a share of the size: data that say otherwise are wrong.
+    Measured(f64),
+}
+
 impl Session {
     /// What the poses of the target were read from, in a word for people.
     pub(crate) fn read_from(&self) -> &'static str {
@@ -90,6 +104,7 @@ impl Session {
         Self {
             setup,
             target: None,
+            target_size: TargetSize::default(),
             camera: None,
             camera_from_views: false,
             observations,
@@ -116,6 +131,18 @@ pub struct Config {
     pub max_error_mm: Option<f64>,
     /// What is free beside both poses.
     pub unknown: Unknown,
+    /// In which frame the answer is, where images and scans do not agree.
+    pub answer_frame: AnswerFrame,
+}
+
+/// The frame of the camera in which the answer is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AnswerFrame {
+    /// That of the scans, where there are any.
+    #[default]
+    Scan,
+    /// That of the images.
+    Image,
 }
 
 /// Version of the result's format.
@@ -149,9 +176,9 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
         verdict::conclude(config, &mut result);
         return result;
     }
-    let mut result = sources::best_source(&session, |session| {
+    let mut result = sources::in_one_frame(&session, config.answer_frame, |session| {
         let mut result = empty(session.setup);
-        from_views(session, (session, &Optics::default(), 0), config, &mut result);
+        from_views(session, (session, &Optics::of(session), 0), config, &mut result);
         verdict::conclude(config, &mut result);
         result
     });

@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, SVector, Vector2, Vector3, Vector6};
 use super::{
     Config, Session,
     agreement::Views,
+    alternatives::{Alternatives, Declared, SIZE, unknown_depth, unknown_size},
     captures,
     joint::{held_out_views, views_problem},
 };
@@ -31,6 +32,10 @@ use crate::{
 pub(super) struct Optics {
     /// The unknowns; beliefs are relative to where camera and depth stand now.
     pub extras: Vec<Extra>,
+    /// Whether it is decided which of lens and depth are free.
+    decided: bool,
+    /// The target is larger than declared by this share.
+    pub size: f64,
     lens: SVector<f64, PARAMETERS>,
     depth_scale: f64,
     depth_bias_m: f64,
@@ -43,6 +48,10 @@ const GAIN: f64 = 2.0;
 const HELD_OUT_SLACK: f64 = 1.02;
 /// A move below this part of its standard deviation needs no further look.
 const SETTLED: f64 = 0.1;
+/// Sizes that differ by less than this share need no further look: poses are as good as linear in them.
+const LINEAR_SIZE: f64 = 2e-3;
+/// The same of a bias of depth, m.
+const LINEAR_BIAS: f64 = 5e-4;
 /// Fewest views that say anything about a lens beside the poses.
 const FEWEST_VIEWS: usize = 6;
 
@@ -59,8 +68,6 @@ const GIVEN_DISTORTION: [f64; 5] = [0.05, 0.1, 2e-3, 2e-3, 0.1];
 const OWN_FOCAL: f64 = 0.3;
 const OWN_CENTRE: f64 = 0.2;
 const OWN_DISTORTION: f64 = 1.0;
-/// Beliefs about the depth of scans: scale, and bias in m.
-const GIVEN_DEPTH: (f64, f64) = (3e-3, 1e-3);
 
 /// The lens' unknowns about the camera as it was given.
 fn lens(camera: &Intrinsics, own: bool) -> Vec<Extra> {
@@ -83,13 +90,6 @@ fn lens(camera: &Intrinsics, own: bool) -> Vec<Extra> {
     all.into_iter().enumerate().filter(|(_, sigma)| *sigma > 0.0).map(unknown).collect()
 }
 
-fn depth() -> Vec<Extra> {
-    vec![
-        Extra::about_zero(ExtraKind::Camera(DEPTH_SCALE), GIVEN_DEPTH.0),
-        Extra::about_zero(ExtraKind::Camera(DEPTH_BIAS), GIVEN_DEPTH.1),
-    ]
-}
-
 /// Looks whether camera or depth must move; the session as it is then, or `None` where all stays.
 pub(super) fn look(
     given: &Session,
@@ -104,11 +104,16 @@ pub(super) fn look(
     }
     let sighted = with_sights(views);
     let mut next = optics.clone();
-    if optics.extras.is_empty() {
-        next.extras = what_to_free(given, &sighted, camera, start, config)?;
+    if !optics.decided {
+        let more = what_to_free(given, &sighted, camera, start, config);
+        next.extras.extend(more.unwrap_or_default());
+        next.decided = true;
+    }
+    if next.extras.is_empty() {
+        return None;
     }
     let fit = fitted(views, &sighted, &next.extras, start, config)?;
-    if next.is_settled(&fit) && !optics.extras.is_empty() {
+    if next.is_settled(&fit) && (optics.decided || next.extras == optics.extras) {
         return None;
     }
     next.take(&fit);
@@ -124,10 +129,11 @@ fn fitted(
     config: &Config,
 ) -> Option<JointFit> {
     let problem = views_problem(views.session, sighted, extras);
-    refine::fit_joint(&problem, start, &config.known).ok()
+    let fitted = Alternatives::of(views.session).fit(&problem, start, &config.known).ok()?;
+    Some(fitted.fit)
 }
 
-/// Which unknowns the data ask for.
+/// Which unknowns of lens and depth the data ask for.
 fn what_to_free(
     given: &Session,
     sighted: &[View],
@@ -144,15 +150,14 @@ fn what_to_free(
         let first = [FOCAL_LENGTHS, FOCAL_LENGTHS + CENTRE, all.len()];
         sets.extend(first.map(|n| all[..n].to_vec()));
     }
-    if given.observations.iter().any(|o| !o.surface.is_empty()) {
-        let with_depth = |set: &Vec<Extra>| [set.clone(), depth()].concat();
-        let more: Vec<Vec<Extra>> = sets.iter().map(with_depth).collect();
-        sets.extend(more);
-    }
+    let alternatives = Alternatives::of(given);
+    let declared: Vec<Extra> =
+        unknown_size(given).into_iter().chain(unknown_depth(given)).collect();
     let fit = |extras: &[Extra]| {
-        let problem = views_problem(given, sighted, extras);
-        let fit = refine::fit_joint(&problem, start, &config.known).ok()?;
-        Some((problem, fit))
+        let extras = [extras, &declared].concat();
+        let problem = views_problem(given, sighted, &extras);
+        let fit = alternatives.fit(&problem, start, &config.known).ok()?;
+        Some((fit.problem, fit.fit))
     };
     let (first_problem, first) = fit(&always)?;
     let mut best = (first.log_likelihood + GAIN, None);
@@ -187,8 +192,23 @@ impl Optics {
         Some((session, next))
     }
 
+    /// What is free at first: the size of a target whose views tell it, and the depth of its scans.
+    pub(super) fn of(session: &Session) -> Self {
+        let extras = unknown_size(session).into_iter().chain(unknown_depth(session)).collect();
+        Self { extras, ..Self::default() }
+    }
+
     fn is_settled(&self, fit: &JointFit) -> bool {
-        let near = |e: &Extra| fit.extra(e.kind).is_none_or(|(x, s)| x.abs() < SETTLED * s);
+        let near = |e: &Extra| {
+            fit.extra(e.kind).is_none_or(|(x, s)| {
+                let linear = match e.kind {
+                    SIZE | ExtraKind::Camera(DEPTH_SCALE) => LINEAR_SIZE,
+                    ExtraKind::Camera(DEPTH_BIAS) => LINEAR_BIAS,
+                    _ => 0.0,
+                };
+                x.abs() < SETTLED * s || x.abs() < linear
+            })
+        };
         self.extras.iter().all(near)
     }
 
@@ -196,6 +216,7 @@ impl Optics {
     fn take(&mut self, fit: &JointFit) {
         let at = |which: usize| fit.extra(ExtraKind::Camera(which)).map_or(0.0, |x| x.0);
         self.lens += SVector::from_fn(|i, _| at(LENS + i));
+        self.size = (1.0 + self.size) * (1.0 + at(TARGET_SCALE)) - 1.0;
         let (scale, bias) = (at(DEPTH_SCALE), at(DEPTH_BIAS));
         self.depth_bias_m += (1.0 + self.depth_scale) * bias;
         self.depth_scale = (1.0 + self.depth_scale) * (1.0 + scale) - 1.0;
@@ -203,6 +224,7 @@ impl Optics {
             extra.prior_mean = match extra.kind {
                 ExtraKind::Camera(DEPTH_SCALE) => -self.depth_scale,
                 ExtraKind::Camera(DEPTH_BIAS) => -self.depth_bias_m,
+                ExtraKind::Camera(TARGET_SCALE) => 1.0 / (1.0 + self.size) - 1.0,
                 ExtraKind::Camera(which) => -self.lens[which - LENS],
                 _ => 0.0,
             };
@@ -213,9 +235,10 @@ impl Optics {
     fn applied(&self, given: &Session) -> Option<Session> {
         let mut session = given.clone();
         let camera = given.camera?.moved(&self.lens);
-        let target = given.target.as_ref()?;
+        let target = &given.target.as_ref()?.resized(1.0 + self.size);
         camera.check().ok()?;
         session.camera = Some(camera);
+        session.target = Some(target.clone());
         let correct = |s: &[SurfaceCorner]| corrected(s, self.depth_scale, self.depth_bias_m);
         session.observations.iter_mut().for_each(|o| o.surface = correct(&o.surface));
         session.placements.iter_mut().for_each(|p| p.surface = correct(&p.surface));
@@ -235,7 +258,13 @@ impl Optics {
     }
 
     /// Reports what camera and depth turned out to be.
-    pub(super) fn report(&self, session: &Session, fit: &JointFit, result: &mut Calibration) {
+    pub(super) fn report(
+        &self,
+        session: &Session,
+        fit: &JointFit,
+        as_declared: Declared<f64>,
+        result: &mut Calibration,
+    ) {
         let at = |which: usize| fit.extra(ExtraKind::Camera(which));
         if self.is_free(LENS)
             && let Some(camera) = session.camera
@@ -254,7 +283,7 @@ impl Optics {
                 result.warnings.push(camera_warning(&intrinsics, &self.lens, sigma(0)));
             }
         }
-        if self.is_free(DEPTH_SCALE)
+        if as_declared.depth < 0.5
             && let (Some((s, sigma)), Some((b, sigma_b))) = (at(DEPTH_SCALE), at(DEPTH_BIAS))
         {
             let scale = (1.0 + self.depth_scale) * (1.0 + s) - 1.0;
@@ -362,10 +391,11 @@ const DERIVATIVE_STEP: f64 = 1e-2;
 /// Covariance (m²), in camera axes, of where a point of the camera lands, for a covariance of `X`,
 /// `Y` and the extras. What pictures locate moves with the lens: a point keeps its pixel, and its
 /// distance follows its size in the picture. What scans locate moves with their depth, and all with
-/// the unit of distances where that is unknown. These errors go along with that of `X`, as do `more`:
+/// the unit of distances where that is free (the size of the calibration target is not the unit of
+/// what is measured later). These errors go along with that of `X`, as do `more`:
 /// numbers of unknowns, and how the point moves with them.
 pub(super) fn spread(
-    views: &Views,
+    (views, unit_is_free): (&Views, bool),
     extras: &[Extra],
     covariance: &DMatrix<f64>,
     p: &Vector3<f64>,
@@ -374,7 +404,7 @@ pub(super) fn spread(
     let scanned = views.session.observations.iter().any(|o| !o.surface.is_empty());
     let camera = views.session.camera.as_ref();
     let moves = |which: usize| match which {
-        TARGET_SCALE => true,
+        TARGET_SCALE => unit_is_free,
         CLOCK => false,
         other => scanned == (other < LENS),
     };

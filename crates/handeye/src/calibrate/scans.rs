@@ -110,6 +110,28 @@ fn as_result(found: &Flatness, seen: &[Seen]) -> FlatnessResult {
     }
 }
 
+/// The board's plane in image and scan of every capture that has both, whatever the robot says.
+pub(super) fn seen_planes(session: &Session) -> Vec<TwoPlanes> {
+    let (Some(target), Some(camera)) = (&session.target, &session.camera) else { return vec![] };
+    let excess = optics::excess(session, target, camera);
+    let of = |o: &Observation| {
+        let points: Vec<(Vector3<f64>, Matrix3<f64>)> =
+            o.surface.iter().map(|c| (c.in_camera.vector(), c.covariance)).collect();
+        let scan = plane_of_points(&points)?;
+        // of the two poses of a board that is far away, the one that the scan is nearer to
+        let image = |c: &crate::TargetPose| {
+            let start = &c.camera_from_target;
+            let (posed, _) = detect::sighted(&o.corners, &[], target, camera, excess, start)?;
+            plane_of_pose(&posed.pose)
+        };
+        let images = o.candidates.iter().filter_map(image);
+        let picture =
+            images.min_by(|a, b| (a.0 - scan.0).norm().total_cmp(&(b.0 - scan.0).norm()))?;
+        Some(TwoPlanes { picture, scan })
+    };
+    session.observations.iter().filter(|o| !o.corners.is_empty()).filter_map(of).collect()
+}
+
 /// Differences between picture and scan that no answer notices are not worth a word: scale, rad, m.
 const LEAST: (f64, f64, f64) = (5e-4, 5e-4, 2e-4);
 
@@ -134,9 +156,23 @@ fn agreement(
         Part::Tilt => found.values.fixed_rows::<3>(1).norm() > LEAST.1,
         Part::Shift => found.values.fixed_rows::<3>(4).norm() > LEAST.2,
     };
+    if !found.separable {
+        // numbers for parts that the captures do not tell apart would be wrong by more than they say
+        warnings.push(not_separable());
+        return None;
+    }
     let named = found.proven.iter().filter(|p| worth(**p));
     warnings.extend(named.map(|p| disagreement(*p, &found)));
     Some(frames_result(&found))
+}
+
+fn not_separable() -> Warning {
+    Warning::new(
+        "picture-and-scan-differ",
+        "images and scans do not put the board at the same place, and these captures do not tell whether the scans are \
+         scaled, tilted or shifted: show the board at several distances and tilts, and check the calibration between \
+         image and scan",
+    )
 }
 
 fn frames_result(found: &Frames) -> FramesResult {

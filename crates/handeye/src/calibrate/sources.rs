@@ -1,63 +1,196 @@
-//! Which measurement of the target to trust: its picture, its scan, or both together.
+//! In which frame the answer is, where images and scans do not agree: that of the scans, if there are any.
 //!
-//! Both are fused by default. But a lens that is not calibrated well, or a depth camera with a
-//! bias, spoils the fusion, and neither can tell which of them is wrong. The robot can: where they
-//! are far apart, the whole calibration runs with either alone as well, and the least predicted
-//! error wins, which contains the misfit of picture, scan and robot.
+//! Both are fused as long as they put the target at one place. Where they do not, an answer from both together would be
+//! true of neither. Who gives scans is going to transform scans, so the answer is then made from the scans alone, or
+//! from the images alone where the user asks for the images' frame, and the other one is named beside it. Neither is
+//! chosen because it predicts a smaller error.
+//!
+//! With `P_i` and `S_i` the target's pose in image and scan, the disagreement is the mean of `S_i P_i⁻¹` over the
+//! captures, at the middle of the target; it counts where it is more than noise (Hotelling's test of a mean) and more
+//! than a share of the stated error.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::Session;
-use crate::{
-    ImageCorner, Intrinsics, Pose, SurfaceCorner, TargetModel, TargetPose, Warning,
-    calibration::{Calibration, Verdict},
-    detect, lie,
-    linalg::median,
-    register,
+use super::{
+    AnswerFrame, Session,
+    offset::{self, Found},
 };
+use crate::{
+    Calibration, Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
+    TargetPose, Verdict, Warning, chance,
+    detect::{self, sight::corrected},
+    lie, predict, register,
+};
+
+/// Fewest corners in a scan that make a pose.
+const FEWEST: usize = 4;
+/// Fewest captures whose mean has a covariance of six dimensions.
+const FEWEST_CAPTURES: usize = 8;
+/// Chance of a mean as far off as it is below which images and scans disagree.
+const IMPROBABLE: f64 = 1e-3;
+/// A disagreement up to this share of the stated error (95 %) is part of it.
+const NEGLIGIBLE: f64 = 0.5;
+/// Half of a usual workpiece, m: a rotation between the frames moves its ends by so much times the angle.
+const HALF_EXTENT: f64 = 0.15;
+/// Disagreement of few captures that needs no test: 0.5 degrees, 2 mm.
+const LARGE: (f64, f64) = (0.0087, 0.002);
 
 /// What a target pose is made from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Source {
-    Both,
-    Picture,
+    Image,
     Scan,
 }
 
-/// Fewest corners in a scan that make a pose.
-const FEWEST: usize = 4;
+/// How far images and scans put the target apart, in the camera frame.
+struct Gap {
+    /// Mean rotation (rad) and shift of the target's middle (m).
+    mean: Vector6<f64>,
+    /// Chance of such a mean where both agree.
+    chance: f64,
+}
 
-/// Runs the calibration on every source there is and keeps the best.
-pub(super) fn best_source(session: &Session, run: impl Fn(&Session) -> Calibration) -> Calibration {
-    let both = run(session);
+/// Runs the calibration on images and scans together, or in the frame of one of them where they disagree.
+pub(super) fn in_one_frame(
+    session: &Session,
+    frame: AnswerFrame,
+    run: impl Fn(&Session) -> Calibration,
+) -> Calibration {
     let scans = session.observations.iter().filter(|o| o.surface.len() >= FEWEST).count();
-    let (Some(target), Some(camera)) = (&session.target, &session.camera) else { return both };
-    if 2 * scans < session.observations.len() || scans == 0 {
-        return both;
-    }
-    let gap = gap(session, target, camera);
-    if gap.0 < WORTH_TELLING.0 && gap.1 < WORTH_TELLING.1 {
-        return both;
-    }
-    let mut all = vec![(Source::Both, both)];
-    for source in [Source::Picture, Source::Scan] {
-        all.push((source, run(&restricted(session, source, target, camera))));
-    }
-    let score = |c: &Calibration| {
-        let usable = c.verdict == Verdict::Accepted;
-        (!usable, c.predicted_tre_mm.as_ref().map_or(f64::INFINITY, |t| t.rms))
+    let (Some(target), Some(camera)) = (&session.target, &session.camera) else {
+        return run(session);
     };
-    let best = (0..all.len())
-        .min_by(|&i, &j| {
-            let ((a, x), (b, y)) = (score(&all[i].1), score(&all[j].1));
-            a.cmp(&b).then(x.total_cmp(&y))
-        })
-        .unwrap_or(0);
-    let (source, mut result) = all.swap_remove(best);
-    warn(&mut result, source, gap);
+    if 2 * scans < session.observations.len() || scans == 0 {
+        return run(session);
+    }
+    let offset = match offset::find(session) {
+        Found::Nothing => return fused_or_one(session, (target, camera), frame, &run),
+        Found::NotSeparable => {
+            return not_separable(fused_or_one(session, (target, camera), frame, &run));
+        }
+        Found::Offset(offset) => offset,
+    };
+    let session = &offset.taken_out(session);
+    let image = fused_or_one(session, (target, camera), frame, &run);
+    match (frame, image.hand_eye.mount_from_camera) {
+        (AnswerFrame::Scan, _) => offset.in_scan_frame(&image),
+        (AnswerFrame::Image, Some(x)) => {
+            let mut image = image;
+            image.warnings.insert(0, offset.warning(&x));
+            image
+        }
+        (AnswerFrame::Image, None) => image,
+    }
+}
+
+/// Images and scans together where they agree, one of them where they do not.
+fn fused_or_one(
+    session: &Session,
+    (target, camera): (&TargetModel, &Intrinsics),
+    frame: AnswerFrame,
+    run: impl Fn(&Session) -> Calibration,
+) -> Calibration {
+    let fused = run(session);
+    let Some(gap) = gap(session, target, camera, &fused) else { return fused };
+    let stated = fused.predicted_tre_mm.as_ref().map_or(0.0, |t| t.p95 * 1e-3);
+    if !gap.counts(stated) {
+        return fused;
+    }
+    let (wanted, other) = match frame {
+        AnswerFrame::Scan => (Source::Scan, Source::Image),
+        AnswerFrame::Image => (Source::Image, Source::Scan),
+    };
+    let one = run(&restricted(session, wanted, target, camera));
+    let beside = run(&restricted(session, other, target, camera));
+    in_frame_of(wanted, one, &beside, &gap)
+}
+
+/// A disagreement that cannot be told from others is none that an answer can rest on.
+fn not_separable(mut result: Calibration) -> Calibration {
+    let message = "images and scans do not put the target at the same place, and these captures do not tell whether the \
+                   scans are scaled, tilted or shifted: show the target at several distances and tilts, and check the \
+                   calibration between image and scan";
+    result.warnings.push(Warning::new("picture-and-scan-differ", message));
+    result.reasons.insert(0, message.into());
+    result.verdict = Verdict::Rejected;
     result
 }
 
+impl Gap {
+    fn size(&self) -> (f64, f64) {
+        (lie::omega(&self.mean).norm(), lie::nu(&self.mean).norm())
+    }
+
+    fn counts(&self, stated_m: f64) -> bool {
+        let (angle, distance) = self.size();
+        let effect = distance.hypot(angle * HALF_EXTENT);
+        self.chance < IMPROBABLE && effect > NEGLIGIBLE * stated_m
+    }
+}
+
+/// The mean difference over the captures that the fused answer rests on, under its lens, depth and size.
+fn gap(
+    session: &Session,
+    target: &TargetModel,
+    camera: &Intrinsics,
+    fused: &Calibration,
+) -> Option<Gap> {
+    let size = fused.target_scale.filter(|s| s.used).map_or(1.0, |s| s.value);
+    let target = &target.resized(size);
+    let camera = fused.camera.map_or(*camera, |c| c.intrinsics);
+    let middle =
+        target.corners().iter().map(|c| c.vector()).sum::<Vector3<f64>>() / target.len() as f64;
+    let depth = fused.depth.map_or((0.0, 0.0), |d| (d.scale - 1.0, d.bias_mm * 1e-3));
+    let counts = fused.hand_eye.mount_from_camera.is_some();
+    let difference = |k: usize| {
+        let (o, report) = (&session.observations[k], fused.captures.get(k)?);
+        if o.surface.len() < FEWEST || o.corners.is_empty() || counts && !report.used {
+            return None;
+        }
+        let surface = corrected(&o.surface, depth.0, depth.1);
+        let scan = scan_pose(&surface, target)?.camera_from_target;
+        let near = |p: &TargetPose| {
+            let start = &p.camera_from_target;
+            Some(detect::sighted(&o.corners, &[], target, &camera, None, start)?.0)
+        };
+        let images = o.candidates.iter().filter_map(near);
+        images
+            .map(|image| apart(&image.pose.camera_from_target, &scan, &middle))
+            .min_by(|a, b| lie::omega(a).norm().total_cmp(&lie::omega(b).norm()))
+    };
+    let all: Vec<Vector6<f64>> = (0..session.observations.len()).filter_map(difference).collect();
+    mean_of(&all)
+}
+
+/// Rotation (rad) and shift of the middle (m) from one pose of the target to another, in the camera frame.
+fn apart(
+    from: &Pose<Camera, Target>,
+    to: &Pose<Camera, Target>,
+    middle: &Vector3<f64>,
+) -> Vector6<f64> {
+    let turn = lie::so3_log(&(to.iso().rotation * from.iso().rotation.inverse()));
+    let at = |p: &Pose<Camera, Target>| p.rotation() * middle + p.translation();
+    let shift = at(to) - at(from);
+    Vector6::new(turn.x, turn.y, turn.z, shift.x, shift.y, shift.z)
+}
+
+/// Hotelling's test of the mean against zero.
+fn mean_of(all: &[Vector6<f64>]) -> Option<Gap> {
+    let n = all.len() as f64;
+    let mean = all.iter().sum::<Vector6<f64>>() / n;
+    if all.len() < FEWEST_CAPTURES {
+        let (angle, distance) = (lie::omega(&mean).norm(), lie::nu(&mean).norm());
+        let large = angle > LARGE.0 || distance > LARGE.1;
+        return (!all.is_empty()).then_some(Gap { mean, chance: if large { 0.0 } else { 1.0 } });
+    }
+    let scatter = |s: Matrix6<f64>, x: &Vector6<f64>| s + (x - mean) * (x - mean).transpose();
+    let covariance = all.iter().fold(Matrix6::zeros(), scatter) / (n - 1.0);
+    let t2 = n * mean.dot(&(covariance.try_inverse()? * mean));
+    let f = t2 * (n - 6.0) / (6.0 * (n - 1.0));
+    Some(Gap { mean, chance: chance::of_f(f, (6.0, n - 6.0)) })
+}
+
+/// The session with target poses from one of both alone.
 fn restricted(
     session: &Session,
     source: Source,
@@ -65,49 +198,50 @@ fn restricted(
     camera: &Intrinsics,
 ) -> Session {
     let mut session = session.clone();
+    let of = |corners: &[ImageCorner], surface: &[SurfaceCorner], known: &[TargetPose]| match source
+    {
+        Source::Image => detect::target_poses(corners, &[], target, camera)
+            .map_or(vec![], |posed| detect::with_symmetries(&posed, target)),
+        // where a board stands in the scan does not depend on the lens, and what its symmetries are does not on the scan
+        Source::Scan => known
+            .iter()
+            .filter_map(|k| scan_pose(&renamed(surface, known, k, target), target))
+            .collect(),
+    };
     for o in &mut session.observations {
-        if let Some(poses) = poses(&o.corners, &o.surface, source, target, camera) {
-            o.candidates = poses;
-        }
+        o.candidates = of(&o.corners, &o.surface, &o.candidates);
     }
     for p in &mut session.placements {
-        if let Some(poses) = poses(&p.corners, &p.surface, source, target, camera) {
-            p.candidates = poses;
+        p.candidates = of(&p.corners, &p.surface, &p.candidates);
+    }
+    match source {
+        Source::Image => {
+            session.observations.iter_mut().for_each(|o| o.surface.clear());
+            session.placements.iter_mut().for_each(|p| p.surface.clear());
         }
+        // nothing is left that lens or size could explain: the scan alone says where the target is
+        Source::Scan => session.camera = None,
     }
     session
 }
 
-fn poses(
-    corners: &[ImageCorner],
+/// Corners of a scan under the names that one pose candidate of a symmetric board gives them.
+fn renamed(
     surface: &[SurfaceCorner],
-    source: Source,
+    candidates: &[TargetPose],
+    chosen: &TargetPose,
     target: &TargetModel,
-    camera: &Intrinsics,
-) -> Option<Vec<TargetPose>> {
-    if surface.len() < FEWEST {
-        return None;
-    }
-    let posed = match source {
-        Source::Both => return None,
-        Source::Picture => detect::target_poses(corners, &[], target, camera).ok()?,
-        Source::Scan => {
-            let pose = scan_pose(surface, target)?;
-            // the same shape as the picture's, for its symmetries
-            vec![detect::PosedTarget {
-                pose,
-                cost: 0.0,
-                rms_px: 0.0,
-                excess_px: 0.0,
-                left_out: vec![],
-            }]
-        }
-    };
-    Some(detect::with_symmetries(&posed, target))
+) -> Vec<SurfaceCorner> {
+    let map = super::captures::relabelling_of(candidates, &chosen.camera_from_target, target);
+    let one = |c: &SurfaceCorner| Some(SurfaceCorner { id: *map.get(c.id as usize)?, ..*c });
+    surface.iter().filter_map(one).collect()
 }
 
 /// The target's pose from its corners in the scan alone.
 fn scan_pose(surface: &[SurfaceCorner], target: &TargetModel) -> Option<TargetPose> {
+    if surface.len() < FEWEST {
+        return None;
+    }
     let (model, seen): (Vec<Vector3<f64>>, Vec<Vector3<f64>>) = surface
         .iter()
         .filter_map(|c| Some((target.corner(c.id)?.vector(), c.in_camera.vector())))
@@ -119,54 +253,89 @@ fn scan_pose(surface: &[SurfaceCorner], target: &TargetModel) -> Option<TargetPo
     })
 }
 
-/// Median angle (rad) and distance (m, at the target's middle) between the poses that picture and
-/// scan give.
-fn gap(session: &Session, target: &TargetModel, camera: &Intrinsics) -> (f64, f64) {
-    let middle =
-        target.corners().iter().map(|c| c.vector()).sum::<Vector3<f64>>() / target.len() as f64;
-    let (angles, distances): (Vec<f64>, Vec<f64>) = session
-        .observations
-        .iter()
-        .filter_map(|o| {
-            let near = |p: &TargetPose| {
-                let start = &p.camera_from_target;
-                Some(detect::sighted(&o.corners, &[], target, camera, None, start)?.0)
-            };
-            let picture: Vec<detect::PosedTarget> = o.candidates.iter().filter_map(near).collect();
-            let scan = scan_pose(&o.surface, target)?.camera_from_target;
-            let apart = |p: &detect::PosedTarget| {
-                let p = p.pose.camera_from_target;
-                let at = |q: &nalgebra::Isometry3<f64>| {
-                    q.transform_vector(&middle) + q.translation.vector
-                };
-                (
-                    lie::angle(&p.iso().rotation, &scan.iso().rotation),
-                    (at(p.iso()) - at(scan.iso())).norm(),
-                )
-            };
-            picture.iter().map(apart).min_by(|a, b| a.0.total_cmp(&b.0))
-        })
-        .unzip();
-    (median(angles), median(distances))
+/// The answer of one source, with what the other one says beside it.
+fn in_frame_of(
+    source: Source,
+    mut answer: Calibration,
+    beside: &Calibration,
+    gap: &Gap,
+) -> Calibration {
+    let (angle, distance) = gap.size();
+    let (used, other) = match source {
+        Source::Scan => ("scans", "images"),
+        Source::Image => ("images", "scans"),
+    };
+    let message = format!(
+        "images and scans put the target {:.1} mm and {:.2} degrees apart (mean of the captures): the answer is for \
+         the frame of the {used}, from the {used} alone{}. Check the calibration between image and scan, in which \
+         frame the points are given, and the lens of the images; `frame` of [answer] chooses the other one",
+        distance * 1e3,
+        angle.to_degrees(),
+        other_answer(&answer, beside, other),
+    );
+    if answer.verdict != Verdict::Accepted {
+        answer.reasons.push(message.clone());
+    }
+    answer.warnings.push(Warning::new("picture-and-scan-disagree", message));
+    answer
 }
 
-/// Disagreement of picture and scan that is worth a look at either, and telling: 0.5 degrees, 2 mm.
-const WORTH_TELLING: (f64, f64) = (0.0087, 0.002);
-
-fn warn(result: &mut Calibration, source: Source, (angle, distance): (f64, f64)) {
-    let used = match source {
-        Source::Both => "both are used together",
-        Source::Picture => "only the pictures are used",
-        Source::Scan => "only the scans are used",
+/// How far the other source's answer lies away, in words.
+fn other_answer(answer: &Calibration, beside: &Calibration, other: &str) -> String {
+    let both = answer.hand_eye.mount_from_camera.zip(beside.hand_eye.mount_from_camera);
+    let Some((own, theirs)) = both else {
+        return format!("; the {other} alone determine no answer");
     };
-    result.warnings.push(Warning::new(
-        "picture-and-scan-disagree",
-        format!(
-            "picture and scan put the target {:.1} mm and {:.2} degrees apart (median): check the \
-             lens distortion of the picture's intrinsics and the depth camera's warm-up and \
-             calibration; {used}, which predicts the least error",
-            distance * 1e3,
-            angle.to_degrees()
-        ),
-    ));
+    let seen = answer.captures.iter().filter_map(|c| c.camera_from_target);
+    let points: Vec<Vector3<f64>> = seen.map(|p| p.translation()).collect();
+    let off = predict::difference(&own, &theirs);
+    let mean = points.iter().map(|p| off(p).norm()).sum::<f64>() / points.len().max(1) as f64;
+    let t = theirs.translation() * 1e3;
+    format!(
+        "; the {other} alone put the camera at ({:.2}, {:.2}, {:.2}) mm, which differs by {:.2} mm where the target \
+         was seen",
+        t.x,
+        t.y,
+        t.z,
+        mean * 1e3
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::Random;
+
+    fn differences(mean: Vector6<f64>, sigma: f64, count: usize, seed: u64) -> Vec<Vector6<f64>> {
+        let mut random = Random::new(seed);
+        (0..count).map(|_| mean + Vector6::from_fn(|_, _| sigma * random.normal())).collect()
+    }
+
+    #[test]
+    fn noise_alone_is_no_disagreement() {
+        let false_alarms = (0..200)
+            .filter(|seed| {
+                let gap = mean_of(&differences(Vector6::zeros(), 1e-3, 12, *seed)).unwrap();
+                gap.counts(1e-4)
+            })
+            .count();
+        assert!(false_alarms <= 2, "{false_alarms}");
+    }
+
+    #[test]
+    fn a_common_shift_is_one_where_it_exceeds_the_stated_error() {
+        let shift = Vector6::new(0.0, 0.0, 0.0, 2e-3, 0.0, 0.0);
+        let gap = mean_of(&differences(shift, 2e-4, 12, 1)).unwrap();
+        assert!(gap.chance < 1e-6);
+        assert!(gap.counts(1e-3));
+        assert!(!gap.counts(10e-3));
+    }
+
+    #[test]
+    fn few_captures_disagree_only_by_much() {
+        let shift = |m: f64| vec![Vector6::new(0.0, 0.0, 0.0, 0.0, m, 0.0); 3];
+        assert!(mean_of(&shift(5e-3)).unwrap().counts(1e-3));
+        assert!(!mean_of(&shift(1e-3)).unwrap().counts(1e-4));
+        assert!(mean_of(&[]).is_none());
+    }
 }

@@ -1,10 +1,10 @@
 //! Whether the answer can be used.
 
-use super::{Config, agreement::Views};
+use super::{Config, Session, agreement::Views, alternatives::SIZE};
 use crate::{
     Camera, Mount, Pose, Warning,
     calibration::{Answer, Calibration, Determined, Scale, Verdict},
-    diagnose, quaternion_xyzw,
+    chance, diagnose, quaternion_xyzw,
     refine::{JointFit, noise::Source},
 };
 
@@ -27,12 +27,6 @@ const MOST_SCALE_ERROR: f64 = 0.03;
 
 /// Chance of a scale as far from one as it is below which it is called wrong.
 const IMPROBABLE_SCALE: f64 = 1e-3;
-
-/// The same for one beyond any printer, which is then named, but does not yet reject.
-const UNLIKELY_SCALE: f64 = 1e-2;
-
-/// Scale errors below this part are within what printers and lenses do.
-const LEAST_SCALE_ERROR: f64 = 0.005;
 
 /// The verdict: reasons against the answer first.
 pub(super) fn conclude(config: &Config, result: &mut Calibration) {
@@ -169,50 +163,67 @@ fn travels(views: &Views, fit: &JointFit) -> bool {
     (squares / count).sqrt() > TRAVELS * sigma
 }
 
-/// Names a target whose size is not what the robot says.
-pub(super) fn judge_scale(
+/// The size of the target as all data have it, and whether the answer rests on it.
+pub(super) fn judge_size(
     views: &Views,
-    fit: &JointFit,
+    (by_views, best): (&JointFit, &JointFit),
+    (declared, as_declared): (f64, f64),
     config: &Config,
     result: &mut Calibration,
 ) {
     if config.unknown.scale || views.views.len() < 5 || result.verdict == Verdict::Rejected {
         return;
     }
-    if !travels(views, fit) {
+    if !travels(views, by_views) {
         return;
     }
-    let found = diagnose::target_scale(&views.views, fit, &config.known, views.session.setup);
-    let Some(diagnose::TargetScale { value, sigma, p_value }) = found else { return };
-    result.target_scale = Some(Scale { value, sigma });
-    let beyond_printers = (value - 1.0).abs() > MOST_SCALE_ERROR;
-    let named = if beyond_printers { UNLIKELY_SCALE } else { IMPROBABLE_SCALE };
-    if p_value > named || (value - 1.0).abs() < LEAST_SCALE_ERROR {
+    let found = diagnose::target_scale(&views.views, by_views, &config.known, views.session.setup);
+    let Some(diagnose::TargetScale { value, sigma, .. }) = found else { return };
+    let used = as_declared < 0.5;
+    // how far the target that the views are about is from the declared one already
+    let (value, sigma) = (value * declared, sigma * declared);
+    result.target_scale = Some(Scale { value, sigma, used });
+    let answer =
+        best.extra(SIZE).map_or((value, sigma), |(x, s)| (declared * (1.0 + x), declared * s));
+    let dof = (by_views.degrees_of_freedom - 1.0).max(1.0);
+    let p_value = chance::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
+    if !used && p_value > IMPROBABLE_SCALE {
         return;
     }
-    let size = views.session.target.as_ref().map_or(String::new(), |t| {
-        let declared = t.pitch_m() * 1e3;
-        format!(" ({:.2} mm instead of {declared} mm)", declared * value)
-    });
-    let percent = (value - 1.0).abs() * 100.0;
-    let message = match &views.session.target {
-        Some(_) => format!(
-            "the robot's motions say that the target is {percent:.1} +- {:.1} % {} than declared{size}: \
-             measure the print with a caliper; if it is right, the focal length or the robot's own \
-             scale is wrong",
-            sigma * 100.0,
-            if value > 1.0 { "larger" } else { "smaller" },
-        ),
-        None => format!(
-            "the robot's motions say that distances to the target are {percent:.1} +- {:.1} % {} than \
-             measured: the unit or the scale of the measurements, or the robot's own scale, is wrong",
-            sigma * 100.0,
-            if value > 1.0 { "longer" } else { "shorter" },
-        ),
-    };
-    if beyond_printers && p_value <= IMPROBABLE_SCALE {
+    let (value, sigma) = if used { answer } else { (value, sigma) };
+    result.target_scale = Some(Scale { value, sigma, used });
+    let message = size_message(views.session, (value, sigma), used);
+    if (value - 1.0).abs() > MOST_SCALE_ERROR {
         result.reasons.push(message.clone());
         result.verdict = Verdict::Rejected;
     }
     result.warnings.push(Warning::new("target-scale", message));
+}
+
+fn size_message(session: &Session, (value, sigma): (f64, f64), used: bool) -> String {
+    let percent = (value - 1.0).abs() * 100.0;
+    let sigma = sigma * 100.0;
+    let Some(target) = &session.target else {
+        let which = if value > 1.0 { "longer" } else { "shorter" };
+        return format!(
+            "the robot's motions say that distances to the target are {percent:.2} +- {sigma:.2} % {which} than \
+             measured: the unit or the scale of the measurements, or the robot's own scale, is wrong"
+        );
+    };
+    let which = if value > 1.0 { "larger" } else { "smaller" };
+    let declared = target.pitch_m() * 1e3 / if used { value } else { 1.0 };
+    let size = format!("{:.3} mm instead of {declared:.3} mm", declared * value);
+    if used {
+        format!(
+            "the target is {percent:.2} +- {sigma:.2} % {which} than declared ({size}): the answer uses that size; \
+             measure the print with a caliper and declare what it says. If the declared size is right, the focal \
+             length or the robot's own scale is wrong"
+        )
+    } else {
+        format!(
+            "the data say that the target is {percent:.2} +- {sigma:.2} % {which} than declared ({size}), but it is \
+             declared as measured, and the answer uses the declared size: the focal length or the robot's own \
+             scale is wrong"
+        )
+    }
 }

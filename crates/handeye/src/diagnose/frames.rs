@@ -57,8 +57,12 @@ pub struct Frames {
     pub values: SVector<f64, 7>,
     /// Standard deviations.
     pub sigmas: SVector<f64, 7>,
+    /// Covariance of the parts that are proven; zero in the others.
+    pub covariance: SMatrix<f64, 7, 7>,
     /// Parts that are more than noise, the one that explains most first.
     pub proven: Vec<Part>,
+    /// Whether the captures tell these parts from the others: each of them stands with all seven free.
+    pub separable: bool,
     /// Chance that noise makes frames that agree differ so.
     pub chance: f64,
 }
@@ -69,8 +73,10 @@ const FEWEST: usize = 4;
 const IMPROBABLE: f64 = 1e-5;
 /// Times that the equations are made anew where the answer is.
 const RELOOKS: usize = 3;
-/// An unknown that nothing tells has this standard deviation (1, rad, m).
-const FREE: f64 = 10.0;
+/// Prior standard deviations of scale, tilt (rad) and shift (m): the frames of one camera lie in one housing.
+const PRIOR: [f64; 7] = [0.05, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1];
+/// A part is separable from the others where it is so many standard deviations when all are free.
+const SEPARABLE: f64 = 3.0;
 
 type Seven = SMatrix<f64, 7, 7>;
 
@@ -90,7 +96,7 @@ impl Normal {
             for &b in which {
                 h[(a, b)] = self.h[(a, b)];
             }
-            h[(a, a)] += FREE.powi(-2);
+            h[(a, a)] += PRIOR[a].powi(-2);
         }
         let factor = h.cholesky()?;
         let x = factor.solve(&g);
@@ -154,8 +160,17 @@ fn about(captures: &[TwoPlanes], near: &SVector<f64, 7>) -> Option<Frames> {
             (values[k], sigmas[k]) = (x[k], (covariance[(k, k)] * excess).sqrt());
         }
     }
+    let (_, together, _) = normal.solve(&unknowns(&proven))?;
+    let named = unknowns(&proven);
+    let known = |i: usize, j: usize| named.contains(&i) && named.contains(&j);
+    let covariance =
+        SMatrix::from_fn(|i, j| if known(i, j) { together[(i, j)] * excess } else { 0.0 });
     let chance = chance::of_f(gain / excess / 7.0, (7.0, freedom));
-    Some(Frames { values, sigmas, proven, chance })
+    let (free, of_all, _) = normal.solve(&all)?;
+    let stands =
+        |p: &Part| p.range().any(|k| free[k].abs() > SEPARABLE * (of_all[(k, k)] * excess).sqrt());
+    let separable = proven.iter().all(stands);
+    Some(Frames { values, sigmas, covariance, proven, separable, chance })
 }
 
 /// The equations about a difference of the frames that is near.

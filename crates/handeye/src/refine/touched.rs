@@ -25,7 +25,7 @@ use super::{
     extra::{Extra, ExtraKind, SYSTEMATIC},
     noise::{self, LEAST_POSITION, Source},
 };
-use crate::{Base, Flange, HandEye, Pose, Setup, lie};
+use crate::{Base, Flange, HandEye, Pose, Setup, detect::sight::TARGET_SCALE, lie};
 
 /// A touched corner.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,6 +79,9 @@ pub struct TouchedBoard {
     /// What was touched.
     pub corners: Vec<TouchedCorner>,
 }
+
+/// The target's size, which moves the corners on it.
+const SIZE: ExtraKind = ExtraKind::Camera(TARGET_SCALE);
 
 /// Equations of one board: residual, Jacobian by everything, covariance and its shapes.
 pub(super) struct TouchRows {
@@ -180,12 +183,14 @@ fn fill(
     let tip = Vector3::from_fn(|k, _| super::extra::value(extras, values, ExtraKind::Tip(k)));
     let (flange, touched, by_arm) = corner.by_arm_at(&tip, extras, values);
     let r = carrier.base_from_board.rotation.to_rotation_matrix().into_inner();
-    let in_base = r * corner.in_target + carrier.base_from_board.translation.vector;
+    let larger = 1.0 + super::extra::value(extras, values, SIZE);
+    let in_target = corner.in_target * larger;
+    let in_base = r * in_target + carrier.base_from_board.translation.vector;
     let mut e = touched + flange * tip - in_base;
-    let by_board = carried(&r, &corner.in_target);
+    let by_board = carried(&r, &in_target);
     let (first, by_pose, frame) = match carrier.camera_from_board {
         Some(c) => {
-            let in_camera = c.transform_vector(&corner.in_target) + c.translation.vector;
+            let in_camera = c.transform_vector(&in_target) + c.translation.vector;
             (0, carried(&at.mount_from_camera.rotation(), &in_camera), None)
         }
         // the touched side carries the systematic difference where both share the target
@@ -205,10 +210,14 @@ fn fill(
                 }
                 None => Vector3::zeros(),
             },
-            ExtraKind::Camera(which) => match (&board.seen, carrier.camera_from_board) {
-                (Some(seen), Some(_)) => -by_board * seen.by_camera(which),
-                _ => Vector3::zeros(),
-            },
+            ExtraKind::Camera(which) => {
+                let by_view = match (&board.seen, carrier.camera_from_board) {
+                    (Some(seen), Some(_)) => -by_board * seen.by_camera(which),
+                    _ => Vector3::zeros(),
+                };
+                // the corner itself lies farther out on a larger board
+                if extra.kind == SIZE { by_view - r * corner.in_target } else { by_view }
+            }
         };
         jacobian.view_mut((row, 12 + k), (3, 1)).copy_from(&column);
     }

@@ -131,6 +131,7 @@ impl Recording<'_> {
         Session {
             camera_from_views: false,
             known_position: None,
+            target_size: Default::default(),
             arm: cell.built_arm().map(|a| a.model),
             setup: cell.setup,
             target: Some(cell.target.clone()),

@@ -1,0 +1,196 @@
+//! What is wrong with a cell, and does not show in any single capture.
+
+use handeye::{
+    Anchor, Base, Flange, HandEye, Mount, Observation, Placement, Pose, Session, TargetModel,
+    detect,
+    nalgebra::Isometry3,
+    simulate::{Cell, Random, Recording, Truth},
+};
+
+/// One systematic error.
+#[derive(Clone, Copy)]
+pub enum Fault {
+    /// None.
+    None,
+    /// The board is larger than declared by this share.
+    Size(f64),
+    /// The focal length is longer than declared by this share.
+    Focal(f64),
+    /// The principal point lies elsewhere than declared (px, both axes).
+    Centre(f64),
+    /// Scans are shifted against images (m, along x).
+    ScanShift(f64),
+    /// Scans are rotated against images (rad, about x).
+    ScanTilt(f64),
+    /// Scans are too large by this share.
+    ScanScale(f64),
+    /// The camera slips on its mount (m, and rad per m), evenly from the first capture to the last.
+    Slip(f64),
+    /// The camera is bumped (m, and rad per m) halfway.
+    Bump(f64),
+    /// The target is bumped (m, and rad per m) halfway.
+    TargetBump(f64),
+}
+
+/// Rotation that goes with a slip or a bump, rad per m.
+const ROTATION: f64 = 1.0;
+
+/// Names of all groups.
+pub const GROUPS: [&str; 6] = ["clean", "size", "few-sizes", "lens", "scans", "moves"];
+
+/// The faults of a group, none first.
+pub fn group(name: &str) -> Option<Vec<Fault>> {
+    let mut all = vec![Fault::None];
+    match name {
+        "clean" => {}
+        "size" => {
+            let sizes = [0.001, 0.003, 0.005, 0.01, 0.02, 0.03];
+            all.extend(sizes.iter().rev().map(|s| Fault::Size(-s)));
+            all.extend(sizes.map(Fault::Size));
+        }
+        "few-sizes" => all.extend([-0.02, 0.001, 0.003, 0.005, 0.01].map(Fault::Size)),
+        "lens" => {
+            all.extend([-0.01, -0.005, -0.002, 0.002, 0.005, 0.01].map(Fault::Focal));
+            all.extend([-20.0, -5.0, 5.0, 20.0].map(Fault::Centre));
+        }
+        "scans" => {
+            all.extend([0.5e-3, 1e-3, 2e-3, 6e-3].map(Fault::ScanShift));
+            all.extend([0.001, 0.003, 0.01].map(Fault::ScanTilt));
+            all.extend([-0.01, -0.003, 0.001, 0.003].map(Fault::ScanScale));
+        }
+        "moves" => {
+            all.extend([0.3e-3, 1e-3, 3e-3].map(Fault::Slip));
+            all.extend([0.5e-3, 1e-3, 5e-3].map(Fault::Bump));
+            all.extend([1e-3, 5e-3].map(Fault::TargetBump));
+        }
+        _ => return None,
+    }
+    Some(all)
+}
+
+impl Fault {
+    pub fn is_none(&self) -> bool {
+        matches!(self, Self::None)
+    }
+
+    pub fn name(&self) -> String {
+        match self {
+            Self::None => "clean".into(),
+            Self::Size(s) => format!("size {:+.1} %", s * 100.0),
+            Self::Focal(s) => format!("focal {:+.1} %", s * 100.0),
+            Self::Centre(px) => format!("centre {px:+.0} px"),
+            Self::ScanShift(m) => format!("scans shifted {:.1} mm", m * 1e3),
+            Self::ScanTilt(rad) => format!("scans tilted {:.2} deg", rad.to_degrees()),
+            Self::ScanScale(s) => format!("scans scaled {:+.1} %", s * 100.0),
+            Self::Slip(m) => format!("camera slips {:.1} mm", m * 1e3),
+            Self::Bump(m) => format!("camera bumped {:.1} mm", m * 1e3),
+            Self::TargetBump(m) => format!("target bumped {:.1} mm", m * 1e3),
+        }
+    }
+
+    /// Changes the cell itself, before anything is measured.
+    pub fn build(&self, cell: &mut Cell) {
+        if let (Self::Size(share), TargetModel::Checkerboard { square_mm, .. }) =
+            (self, &mut cell.target)
+        {
+            *square_mm *= 1.0 + share;
+        }
+        match self {
+            Self::Focal(share) => {
+                cell.intrinsics.fx *= 1.0 + share;
+                cell.intrinsics.fy *= 1.0 + share;
+            }
+            Self::Centre(px) => {
+                cell.intrinsics.cx += px;
+                cell.intrinsics.cy += px;
+            }
+            _ => {}
+        }
+        if let Some(depth) = &mut cell.depth {
+            match self {
+                Self::ScanShift(m) => depth.shift_m.x = *m,
+                Self::ScanTilt(rad) => depth.turn_rad.x = *rad,
+                Self::ScanScale(share) => depth.scale = *share,
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether the fault can happen in such a cell.
+    pub fn concerns(&self, scans: bool) -> bool {
+        scans || !matches!(self, Self::ScanShift(_) | Self::ScanTilt(_) | Self::ScanScale(_))
+    }
+
+    /// Changes what is declared, or what was measured.
+    pub fn spoil(&self, session: &mut Session, recording: &Recording, seed: u64) {
+        let n = session.observations.len();
+        for (k, o) in session.observations.iter_mut().enumerate() {
+            if let Some(by) = self.moved(k, n, seed) {
+                o.base_from_flange = self.reported(&o.base_from_flange, &by, recording);
+            }
+        }
+        let usual = Cell::new(recording.cell.setup, recording.cell.seed);
+        session.target = Some(usual.target);
+        session.camera = Some(usual.intrinsics);
+        pose_anew(session);
+    }
+
+    /// How far capture `k` of `n` is from where camera or target end up.
+    fn moved(&self, k: usize, n: usize, seed: u64) -> Option<Isometry3<f64>> {
+        let (size, share) = match self {
+            Self::Slip(m) => (*m, k as f64 / (n - 1) as f64 - 1.0),
+            Self::Bump(m) | Self::TargetBump(m) => (*m, if 2 * k < n { -1.0 } else { 0.0 }),
+            _ => return None,
+        };
+        let mut random = Random::new(seed ^ 0x51e9);
+        let shift = random.normal3().normalize() * size;
+        let turn = random.normal3().normalize() * (size * ROTATION);
+        Some(Isometry3::new(shift * share, turn * share))
+    }
+
+    /// The robot pose that shows the same with camera, or target, not moved.
+    fn reported(
+        &self,
+        says: &Pose<Base, Flange>,
+        by: &Isometry3<f64>,
+        recording: &Recording,
+    ) -> Pose<Base, Flange> {
+        let HandEye { mount_from_camera, anchor_from_target } = recording.truth.hand_eye;
+        let (x, y) = (mount_from_camera.iso(), anchor_from_target.iso());
+        let setup = recording.cell.setup;
+        let a = *setup.anchor_from_mount(*says).iso();
+        // A X = Y B with X exp(by), or Y exp(by), in the place of X or Y
+        let a = match self {
+            Self::TargetBump(_) => y * by * y.inverse() * a,
+            _ => a * x * by.inverse() * x.inverse(),
+        };
+        let claimed: Pose<Anchor, Mount> = Pose::claim(a);
+        setup.anchor_from_mount(claimed.rename()).rename()
+    }
+
+    /// What is true of the answer: for the frame of the scans where there are any.
+    pub fn truth(&self, truth: &Truth, cell: &Cell) -> Truth {
+        let mut truth = truth.clone();
+        if let Some(depth) = &cell.depth {
+            let scan_from_image = Isometry3::new(depth.shift_m, depth.turn_rad);
+            let x = truth.hand_eye.mount_from_camera;
+            truth.hand_eye.mount_from_camera = Pose::claim(x.iso() * scan_from_image.inverse());
+        }
+        truth
+    }
+}
+
+/// Poses of the target as the declared board and lens give them.
+fn pose_anew(session: &mut Session) {
+    let (Some(target), Some(camera)) = (session.target.clone(), session.camera) else { return };
+    let posed = |corners: &[_], surface: &[_]| {
+        detect::target_poses(corners, surface, &target, &camera)
+            .map_or(vec![], |poses| detect::with_symmetries(&poses, &target))
+    };
+    for Observation { corners, surface, candidates, .. } in &mut session.observations {
+        *candidates = posed(corners, surface);
+    }
+    for Placement { corners, surface, candidates, .. } in &mut session.placements {
+        *candidates = posed(corners, surface);
+    }
+}

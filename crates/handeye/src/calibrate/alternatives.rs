@@ -1,0 +1,250 @@
+//! Priors that allow for a mistake: the declared value is right, or it is not, and then it is anywhere near.
+//!
+//! Such a prior is a mixture of normal distributions about what was declared, narrow ones and wide ones,
+//!
+//! ```text
+//! p(x) = Σ_m π_m N(x; declared, σ_m²)        w_m ∝ π_m p(data | m)
+//! ```
+//!
+//! Each component is one fit, and its evidence `p(data | m)` the restricted likelihood with the prior's determinant
+//! in it (Laplace's approximation). The answer has the mean and the covariance of the posterior mixture,
+//!
+//! ```text
+//! x̄ = Σ w_m x_m        C = Σ w_m (C_m + (x_m - x̄)(x_m - x̄)ᵀ)
+//! ```
+//!
+//! so that it follows the declared value where the data do not contradict it, the data where they do, and is as
+//! uncertain as the choice between them.
+//!
+//! J. Hoeting, D. Madigan, A. Raftery and C. Volinsky, *Bayesian model averaging: a tutorial*, Statistical Science
+//! 14(4), 1999.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Session, TargetSize};
+use crate::{
+    Error, HandEye, TargetModel,
+    detect::sight::{DEPTH_BIAS, DEPTH_SCALE, TARGET_SCALE},
+    refine::{self, Extra, ExtraKind, JointFit, KnownNoise, Problem},
+};
+
+/// The target's size, as a share of the declared one.
+pub(super) const SIZE: ExtraKind = ExtraKind::Camera(TARGET_SCALE);
+
+const SCALE: ExtraKind = ExtraKind::Camera(DEPTH_SCALE);
+const BIAS: ExtraKind = ExtraKind::Camera(DEPTH_BIAS);
+
+/// Components of the prior of a printed target's size: probability and standard deviation (share of the size).
+/// A plate that was manufactured or measured is right to 0.02 %; printers and paper are off by some 0.5 %; "fit to
+/// page" and sizes that nobody measured by more.
+const PRINTED: [(f64, f64); 3] = [(0.75, 2e-4), (0.20, 5e-3), (0.05, 2.5e-2)];
+/// The same of the depth of scans: probability, standard deviations of its scale (share) and of its bias (m). Most
+/// 3D cameras are within their calibration; some are cold or were calibrated long ago; few are far off.
+const DEPTH: [(f64, f64, f64); 3] = [(0.7, 3e-4, 1e-4), (0.2, 3e-3, 1e-3), (0.1, 2e-2, 5e-3)];
+/// A component of less weight than this changes neither mean nor covariance.
+const NEGLIGIBLE: f64 = 1e-4;
+
+/// One component of the prior.
+#[derive(Debug, Clone, PartialEq)]
+struct Component {
+    log_probability: f64,
+    /// Standard deviations of some unknowns.
+    sigmas: Vec<(ExtraKind, f64)>,
+    /// Which of them it takes to be as declared.
+    declared: Declared<bool>,
+}
+
+/// Of the target's size, and of the depth of scans.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Declared<T> {
+    pub size: T,
+    pub depth: T,
+}
+
+/// The prior of what was declared of the target; without components that of the extras themselves.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Alternatives(Vec<Component>);
+
+/// A fit under all components.
+pub(super) struct Averaged {
+    /// The problem with the likeliest component as its prior.
+    pub problem: Problem,
+    /// Mean and covariance over all components.
+    pub fit: JointFit,
+    /// Posterior probabilities that what was declared is right.
+    pub as_declared: Declared<f64>,
+}
+
+/// What was declared is not in question.
+const NO_DOUBT: Declared<f64> = Declared { size: 1.0, depth: 1.0 };
+
+/// The unknown size of the session's target, where its views tell sizes by their corners.
+pub(super) fn unknown_size(session: &Session) -> Option<Extra> {
+    let printed = |t: &TargetModel| !t.is_empty();
+    session.target.as_ref().filter(|t| printed(t))?;
+    session.camera.as_ref()?;
+    let seen = session.observations.iter().any(|o| !o.corners.is_empty());
+    let sigma = match session.target_size {
+        TargetSize::Printed => PRINTED[0].1,
+        TargetSize::Measured(sigma) => sigma,
+    };
+    (seen && sigma > 0.0).then(|| Extra::about_zero(SIZE, sigma))
+}
+
+/// The unknown scale and bias of the depth of the session's scans.
+pub(super) fn unknown_depth(session: &Session) -> Vec<Extra> {
+    let both = session.camera.is_some() && session.target.is_some();
+    let scanned = both && session.observations.iter().any(|o| !o.surface.is_empty());
+    let (_, scale, bias) = DEPTH[0];
+    let all = [Extra::about_zero(SCALE, scale), Extra::about_zero(BIAS, bias)];
+    if scanned { all.to_vec() } else { vec![] }
+}
+
+impl Alternatives {
+    /// What the user said of the target's size, and what is known of scans.
+    pub(super) fn of(session: &Session) -> Self {
+        let printed: Vec<(f64, Option<f64>)> = match session.target_size {
+            TargetSize::Measured(_) => vec![(1.0, None)],
+            TargetSize::Printed => PRINTED.iter().map(|(p, sigma)| (*p, Some(*sigma))).collect(),
+        };
+        let scanned = session.observations.iter().any(|o| !o.surface.is_empty());
+        let depth = if scanned { &DEPTH[..] } else { &DEPTH[..1] };
+        let mut all = vec![];
+        for (i, (of_size, size)) in printed.iter().enumerate() {
+            for (j, (of_depth, scale, bias)) in depth.iter().enumerate() {
+                let kinds = [(SCALE, *scale), (BIAS, *bias)];
+                all.push(Component {
+                    log_probability: (of_size * of_depth).ln(),
+                    sigmas: size.iter().map(|s| (SIZE, *s)).chain(kinds).collect(),
+                    declared: Declared { size: i == 0, depth: j == 0 },
+                });
+            }
+        }
+        Self(all)
+    }
+
+    /// The components that concern the problem.
+    fn components(&self, problem: &Problem) -> &[Component] {
+        let concerns = |c: &Component| {
+            c.sigmas.iter().any(|(kind, _)| problem.extras.iter().any(|e| e.kind == *kind))
+        };
+        if self.0.len() > 1 && self.0.iter().any(concerns) { &self.0 } else { &[] }
+    }
+
+    /// Fits the problem under every component.
+    ///
+    /// # Errors
+    /// As [`refine::fit_joint`].
+    pub(super) fn fit(
+        &self,
+        problem: &Problem,
+        start: &HandEye,
+        known: &KnownNoise,
+    ) -> Result<Averaged, Error> {
+        self.average(problem, |problem| refine::fit_joint(problem, start, known))
+    }
+
+    /// The same from an answer that is near.
+    pub(super) fn refit(&self, problem: &Problem, near: &JointFit, known: &KnownNoise) -> Averaged {
+        let fitted = |p: &Problem| Ok(refine::joint::refit(p, near, known));
+        self.average(problem, fitted).unwrap_or_else(|_: Error| Averaged {
+            problem: problem.clone(),
+            fit: refine::joint::refit(problem, near, known),
+            as_declared: NO_DOUBT,
+        })
+    }
+
+    fn average(
+        &self,
+        problem: &Problem,
+        fit: impl Fn(&Problem) -> Result<JointFit, Error>,
+    ) -> Result<Averaged, Error> {
+        let components = self.components(problem);
+        if components.is_empty() {
+            return Ok(Averaged {
+                problem: problem.clone(),
+                fit: fit(problem)?,
+                as_declared: NO_DOUBT,
+            });
+        }
+        let mut all = Vec::with_capacity(components.len());
+        for component in components {
+            let problem = component.applied(problem);
+            let found = fit(&problem)?;
+            all.push((component.log_probability + found.log_likelihood, problem, found));
+        }
+        let declared = |which: fn(&Declared<bool>) -> bool, weights: &[f64]| {
+            let narrow = components.iter().zip(weights).filter(|(c, _)| which(&c.declared));
+            narrow.map(|(_, w)| w).sum::<f64>()
+        };
+        let most = all.iter().map(|a| a.0).fold(f64::NEG_INFINITY, f64::max);
+        let sum: f64 = all.iter().map(|a| (a.0 - most).exp()).sum();
+        let weights: Vec<f64> = all.iter().map(|a| (a.0 - most).exp() / sum).collect();
+        let best = (0..all.len()).max_by(|&i, &j| all[i].0.total_cmp(&all[j].0)).unwrap_or(0);
+        let fits: Vec<(f64, &JointFit)> =
+            weights.iter().copied().zip(all.iter().map(|a| &a.2)).collect();
+        let fit = mixture(&fits, best);
+        let as_declared = Declared {
+            size: declared(|d| d.size, &weights),
+            depth: declared(|d| d.depth, &weights),
+        };
+        Ok(Averaged { problem: all[best].1.clone(), fit, as_declared })
+    }
+}
+
+impl Component {
+    fn applied(&self, problem: &Problem) -> Problem {
+        let mut problem = problem.clone();
+        for extra in &mut problem.extras {
+            if let Some((_, sigma)) = self.sigmas.iter().find(|(kind, _)| *kind == extra.kind) {
+                extra.prior_sigma = *sigma;
+            }
+        }
+        problem
+    }
+}
+
+/// Mean and covariance of a mixture of answers, about the `best` of them.
+fn mixture(fits: &[(f64, &JointFit)], best: usize) -> JointFit {
+    let about = fits[best].1;
+    let counts = |(w, f): &&(f64, &JointFit)| *w > NEGLIGIBLE && f.covariance.is_some();
+    let parts: Vec<(f64, DVector<f64>, &DMatrix<f64>)> = fits
+        .iter()
+        .filter(counts)
+        .filter_map(|(w, f)| Some((*w, difference(about, f), f.covariance.as_ref()?)))
+        .collect();
+    let total: f64 = parts.iter().map(|p| p.0).sum();
+    if parts.len() < 2 || about.covariance.is_none() {
+        return about.clone();
+    }
+    let n = parts[0].1.len();
+    let mean = parts.iter().fold(DVector::zeros(n), |m, (w, d, _)| m + d * (w / total));
+    let spread = |c: DMatrix<f64>, (w, d, own): &(f64, DVector<f64>, &DMatrix<f64>)| {
+        let off = d - &mean;
+        c + (*own + &off * off.transpose()) * (w / total)
+    };
+    let covariance = parts.iter().fold(DMatrix::zeros(n, n), spread);
+    let mut averaged = about.clone();
+    averaged.hand_eye = HandEye {
+        mount_from_camera: about
+            .hand_eye
+            .mount_from_camera
+            .retract(&mean.fixed_rows::<6>(0).into()),
+        anchor_from_target: about
+            .hand_eye
+            .anchor_from_target
+            .retract(&mean.fixed_rows::<6>(6).into()),
+    };
+    averaged.values += mean.rows(12, n - 12);
+    averaged.covariance = Some(covariance);
+    averaged
+}
+
+/// Tangent from one answer to another: both poses and the extras.
+fn difference(from: &JointFit, to: &JointFit) -> DVector<f64> {
+    let x = from.hand_eye.mount_from_camera.local(&to.hand_eye.mount_from_camera);
+    let y = from.hand_eye.anchor_from_target.local(&to.hand_eye.anchor_from_target);
+    let values = &to.values - &from.values;
+    let all = x.iter().chain(y.iter()).chain(values.iter()).copied();
+    DVector::from_iterator(12 + values.len(), all)
+}

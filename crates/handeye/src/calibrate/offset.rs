@@ -1,0 +1,210 @@
+//! The offset between the frames of images and scans, found before the robot has its say.
+//!
+//! The board's plane in image and scan tells rotation and shift from one frame to the other
+//! ([`crate::diagnose::frames`]), `scan_from_image = D`. Scans are then brought into the frame of the images, so that
+//! both are fused, and the answer for the scans is
+//!
+//! ```text
+//! X_scan = X_image D⁻¹        C_scan = Ad(D) C_image Ad(D)ᵀ + C_D
+//! ```
+//!
+//! A corner in a scan is where the ray of its pixel meets the scanned plane, in the frame of the images: that holds
+//! for scans whose pixels are those of the image and for those whose points were moved into another frame.
+
+use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3};
+
+use super::{Session, scans::seen_planes};
+use crate::{
+    Calibration, Camera, Intrinsics, Mount, Pose, SurfaceCorner, Warning,
+    calibration::{matrix, rows},
+    diagnose::frames::{Frames, Part, frames},
+    lie,
+    linalg::median,
+    predict,
+};
+
+/// Offsets that move no point of the target by more than this are none, m.
+const LEAST: f64 = 5e-5;
+/// Fewest corners that tell the plane of a board in a scan.
+const FEWEST: usize = 4;
+
+/// Where scans lie against images.
+pub(super) struct Offset {
+    scan_from_image: Isometry3<f64>,
+    /// Of a perturbation on the right, rotation first.
+    covariance: Matrix6<f64>,
+    /// Distance of the target, at which the offset is stated (m).
+    distance: f64,
+}
+
+/// What images and scans say of their frames.
+pub(super) enum Found {
+    /// They agree, or too few captures have both.
+    Nothing,
+    /// They differ by a rigid offset.
+    Offset(Offset),
+    /// They differ, and the captures do not tell by what.
+    NotSeparable,
+}
+
+/// Looks for an offset.
+pub(super) fn find(session: &Session) -> Found {
+    let Some(found) = frames(&seen_planes(session)) else { return Found::Nothing };
+    let rigid: Vec<&Part> = found.proven.iter().filter(|p| **p != Part::Scale).collect();
+    if rigid.is_empty() {
+        return Found::Nothing;
+    }
+    let distance = distance(session);
+    let offset = of(&found, distance);
+    if offset.moves() < LEAST {
+        return Found::Nothing;
+    }
+    if found.separable { Found::Offset(offset) } else { Found::NotSeparable }
+}
+
+fn of(found: &Frames, distance: f64) -> Offset {
+    let part = |part: Part, first: usize| -> Vector3<f64> {
+        let proven = found.proven.contains(&part);
+        if proven { found.values.fixed_rows::<3>(first).into() } else { Vector3::zeros() }
+    };
+    let (turn, shift) = (part(Part::Tilt, 1), part(Part::Shift, 4));
+    let covariance: Matrix6<f64> = found.covariance.fixed_view::<6, 6>(1, 1).into();
+    Offset { scan_from_image: Isometry3::new(shift, turn), covariance, distance }
+}
+
+/// Median distance of the target from the camera, m.
+fn distance(session: &Session) -> f64 {
+    let first = |o: &crate::Observation| Some(o.candidates.first()?.camera_from_target);
+    median(session.observations.iter().filter_map(first).map(|p| p.translation().norm()))
+}
+
+impl Offset {
+    /// By how much a point at the target's distance moves, m.
+    fn moves(&self) -> f64 {
+        let p = Vector3::z() * self.distance;
+        (self.scan_from_image.transform_vector(&p) + self.scan_from_image.translation.vector - p)
+            .norm()
+    }
+
+    /// The session with its scans in the frame of its images.
+    pub(super) fn taken_out(&self, session: &Session) -> Session {
+        let mut session = session.clone();
+        let Some(camera) = session.camera else { return session };
+        for o in &mut session.observations {
+            let seen: Vec<_> = o.corners.iter().map(|c| (c.id, c.pixel)).collect();
+            o.surface = self.in_image(&o.surface, &seen, &camera);
+        }
+        for p in &mut session.placements {
+            let seen: Vec<_> = p.corners.iter().map(|c| (c.id, c.pixel)).collect();
+            p.surface = self.in_image(&p.surface, &seen, &camera);
+        }
+        session
+    }
+
+    fn in_image(
+        &self,
+        surface: &[SurfaceCorner],
+        seen: &[(u32, nalgebra::Vector2<f64>)],
+        camera: &Intrinsics,
+    ) -> Vec<SurfaceCorner> {
+        let points: Vec<Vector3<f64>> =
+            surface.iter().map(|c| self.inverse(&c.in_camera.vector())).collect();
+        let Some(normal) = normal(&points) else { return surface.to_vec() };
+        let turn = self.scan_from_image.rotation.inverse().to_rotation_matrix();
+        let moved = |(c, p): (&SurfaceCorner, &Vector3<f64>)| {
+            let pixel = seen.iter().find(|(id, _)| *id == c.id).map(|(_, pixel)| pixel);
+            let ray = pixel.and_then(|pixel| camera.ray(pixel));
+            let at = match ray {
+                Some(ray) if ray.dot(&normal).abs() > 1e-3 => {
+                    ray * (p.dot(&normal) / ray.dot(&normal))
+                }
+                _ => *p,
+            };
+            let covariance = turn.matrix() * c.covariance * turn.matrix().transpose();
+            SurfaceCorner { in_camera: crate::Point::from_vector(at), covariance, ..*c }
+        };
+        surface.iter().zip(&points).map(moved).collect()
+    }
+
+    fn inverse(&self, p: &Vector3<f64>) -> Vector3<f64> {
+        self.scan_from_image
+            .inverse_transform_vector(&(p - self.scan_from_image.translation.vector))
+    }
+
+    /// The answer for the frame of the scans, from that for the images.
+    pub(super) fn in_scan_frame(&self, image: &Calibration) -> Calibration {
+        let mut result = image.clone();
+        let own = result.hand_eye.mount_from_camera;
+        for answer in
+            result.candidates.iter_mut().map(|c| &mut c.hand_eye).chain([&mut result.hand_eye])
+        {
+            answer.mount_from_camera = answer.mount_from_camera.map(|x| self.pose(&x));
+            let covariance = &mut answer.covariance.mount_from_camera;
+            *covariance = covariance.map(|c| rows(&self.spread(&matrix(&c))));
+        }
+        if let Some(tre) = &mut result.predicted_tre_mm {
+            let p = Vector3::z() * self.distance;
+            let own = predict::point_covariance(&p, &self.covariance).trace() * 1e6;
+            (tre.rms, tre.p95) = (tre.rms.hypot(own.sqrt()), tre.p95.hypot(own.sqrt() * WIDE));
+            tre.map = None;
+        }
+        if let Some(x) = own {
+            result.warnings.insert(0, self.warning(&x));
+        }
+        result
+    }
+
+    fn pose(&self, image: &Pose<Mount, Camera>) -> Pose<Mount, Camera> {
+        Pose::claim(image.iso() * self.scan_from_image.inverse())
+    }
+
+    fn spread(&self, image: &Matrix6<f64>) -> Matrix6<f64> {
+        let carry = lie::adjoint(&self.scan_from_image);
+        carry * image * carry.transpose() + self.covariance
+    }
+
+    /// What was found, and the answer in the other frame.
+    pub(super) fn warning(&self, image: &Pose<Mount, Camera>) -> Warning {
+        let d = self.scan_from_image.translation.vector * 1e3;
+        let sigma = |k: usize| self.covariance[(k, k)].max(0.0).sqrt();
+        let turn = self.scan_from_image.rotation.scaled_axis().map(f64::to_degrees);
+        let t = image.translation() * 1e3;
+        Warning::new(
+            "picture-and-scan-disagree",
+            format!(
+                "the frame of the scans is not that of the images: scans are shifted by ({:+.3}, {:+.3}, {:+.3}) +- \
+                 {:.3} mm and rotated by ({:+.4}, {:+.4}, {:+.4}) +- {:.4} degrees, {:.2} mm at the target. The answer \
+                 is for the scans; for the images the camera is at ({:.2}, {:.2}, {:.2}) mm. Check the calibration \
+                 between image and scan, and in which frame the points are given",
+                d.x,
+                d.y,
+                d.z,
+                sigma(3).max(sigma(4)).max(sigma(5)) * 1e3,
+                turn.x,
+                turn.y,
+                turn.z,
+                sigma(0).max(sigma(1)).max(sigma(2)).to_degrees(),
+                self.moves() * 1e3,
+                t.x,
+                t.y,
+                t.z,
+            ),
+        )
+    }
+}
+
+/// The 95 % point of an error over its root mean square, of a direction that is one of three.
+const WIDE: f64 = 1.7;
+
+/// Normal of the plane through points.
+fn normal(points: &[Vector3<f64>]) -> Option<Vector3<f64>> {
+    if points.len() < FEWEST {
+        return None;
+    }
+    let middle = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
+    let scatter: Matrix3<f64> =
+        points.iter().map(|p| (p - middle) * (p - middle).transpose()).sum();
+    let eigen = scatter.symmetric_eigen();
+    let least = eigen.eigenvalues.imin();
+    Some(eigen.eigenvectors.column(least).into_owned())
+}
