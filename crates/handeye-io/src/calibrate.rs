@@ -37,6 +37,7 @@ pub fn calibrate_dataset(
             tip_m: dataset.noise.tip,
         },
         max_error_mm: dataset.limits.max_error.map(|m| m * 1e3),
+        answer_frame: dataset.answer_frame,
         ..config.clone()
     };
     let calibrated = match &dataset.motion {

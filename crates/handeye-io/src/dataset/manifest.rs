@@ -43,6 +43,8 @@ pub(crate) struct Manifest {
     pub(super) noise: NoiseSpec,
     #[serde(default)]
     pub(super) limits: LimitsSpec,
+    #[serde(default)]
+    pub(super) answer: AnswerSpec,
 }
 
 /// One name or several.
@@ -327,6 +329,21 @@ pub(super) struct NoiseSpec {
 #[serde(deny_unknown_fields)]
 pub(super) struct LimitsSpec {
     pub(super) max_error_mm: Option<f64>,
+}
+
+/// What the answer is for.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AnswerSpec {
+    pub(super) frame: Option<FrameSpec>,
+    pub(super) max_error_mm: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum FrameSpec {
+    Scan,
+    Image,
 }
 
 impl Manifest {

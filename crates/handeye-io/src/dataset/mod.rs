@@ -14,8 +14,8 @@ mod touches;
 use std::path::{Path, PathBuf};
 
 use handeye::{
-    Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics, Pose, Scan, Setup,
-    Target, TargetModel, TargetSize, Touch, Warning, Workspace, intrinsics::LensModel,
+    AnswerFrame, Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics, Pose,
+    Scan, Setup, Target, TargetModel, TargetSize, Touch, Warning, Workspace, intrinsics::LensModel,
     kinematics::Arm, refine::KnownPosition,
 };
 use serde::Deserialize;
@@ -50,6 +50,8 @@ pub struct Dataset {
     pub target: Option<TargetModel>,
     /// How well its size is known.
     pub target_size: TargetSize,
+    /// In which frame the answer is wanted, where images and scans do not agree.
+    pub answer_frame: AnswerFrame,
     /// What takes a board's place, where scans are brought together by their shape.
     pub shape: Option<Shape>,
     /// What else the pictures may show, and is not used.

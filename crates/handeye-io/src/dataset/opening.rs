@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use handeye::{
-    Base, Camera, Flange, Intrinsics, Pose, Setup, Target, TargetModel, TargetSize, Touch, Warning,
-    Workspace, refine::KnownPosition,
+    AnswerFrame, Base, Camera, Flange, Intrinsics, Pose, Setup, Target, TargetModel, TargetSize,
+    Touch, Warning, Workspace, refine::KnownPosition,
 };
 use nalgebra::Vector3;
 
@@ -12,7 +12,7 @@ use super::{
     CaptureSource, Dataset, Limits, Noise, PlacementSource, WorkspaceBox,
     corners::{CornerReading, Corners},
     manifest::{
-        KnownPositionSpec, LimitsSpec, Manifest, NoiseSpec, PlacementSpec, Source, WorkspaceSpec,
+        FrameSpec, KnownPositionSpec, Manifest, NoiseSpec, PlacementSpec, Source, WorkspaceSpec,
     },
     motion,
     pairing::{self, Series},
@@ -91,7 +91,11 @@ impl Opening {
                 None => None,
             },
             noise: self.noise(&m.noise)?,
-            limits: self.limits(&m.limits)?,
+            limits: self.limits(m)?,
+            answer_frame: match m.answer.frame {
+                Some(FrameSpec::Image) => AnswerFrame::Image,
+                Some(FrameSpec::Scan) | None => AnswerFrame::Scan,
+            },
             notation: m.robot.as_ref().and_then(|r| r.table().notation),
             warnings,
             bit_depth: m.images.as_ref().and_then(|i| i.bit_depth),
@@ -419,8 +423,17 @@ impl Opening {
         })
     }
 
-    fn limits(&self, spec: &LimitsSpec) -> Result<Limits, Error> {
-        Ok(Limits { max_error: self.positive("limits.max_error_mm", spec.max_error_mm, 1e-3)? })
+    fn limits(&self, m: &Manifest) -> Result<Limits, Error> {
+        let of_limits = self.positive("limits.max_error_mm", m.limits.max_error_mm, 1e-3)?;
+        let of_answer = self.positive("answer.max_error_mm", m.answer.max_error_mm, 1e-3)?;
+        if of_limits.is_some() && of_answer.is_some() {
+            return Err(malformed(
+                self.source.place("limits.max_error_mm"),
+                "max_error_mm stands under [limits] and under [answer]",
+                "leave one of them out",
+            ));
+        }
+        Ok(Limits { max_error: of_answer.or(of_limits) })
     }
 
     fn positive(&self, key: &str, value: Option<f64>, unit: f64) -> Result<Option<f64>, Error> {

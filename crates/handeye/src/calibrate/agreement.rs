@@ -198,7 +198,9 @@ pub(super) fn agree<'a>(
         Err(error) => {
             suspect_units(&session.observations.iter().collect::<Vec<_>>(), result);
             no_consensus(session, &readings, &error, result);
-            doubt::suspect_order(&readings, None, result);
+            if !doubt::suspect_size(&readings, session.target.as_ref(), None, result) {
+                doubt::suspect_order(&readings, None, result);
+            }
             return None;
         }
     };
@@ -208,7 +210,9 @@ pub(super) fn agree<'a>(
     let used: Vec<&Observation> = indices.iter().map(|&i| &session.observations[i]).collect();
     suspect_units(&used, result);
     rejected::name(&captures, &found, fit.as_ref(), result);
-    if !doubt::suspect_order(&readings, Some(&found), result) {
+    if !doubt::suspect_size(&readings, session.target.as_ref(), Some(&found), result)
+        && !doubt::suspect_order(&readings, Some(&found), result)
+    {
         suspect_conventions(&readings, bare(session), Some(&found), result);
     }
     let of = |&i: &usize| captures.view(i, found.reading[i]);

@@ -2,9 +2,12 @@
 
 use super::agreement::Captures;
 use crate::{
-    HandEye, PosePair, Warning,
-    calibration::{Calibration, Verdict},
-    diagnose::explain::{self, Fault, Order},
+    HandEye, PosePair, TargetModel, Warning,
+    calibration::{Calibration, Scale, Verdict},
+    diagnose::{
+        self, TargetScale,
+        explain::{self, Fault, Order},
+    },
     evaluate,
     linalg::median,
     solve::consensus::{self, Consensus, Readings},
@@ -102,6 +105,44 @@ pub(super) fn suspect_order(
     );
     result.reasons.insert(0, message.clone());
     result.warnings.insert(0, Warning::new("order-shifted", message));
+    result.verdict = Verdict::Rejected;
+    true
+}
+
+/// Captures that agree under a target of another size are far nearer than under the declared one.
+const EXPLAINED_BY_SIZE: f64 = 0.2;
+
+/// Looks for one size of the target under which most captures agree, where under the declared one they do not;
+/// whether there is one.
+pub(super) fn suspect_size(
+    readings: &[Readings],
+    target: Option<&TargetModel>,
+    found: Option<&Consensus>,
+    result: &mut Calibration,
+) -> bool {
+    let Some(target) = target else { return false };
+    if found.is_some_and(|f| agrees_well(readings, f)) {
+        return false;
+    }
+    let diagnosis = explain::explain(readings, &[]);
+    let before = diagnosis.declared.map_or(f64::INFINITY, |s| s.translation_mm);
+    let size = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
+        (Fault::Scale(size), Some(after)) if after.translation_mm < EXPLAINED_BY_SIZE * before => {
+            Some(*size)
+        }
+        _ => None,
+    });
+    let Some(TargetScale { value, sigma, .. }) = size else { return false };
+    let declared = target.pitch_m() * 1e3;
+    let cause = diagnose::cause_of_size(value, target).map_or(String::new(), |c| format!(": {c}"));
+    let message = format!(
+        "the target is {value:.4} +- {sigma:.4} times as large as declared ({:.3} mm instead of {declared} \
+         mm){cause}; measure it, and correct [target]",
+        declared * value
+    );
+    result.target_scale = Some(Scale { value, sigma, used: false });
+    result.reasons.insert(0, message.clone());
+    result.warnings.insert(0, Warning::new("target-scale", message));
     result.verdict = Verdict::Rejected;
     true
 }

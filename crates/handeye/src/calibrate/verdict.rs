@@ -213,6 +213,14 @@ fn size_message(session: &Session, (value, sigma): (f64, f64), used: bool) -> St
     let which = if value > 1.0 { "larger" } else { "smaller" };
     let declared = target.pitch_m() * 1e3 / if used { value } else { 1.0 };
     let size = format!("{:.3} mm instead of {declared:.3} mm", declared * value);
+    if (value - 1.0).abs() > MOST_SCALE_ERROR {
+        let cause =
+            diagnose::cause_of_size(value, target).map_or(String::new(), |c| format!(": {c}"));
+        return format!(
+            "the target is {percent:.1} +- {sigma:.1} % {which} than declared ({size}){cause}; measure it, and correct \
+             [target]. If the declared size is right, the focal length or the robot's own scale is wrong"
+        );
+    }
     if used {
         format!(
             "the target is {percent:.2} +- {sigma:.2} % {which} than declared ({size}): the answer uses that size; \

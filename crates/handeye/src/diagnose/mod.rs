@@ -7,6 +7,8 @@ pub mod frames;
 mod size;
 mod strays;
 
+pub use size::cause_of_size;
+
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use crate::{

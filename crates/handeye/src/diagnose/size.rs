@@ -8,7 +8,7 @@ use super::{
     strays::same_robot,
 };
 use crate::{
-    HandEye, PosePair, chance, linalg,
+    HandEye, PosePair, TargetModel, chance, linalg,
     solve::{
         self, Method,
         consensus::{self, Consensus, Readings},
@@ -113,6 +113,36 @@ fn closed_form(pairs: Vec<PosePair>) -> Option<(Vec<PosePair>, HandEye)> {
     (pairs.len() >= FEWEST).then_some((pairs, hand_eye))
 }
 
+/// A size is a known factor away from the declared one within this share.
+const LIKE_FACTOR: f64 = 0.01;
+
+/// The usual mistake that makes a target so many times as large as declared, in words.
+pub fn cause_of_size(value: f64, target: &TargetModel) -> Option<String> {
+    let is = |factor: f64| (value / factor - 1.0).abs() < LIKE_FACTOR;
+    let units = [
+        (10.0, "the length was given in centimetres and counts as millimetres"),
+        (0.1, "the declared length is ten times too large"),
+        (1e3, "the length was given in metres and counts as millimetres"),
+        (25.4, "the length was given in inches and counts as millimetres"),
+        (2.0, "half of the length was given"),
+        (0.5, "twice the length was given: that of two squares, or of a circle grid's other pitch"),
+    ];
+    if let Some((_, words)) = units.into_iter().find(|(factor, _)| is(*factor)) {
+        return Some(words.into());
+    }
+    let (columns, rows) = target.grid();
+    [columns, rows].into_iter().filter(|n| *n > 2).find_map(|n| {
+        let n = f64::from(n);
+        // the whole width of n + 1 squares, divided by n corners; that of n - 1 squares between corners likewise
+        let wrong = [(n / (n + 1.0), n + 1.0, n), (n / (n - 1.0), n - 1.0, n)];
+        wrong.into_iter().find(|(factor, ..)| is(*factor)).map(|(_, right, counted)| {
+            format!(
+                "a length of {right:.0} squares was divided by {counted:.0}: squares and corners were mixed up"
+            )
+        })
+    })
+}
+
 fn size_of(pairs: &[PosePair], at: &HandEye) -> Option<TargetScale> {
     let n = pairs.len();
     let (mut j, mut right) = (DMatrix::zeros(3 * n, 7), DVector::zeros(3 * n));
@@ -129,4 +159,21 @@ fn size_of(pairs: &[PosePair], at: &HandEye) -> Option<TargetScale> {
     let dof = 3.0 * n as f64 - 7.0;
     let sigma = (inverse[(6, 6)] * rest / dof).sqrt();
     Some(TargetScale { value: solution[6], sigma, p_value: f64::NAN })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_usual_mistakes_about_sizes_have_names() {
+        let board = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
+        let cause = |value: f64| cause_of_size(value, &board).unwrap_or_default();
+        assert!(cause(10.003).contains("centimetres"));
+        assert!(cause(25.3).contains("inches"));
+        assert!(cause(0.5).contains("two squares"));
+        assert!(cause(9.0 / 8.0).contains("8 squares was divided by 9"));
+        assert!(cause(6.0 / 7.0).contains("7 squares was divided by 6"));
+        assert_eq!(cause_of_size(1.05, &board), None);
+    }
 }
