@@ -309,5 +309,7 @@ fn empty(setup: Setup) -> Calibration {
         arm: None,
         certificate: None,
         warnings: vec![],
+        findings: vec![],
+        run_id: None,
     }
 }
