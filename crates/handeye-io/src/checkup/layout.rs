@@ -71,6 +71,9 @@ pub(super) fn layout_of_contradicting(dataset: &Dataset) -> Option<Explanation> 
 fn other_layout(dataset: &Dataset, more: f64) -> Option<Explanation> {
     let declared = dataset.target.as_ref().filter(|t| !t.is_empty())?;
     let images = images(dataset);
+    if images.is_empty() {
+        return None;
+    }
     let own: Vec<usize> = images.iter().map(|image| corners(dataset, image, declared)).collect();
     let mut all = alternatives(declared);
     all.extend(other_size(dataset, &images, declared));

@@ -251,7 +251,8 @@ pub(crate) fn basic_mistake(
 /// Another layout of the target, where the captures contradict one another and nothing explains it.
 fn add_layout(found: &mut Checkup, dataset: &Dataset) {
     let explained = |e: &Explanation| !SAY_LITTLE.contains(&e.code);
-    if found.ok || found.explanations.iter().any(explained) {
+    let most_agree = found.declared.is_some_and(|d| 2 * d.agree > found.captures);
+    if found.ok || most_agree || found.explanations.iter().any(explained) {
         return;
     }
     if let Some(layout) = layout::layout_of_contradicting(dataset) {
