@@ -173,10 +173,6 @@ pub unsafe extern "C" fn handeye_calibrate(
         };
         let (calibration, session) = calibrate_dataset(&dataset, &Config::default(), &|_, _| {})?;
         if let Some(out) = out.map(Path::new) {
-            let made = std::fs::create_dir_all(out);
-            made.map_err(|e| {
-                Problem::new("cannot-write", format!("{}: cannot be made: {e}", out.display()))
-            })?;
             write_results(out, &calibration, &dataset_html(&dataset, &calibration, &session))?;
         }
         told(calibration.verdict, &calibration)

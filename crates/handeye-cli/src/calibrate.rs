@@ -7,8 +7,9 @@ use std::{
 
 use handeye::{Calibration, Config, Session, Verdict, register::IcpConfig};
 use handeye_io::{
-    Dataset,
-    calibrate::{calibrate_dataset, write_results},
+    Dataset, ResultFolder,
+    calibrate::{calibrate_dataset, write_run},
+    checkup::can_be_checked,
     export::Format,
     report::dataset_html,
 };
@@ -26,14 +27,22 @@ pub fn run(args: &CalibrateArgs, manners: &Manners) -> Result<u8, Failure> {
     let config = config(args)?;
     let formats = export::formats(&args.format)?;
     let dataset = open(args)?;
+    let folder = args.out.as_deref().map(result_folder).transpose()?;
     let (calibration, session) = run_on(&dataset, &config, manners)?;
     if !manners.json {
         output::warnings(&calibration, manners);
         output::summary(&calibration);
+        let unseen = calibration.captures.iter().all(|c| c.camera_from_target.is_none());
+        let refused = calibration.verdict == Verdict::Rejected
+            || calibration.verdict == Verdict::Undetermined && unseen;
+        if refused && can_be_checked(&dataset) {
+            output::print(&format!("\nnext: handeye check {}\n", output::word(&args.dataset)));
+        }
     }
-    if let Some(out) = &args.out {
-        write(out, &dataset, &calibration, &session, manners)?;
-        export_accepted(out, &calibration, &formats, manners)?;
+    if let (Some(out), Some(folder)) = (&args.out, &folder) {
+        let exports = export_accepted(out, &calibration, &formats, manners)?;
+        let page = dataset_html(&dataset, &calibration, &session);
+        write((out, folder), &calibration, &page, exports, manners)?;
     }
     if manners.json {
         output::json(&calibration); // last: what fails before is the one document
@@ -41,18 +50,29 @@ pub fn run(args: &CalibrateArgs, manners: &Manners) -> Result<u8, Failure> {
     Ok(calibration.exit_code())
 }
 
+/// The folder for the results, made where it is missing.
+pub fn result_folder(out: &Path) -> Result<ResultFolder, Failure> {
+    fs::create_dir_all(out).map_err(|e| Failure::no_folder(out, e))?;
+    Ok(ResultFolder::open(out)?)
+}
+
+/// Names and contents of the exports asked for, where the verdict allows any.
 fn export_accepted(
     out: &Path,
     calibration: &Calibration,
     formats: &[Format],
     manners: &Manners,
-) -> Result<(), Failure> {
+) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    if formats.is_empty() {
+        return Ok(vec![]);
+    }
     if calibration.verdict == Verdict::Accepted {
-        export::exports(calibration, formats, out)?;
-    } else if !formats.is_empty() && !manners.quiet {
+        return export::exports(calibration, formats, out);
+    }
+    if !manners.quiet {
         eprintln!("nothing exported: the verdict is not `accepted`");
     }
-    Ok(())
+    Ok(vec![])
 }
 
 fn config(args: &CalibrateArgs) -> Result<Config, Failure> {
@@ -89,19 +109,25 @@ pub fn run_on(
     Ok(calibrate_dataset(dataset, config, &|done, all| progress.tell(done, all))?)
 }
 
-/// Writes everything asked for into the folder.
+/// Writes everything that belongs to a run into its folder, together; returns the page's path.
 pub fn write(
-    out: &Path,
-    dataset: &Dataset,
+    (out, folder): (&Path, &ResultFolder),
     calibration: &Calibration,
-    session: &Session,
+    page: &str,
+    exports: Vec<(String, Vec<u8>)>,
     manners: &Manners,
 ) -> Result<PathBuf, Failure> {
-    fs::create_dir_all(out).map_err(|e| Failure::no_folder(out, e))?;
-    let page = dataset_html(dataset, calibration, session);
-    let report = write_results(out, calibration, &page)?;
+    let written = write_run(out, folder, calibration, page, exports)?;
     if !manners.quiet {
-        eprintln!("report: {}", report.display());
+        if written.replaced_another_run {
+            eprintln!(
+                "note: another run wrote its result into {} while this one was working; the files \
+                 there are now those of this run ({})",
+                out.display(),
+                calibration.run_id.as_deref().unwrap_or("without a name")
+            );
+        }
+        eprintln!("report: {}", written.page.display());
     }
-    Ok(report)
+    Ok(written.page)
 }

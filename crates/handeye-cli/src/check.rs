@@ -127,8 +127,11 @@ fn text(answer: &Answer, apply: Option<usize>) -> String {
         ),
         (false, false) => String::new(),
     };
-    text += &format!("\n  as declared, of {} captures\n", a.captures);
-    text += &format!("    median misfit    {}\n", misfit(a.declared.as_ref()));
+    // with another target or unit than declared, captures are not compared at all
+    if a.readings_tried > 0 || a.explanations.is_empty() {
+        text += &format!("\n  as declared, of {} captures\n", a.captures);
+        text += &format!("    median misfit    {}\n", misfit(a.declared.as_ref()));
+    }
     for (k, e) in a.explanations.iter().enumerate() {
         text += "\n";
         text += &output::wrapped(&format!("{}  ", k + 1), &e.message);

@@ -10,7 +10,7 @@ use std::{
 
 use clap::Args;
 use handeye::{Calibration, Camera, Config, Mount, Pose};
-use handeye_io::{Dataset, write_atomically};
+use handeye_io::{Dataset, report::dataset_html, write_atomically};
 use serde::{Deserialize, Serialize};
 
 use crate::{args::Manners, calibrate, failure::Failure, output};
@@ -70,7 +70,9 @@ pub fn run(args: &DemoArgs, manners: &Manners) -> Result<u8, Failure> {
     let dataset = Dataset::open(&folder)?;
     let (calibration, session) = calibrate::run_on(&dataset, &Config::default(), manners)?;
     let still = Manners { quiet: true, ..manners.clone() };
-    let report = calibrate::write(&out, &dataset, &calibration, &session, &still)?;
+    let page = dataset_html(&dataset, &calibration, &session);
+    let results = calibrate::result_folder(&out)?;
+    let report = calibrate::write((&out, &results), &calibration, &page, vec![], &still)?;
     tell(
         &Told { calibration: &calibration, off: off(&calibration)?, dataset: folder, report },
         manners,

@@ -44,14 +44,15 @@ pub fn run(args: &ExportArgs, manners: &Manners) -> Result<u8, Failure> {
     Ok(0)
 }
 
-/// Writes a calibration in the given formats into a folder, which is made if need be; says which
-/// files there are now.
+/// Names and contents of a calibration in the given formats.
 pub fn exports(
     calibration: &Calibration,
     formats: &[Format],
-    out_dir: &Path,
-) -> Result<Vec<PathBuf>, Failure> {
-    write_all(out_dir, calibration, formats, Frames { parent: None, child: CAMERA }, out_dir)
+    out: &Path,
+) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    let pose = pose(out, calibration, Frames { parent: None, child: CAMERA })?;
+    let file = |format: &Format| (format.file_name(pose.name), render(&pose, format));
+    Ok(formats.iter().map(file).collect())
 }
 
 /// The camera's frame, where nobody says another name.

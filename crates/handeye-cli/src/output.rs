@@ -10,8 +10,8 @@ use clap::CommandFactory;
 use clap_complete::Shell;
 use handeye::{
     Calibration, Verdict, Warning,
-    calibration::{Candidate, Certificate},
-    quaternion_xyzw,
+    calibration::{CaptureResult, Certificate},
+    findings, quaternion_xyzw,
 };
 use serde::Serialize;
 
@@ -116,19 +116,28 @@ pub fn verdict(v: Verdict) -> String {
     verdict_as(v, word)
 }
 
+/// The colour between green and red.
+const AMBER: &str = "1;33";
+
 /// Another word in the verdict's colour.
 pub fn verdict_as(v: Verdict, word: &str) -> String {
     let colour = match v {
         Verdict::Accepted => "1;32",
         Verdict::Rejected => "1;31",
-        Verdict::Undetermined => "1;33",
+        Verdict::Undetermined => AMBER,
     };
     paint(word, colour)
 }
 
 /// The result for people, in 80 columns.
 pub fn summary(c: &Calibration) {
-    let mut text = format!("\n{}\n", verdict(c.verdict));
+    let reservation = findings::reservation(c);
+    let word = match &reservation {
+        Some(_) => paint("ACCEPTED", AMBER),
+        None => verdict(c.verdict),
+    };
+    let mut text = format!("\n{word}\n");
+    text += &reservation.map_or(String::new(), |said| wrapped("  ", &said));
     text += &c.reasons.iter().map(|reason| wrapped("  ", reason)).collect::<String>();
     text += &transform(c);
     text += &candidates(c);
@@ -137,19 +146,34 @@ pub fn summary(c: &Calibration) {
         text += "\n";
         text += &wrapped("", &scene.sentence(c.captures.len()));
     }
-    let used = c.captures.iter().filter(|k| k.used).count();
-    if !c.captures.is_empty() {
-        text += &format!("\n{used} of {} captures used", c.captures.len());
-        if !c.rejected.is_empty() {
-            text = text + "; " + wrapped("left out: ", &c.rejected.join(", ")).trim_end();
-        }
-        text += "\n";
-    }
+    text += &captures(c);
     print(&text);
+}
+
+/// How many captures the answer rests on, and the names of all others.
+fn captures(c: &Calibration) -> String {
+    if c.captures.is_empty() {
+        return String::new();
+    }
+    let used = c.captures.iter().filter(|k| k.used).count();
+    let mut text = format!("\n{used} of {} captures used\n", c.captures.len());
+    if !c.rejected.is_empty() {
+        text += &wrapped("rejected: ", &c.rejected.join(", "));
+    }
+    let is_unseen = |k: &&CaptureResult| !k.used && !c.rejected.contains(&k.id);
+    let unseen: Vec<&str> = c.captures.iter().filter(is_unseen).map(|k| k.id.as_str()).collect();
+    if !unseen.is_empty() {
+        let why = if used + c.rejected.len() == 0 { "not used: " } else { "without target: " };
+        text += &wrapped(why, &unseen.join(", "));
+    }
+    text
 }
 
 fn transform(c: &Calibration) -> String {
     let Some(pose) = &c.hand_eye.mount_from_camera else {
+        if c.undetermined.is_empty() {
+            return String::new();
+        }
         let mut text = "\n".to_owned() + &wrapped("not determined: ", &c.undetermined.join(", "));
         for line in c.determined.iter().flat_map(|d| d.lines()) {
             text += &wrapped("determined: ", &line);
@@ -158,7 +182,8 @@ fn transform(c: &Calibration) -> String {
     };
     let t = pose.translation() * 1e3;
     let [i, j, k, w] = quaternion_xyzw(&pose.iso().rotation);
-    let mut text = format!("\n{}  ({})\n", c.name, c.method);
+    let use_it = if c.verdict == Verdict::Rejected { "; rejected: do not use it" } else { "" };
+    let mut text = format!("\n{}  ({}{use_it})\n", c.name, c.method);
     text += &format!("  translation  {:11.3} {:11.3} {:11.3}   mm\n", t.x, t.y, t.z);
     text += &format!("  quaternion   {i:11.7} {j:11.7} {k:11.7} {w:11.7}   x y z w\n");
     if let Some(rows) = &c.hand_eye.covariance.mount_from_camera {
@@ -218,25 +243,27 @@ fn candidates(c: &Calibration) -> String {
     if c.candidates.is_empty() {
         return String::new();
     }
-    let mut text = format!(
-        "\n  {:<26}{:>12}{:>13}{:>15}\n",
-        "candidate", "in sample", "held out", "predicted TRE"
-    );
+    // of captures both columns before, so that they compare; touches have one of their own
+    let touched = !c.touches.is_empty();
+    let line = |mark: &str, name: &str, [own, out, touches, tre]: [&str; 4]| {
+        let touches = if touched { format!("{touches:>12}") } else { String::new() };
+        format!("{mark} {name:<26}{own:>12}{out:>13}{touches}{tre:>15}\n")
+    };
+    let head = ["in sample", "held out", "touches", "predicted TRE"];
+    let mut text = "\n".to_owned() + &line(" ", "candidate", head);
     for k in &c.candidates {
         let mark = if c.chosen.as_deref() == Some(k.name.as_str()) { ">" } else { " " };
-        text += &format!(
-            "{mark} {:<26}{:>12}{:>13}{:>15}\n",
-            k.name,
-            mm(in_sample(k)),
-            mm(k.held_out_mm),
-            mm(k.predicted_tre_mm)
-        );
+        let touches = k.held_out_mm.filter(|_| k.touch_rms_mm.is_some());
+        let figures = [
+            k.in_sample.translation_rms_mm,
+            k.held_out.translation_rms_mm,
+            touches,
+            k.predicted_tre_mm,
+        ];
+        let figures = figures.map(mm);
+        text += &line(mark, &k.name, figures.each_ref().map(String::as_str));
     }
     text
-}
-
-fn in_sample(k: &Candidate) -> Option<f64> {
-    if k.name.starts_with("two-step") { k.touch_rms_mm } else { k.in_sample.translation_rms_mm }
 }
 
 fn mm(value: Option<f64>) -> String {

@@ -1,6 +1,6 @@
 //! `handeye solve`: poses in, answer out.
 
-use handeye::{Calibration, Config, Method, Warning, certify::certify_result};
+use handeye::{Calibration, Config, Method, Warning, certify::certify_result, findings};
 use handeye_io::read_poses;
 
 use crate::{
@@ -31,6 +31,7 @@ fn certify(calibration: &mut Calibration) {
         Err(error) => format!("the least-squares fit cannot be certified: {error}"),
     };
     calibration.warnings.push(Warning::new("not-certified", message));
+    findings::record(calibration);
 }
 
 fn show(calibration: &Calibration, manners: &Manners) {

@@ -1,20 +1,20 @@
 //! From a dataset to a calibration with its files.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use handeye::{
     Calibration, Config, Session, Setup, Verdict, Warning, calibrate, calibrate_moving,
-    calibration::SceneKind, refine::noise::KnownNoise,
+    calibration::SceneKind, findings, refine::noise::KnownNoise,
 };
 
 use crate::{
-    Dataset, Error, Place, WorkspaceFrame, causes,
+    Dataset, Error, Place, WorkspaceFrame, causes, checkup,
     error::unusable,
+    files,
+    hash::Hash,
     measure::{self, Measured},
-    robot, write_atomically,
+    result_folder::{RESULT, ResultFolder, RunFiles},
+    robot,
 };
 
 /// Measures and calibrates a dataset; what its manifest says of noise and limits comes before `config`. `progress` is
@@ -50,6 +50,13 @@ pub fn calibrate_dataset(
     let mut calibration = calibrated
         .map_err(|source| Error::Values { place: Place::file(&dataset.manifest), source })?;
     explain(&mut calibration, &measured);
+    if !refuse_basic_mistake(&mut calibration, dataset, &measured)? {
+        say_what_is_wrong(&mut calibration, dataset, &measured);
+    }
+    findings::record(&mut calibration);
+    let manifest = files::text(&dataset.manifest)?;
+    let inputs = format!("{manifest}{:?}", measured.session);
+    calibration.run_id = Some(run_id(&inputs, &calibration));
     Ok((calibration, measured.session))
 }
 
@@ -75,6 +82,48 @@ fn check_workspace(dataset: &Dataset) -> Result<(), Error> {
     Err(unusable(&dataset.manifest, what))
 }
 
+/// What scans in another unit look like beside that.
+const OF_ANOTHER_UNIT: [&str; 5] = [
+    "picture-and-scan-disagree",
+    "picture-and-scan-scale",
+    "picture-and-scan-tilt",
+    "picture-and-scan-shift",
+    "depth-off",
+];
+
+/// Refuses what rests on another layout of the target, or on scans in another unit: a few captures may fit by chance,
+/// and scans would be dropped for images alone. Says whether there is such a mistake.
+fn refuse_basic_mistake(
+    calibration: &mut Calibration,
+    dataset: &Dataset,
+    measured: &Measured,
+) -> Result<bool, Error> {
+    let Some(found) = checkup::basic_mistake(dataset, measured)? else { return Ok(false) };
+    calibration.verdict = Verdict::Rejected;
+    calibration.undetermined.clear();
+    calibration.reasons = vec![found.sentence()];
+    calibration.warnings.retain(|w| !OF_ANOTHER_UNIT.contains(&w.code.as_str()));
+    Ok(true)
+}
+
+/// Where an answer is not accepted and `check` knows why, that is the first reason.
+fn say_what_is_wrong(calibration: &mut Calibration, dataset: &Dataset, measured: &Measured) {
+    let nothing_seen = 2 * measured.not_found.len() > dataset.captures.len();
+    let is_refused = match calibration.verdict {
+        Verdict::Accepted => false,
+        Verdict::Rejected => true,
+        Verdict::Undetermined => nothing_seen,
+    };
+    if !is_refused {
+        return;
+    }
+    let Some(why) = checkup::diagnosis(dataset, measured) else { return };
+    // what nothing can be determined from is no reason of its own
+    let follows = |reason: &String| nothing_seen || why.starts_with(reason.as_str());
+    calibration.reasons.retain(|reason| !follows(reason));
+    calibration.reasons.insert(0, why);
+}
+
 /// Adds to the result what reading the files told.
 fn explain(calibration: &mut Calibration, measured: &Measured) {
     calibration.warnings.extend(measured.warnings.iter().cloned());
@@ -90,8 +139,21 @@ fn explain(calibration: &mut Calibration, measured: &Measured) {
     if let Some(scene) = &measured.scene {
         calibration.scans.get_or_insert_default().scene = Some(scene.clone());
     }
+    name_camera_used(calibration);
     causes::tell(calibration, &measured.session);
     explain_missing(calibration, measured);
+}
+
+/// A camera calibrated from the views is refined with the robot's poses: what is printed is what was used.
+fn name_camera_used(calibration: &mut Calibration) {
+    let Some(used) = calibration.camera.map(|c| c.intrinsics) else { return };
+    let code = "camera-calibrated-from-views";
+    let Some(warning) = calibration.warnings.iter_mut().find(|w| w.code == code) else { return };
+    warning.message += &format!(
+        ". The answer uses the camera refined with the robot's poses: fx = {:.2} px, fy = {:.2} px, cx = {:.2} px, \
+         cy = {:.2} px",
+        used.fx, used.fy, used.cx, used.cy
+    );
 }
 
 /// Says first what most captures miss.
@@ -128,27 +190,54 @@ fn explain_missing(calibration: &mut Calibration, measured: &Measured) {
     calibration.warnings.insert(0, Warning::new(code, message));
 }
 
-/// The result's file.
-const RESULT: &str = "calibration.json";
-/// Its page.
+/// The name of a run: the same inputs and the same result have the same one.
+pub(crate) fn run_id(inputs: &str, calibration: &Calibration) -> String {
+    let result = serde_json::to_vec(calibration).unwrap_or_default();
+    Hash::of(inputs.as_bytes()).and(&result).to_string()
+}
+
+/// A result's page.
 const PAGE: &str = "report.html";
 /// The corrected model of the arm, where one was found.
 const ARM: &str = "corrected_arm.json";
 
+/// What was written.
+pub struct Written {
+    /// The page.
+    pub page: PathBuf,
+    /// Another run had put its result there in the meantime; this run's files replaced it.
+    pub replaced_another_run: bool,
+}
+
 /// Writes a result, its page and, where one was found, the corrected arm into a folder; returns the page's path.
 ///
 /// # Errors
-/// A folder that does not take them.
+/// A folder that does not take them; then its older files are as they were.
 pub fn write_results(out: &Path, calibration: &Calibration, page: &str) -> Result<PathBuf, Error> {
+    let folder = ResultFolder::open(out)?;
+    Ok(write_run(out, &folder, calibration, page, vec![])?.page)
+}
+
+/// The same with files in other programs' formats beside them (name and content): all of them together, or none.
+///
+/// # Errors
+/// As [`write_results`].
+pub fn write_run(
+    out: &Path,
+    folder: &ResultFolder,
+    calibration: &Calibration,
+    page: &str,
+    exports: Vec<(String, Vec<u8>)>,
+) -> Result<Written, Error> {
     let json =
         serde_json::to_string_pretty(calibration).map_err(|e| unusable(out, e.to_string()))?;
-    write_atomically(&out.join(RESULT), (json + "\n").as_bytes())?;
+    let mut run = RunFiles { files: exports, absent: vec![] };
+    run.files.push((PAGE.to_owned(), page.as_bytes().to_vec()));
+    run.files.push((RESULT.to_owned(), (json + "\n").into_bytes()));
     match &calibration.arm {
-        Some(arm) => write_atomically(&out.join(ARM), robot::arm_file(&arm.model).as_bytes())?,
-        // that of an earlier run does not belong to this result
-        None => drop(fs::remove_file(out.join(ARM))),
+        Some(arm) => run.files.push((ARM.to_owned(), robot::arm_file(&arm.model).into_bytes())),
+        None => run.absent.push(ARM),
     }
-    let path = out.join(PAGE);
-    write_atomically(&path, page.as_bytes())?;
-    Ok(path)
+    let replaced_another_run = folder.publish(&run)?;
+    Ok(Written { page: out.join(PAGE), replaced_another_run })
 }

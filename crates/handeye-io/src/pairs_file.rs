@@ -7,8 +7,8 @@ use std::{
 
 use handeye::{
     Base, Calibration, Camera, Config, Flange, Frame, Observation, Pose, Session, Setup, Stamped,
-    Streams, Target, calibrate_sequence, calibrate_streams, calibrate_unscaled, refine::KnownNoise,
-    solve::FEWEST_POSES,
+    Streams, Target, calibrate_sequence, calibrate_streams, calibrate_unscaled, findings,
+    refine::KnownNoise, solve::FEWEST_POSES,
 };
 use serde::{
     Deserialize, Deserializer,
@@ -17,6 +17,7 @@ use serde::{
 use serde_json::Value;
 
 use crate::{
+    calibrate::run_id,
     error::{Error, in_json, unusable},
     files,
 };
@@ -48,13 +49,16 @@ impl PosesFile {
     /// As [`calibrate_sequence`].
     pub fn calibrate(&self, config: &Config) -> Result<Calibration, handeye::Error> {
         let config = Config { known: self.noise, ..config.clone() };
-        match &self.measured {
+        let mut calibration = match &self.measured {
             MeasuredPoses::Streams(streams) => calibrate_streams(streams, &config),
             MeasuredPoses::Pairs(session) if self.unknown_scale => {
                 calibrate_unscaled(session, &config)
             }
             MeasuredPoses::Pairs(session) => calibrate_sequence(session, &BTreeMap::new(), &config),
-        }
+        }?;
+        findings::record(&mut calibration);
+        calibration.run_id = Some(run_id(&format!("{self:?}"), &calibration));
+        Ok(calibration)
     }
 }
 

@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails loudly")]
 
-use std::{collections::BTreeSet, fs};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+};
 
 use handeye::{
     Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
@@ -13,6 +16,7 @@ use handeye::{
         PoseCovariance, Scale, ScanResult, SceneKind, ScenePair, SceneResult, TipResult,
         TouchResult,
     },
+    findings::{Finding, Severity},
     kinematics::{Arm, DhConvention, Joint, Parameter},
     predict::{PredictedTre, TreMap, TreSlice},
 };
@@ -216,6 +220,14 @@ fn full() -> Calibration {
             translation_to_answer_mm: 0.0,
         }),
         warnings: vec![Warning::new("code", "message")],
+        findings: vec![Finding {
+            code: "code".into(),
+            severity: Severity::Info,
+            message: "message".into(),
+            advice: Some("advice".into()),
+            data: BTreeMap::new(),
+        }],
+        run_id: Some("cbf29ce484222325".into()),
     }
 }
 

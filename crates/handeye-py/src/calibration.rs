@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 
 use handeye::{
     Calibration, Config, Observation, Pose, Session, Stamped, Streams, calibrate_sequence,
-    calibrate_streams, calibrate_unscaled,
+    calibrate_streams, calibrate_unscaled, findings,
     refine::{KnownPosition, noise::KnownNoise},
 };
 use handeye_io::{
@@ -56,7 +56,6 @@ impl Calibrated {
     /// Writes `calibration.json` and `report.html` into a folder.
     fn write(&self, py: Python<'_>, out: PathBuf, title: &str) -> PyResult<PathBuf> {
         let page = self.report(py, title);
-        std::fs::create_dir_all(&out)?;
         write_results(&out, &self.calibration, &page).map_err(|e| errors::of_files(py, &e))
     }
 
@@ -160,7 +159,8 @@ pub fn solve(
         true => calibrate_unscaled(&session, &config),
         false => calibrate_sequence(&session, &BTreeMap::new(), &config),
     };
-    let calibration = working::compute(py, work)?.map_err(|error| errors::of_core(&error))?;
+    let mut calibration = working::compute(py, work)?.map_err(|error| errors::of_core(&error))?;
+    findings::record(&mut calibration);
     Ok(Calibrated { calibration, measured: None })
 }
 
@@ -216,9 +216,10 @@ pub fn solve_streams(
     if let Some(k) = streams.camera.iter().position(|s| s.pose.is_too_far()) {
         return Err(errors::input(format!("camera_from_target[{k}] lies beyond any camera")));
     }
-    let calibration =
+    let mut calibration =
         working::compute(py, move || calibrate_streams(&streams, &Config::default()))?
             .map_err(|error| errors::of_core(&error))?;
+    findings::record(&mut calibration);
     Ok(Calibrated { calibration, measured: None })
 }
 

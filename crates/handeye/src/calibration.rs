@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     Anchor, Base, Camera, Flange, HandEye, Intrinsics, Mount, Pose, Setup, Target, Warning,
+    findings::Finding,
     kinematics::{Arm, Parameter},
     predict::PredictedTre,
 };
@@ -420,6 +421,12 @@ pub struct Calibration {
     pub certificate: Option<Certificate>,
     /// What to know.
     pub warnings: Vec<Warning>,
+    /// Warnings and reasons against the answer, with what each does to it.
+    #[serde(default)]
+    pub findings: Vec<Finding>,
+    /// Name of the run, from what went in and what came out: also in the page.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run_id: Option<String>,
 }
 
 /// Method of a pose that comes from elsewhere.

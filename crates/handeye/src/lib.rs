@@ -10,6 +10,7 @@ pub mod diagnose;
 pub mod dictionary;
 pub mod error;
 pub mod evaluate;
+pub mod findings;
 pub mod frame;
 mod gram;
 pub mod image;

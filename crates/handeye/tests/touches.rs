@@ -154,7 +154,7 @@ fn touches_under_other_ids_contradict_the_views_and_the_way_of_counting_is_named
             ("turned by half a turn", |id| 53 - id),
             ("counted from 1", |id| (id + 1).min(53)),
             ("column by column", |id| id % 9 * 6 + id / 9),
-            ("from the other side", |id| id / 9 * 9 + 8 - id % 9),
+            ("the other side", |id| id / 9 * 9 + 8 - id % 9),
         ];
         for (name, way) in ways {
             let found = calibrate(&renamed(&session, way), &Config::default()).unwrap();
@@ -212,7 +212,11 @@ fn a_tip_in_metres_is_told() {
         touch.in_base = handeye::Point::from_vector(flange + tip * 1e-3);
     }
     let found = calibrate(&session, &Config::default()).unwrap();
-    assert!(found.reasons[0].contains("in_flange_mm is in mm"), "{:?}", found.reasons);
+    assert!(
+        found.reasons[0].contains("in_flange_mm of [touches.tip] is in mm"),
+        "{:?}",
+        found.reasons
+    );
 }
 
 #[test]
@@ -239,7 +243,7 @@ fn touches_in_another_unit_are_told_which() {
                 assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
                 continue;
             }
-            let told = format!("read in {} instead of {} they would agree", meant.0, read.0);
+            let told = format!("the touches are in {}, not {}", meant.0, read.0);
             assert_eq!(found.verdict, Verdict::Rejected);
             assert!(found.reasons[0].contains(&told), "{told}: {:?}", found.reasons);
         }

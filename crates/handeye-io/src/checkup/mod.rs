@@ -2,6 +2,9 @@
 //! manifest.
 
 mod amend;
+mod layout;
+mod scan_unit;
+mod touched;
 mod words;
 
 use std::path::Path;
@@ -20,7 +23,8 @@ use crate::{
     Dataset, Error, Place, Shape,
     dataset::{self, Rereading, rereadings},
     error::malformed,
-    files, measure,
+    files,
+    measure::{self, Measured},
 };
 
 /// A value of the manifest to change.
@@ -51,6 +55,20 @@ pub struct Explanation {
     pub changes: Vec<Change>,
     /// What the user has to do where no value of the manifest corrects it.
     pub by_hand: Option<String>,
+}
+
+impl Explanation {
+    /// The mistake with the keys that correct it.
+    pub(crate) fn sentence(&self) -> String {
+        let key = |c: &Change| match c.table {
+            "" => format!("{} = {}", c.key, c.value),
+            table => format!("[{table}] {} = {}", c.key, c.value),
+        };
+        let keys: Vec<String> = self.changes.iter().map(key).collect();
+        let correction =
+            if keys.is_empty() { String::new() } else { format!(": {}", keys.join(", ")) };
+        format!("{}{correction}", self.message)
+    }
 }
 
 /// The best reading that does not explain the captures.
@@ -119,51 +137,172 @@ pub fn check(
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Checkup, Error> {
     let dataset = Dataset::open_with_root(manifest, root)?;
+    cannot_be_checked(&dataset).map_or(Ok(()), Err)?;
+    let measured = measure::measure(&dataset, progress)?;
+    examine(&dataset, &measured)
+}
+
+/// Whether mistakes in a dataset can be told apart at all.
+pub fn can_be_checked(dataset: &Dataset) -> bool {
+    cannot_be_checked(dataset).is_none()
+}
+
+/// Why nothing tells mistakes of a dataset apart.
+fn cannot_be_checked(dataset: &Dataset) -> Option<Error> {
+    let place = || Place::file(&dataset.manifest);
     if let Some(TargetModel::Sphere { .. }) = dataset.target {
         let what = "a ball shows no rotation, and that is what tells mistakes apart";
-        return Err(malformed(Place::file(manifest), what, "take some captures of a board"));
+        return Some(malformed(place(), what, "take some captures of a board"));
     }
     if let Some(Shape::Scene { .. }) = dataset.shape {
         let what = "scans of a scene are brought together with the help of the robot poses, so they \
                     cannot tell what is wrong with those";
         let advice = "take some captures of a board, or of an object of known shape";
-        return Err(malformed(Place::file(manifest), what, advice));
+        return Some(malformed(place(), what, advice));
     }
     if dataset.motion.is_some() {
         let what = "the robot moved while these captures were taken, and only poses in which it stood \
                     still tell mistakes apart";
         let advice =
             "take some captures of a robot that stands still; `handeye calibrate` judges these";
-        return Err(malformed(Place::file(manifest), what, advice));
+        return Some(malformed(place(), what, advice));
     }
-    let measured = measure::measure(&dataset, progress)?;
-    let session = measured.session;
-    let robot = rereadings(manifest, root, &dataset)?;
+    None
+}
+
+/// Looks for mistakes in what was measured.
+fn examine(dataset: &Dataset, measured: &Measured) -> Result<Checkup, Error> {
+    let session = &measured.session;
+    let text = files::text(&dataset.manifest)?;
     let (seen, blind): (Vec<usize>, Vec<usize>) =
         (0..dataset.captures.len()).partition(|&i| !session.observations[i].candidates.is_empty());
     let name = |i: &usize| session.observations[*i].capture.clone();
-    if seen.len() < explain::FEWEST {
-        return Err(too_few(&dataset, seen.len(), measured.not_found.first()));
+    let basic = basic_mistake(dataset, measured)?;
+    if seen.len() < explain::FEWEST && basic.is_none() {
+        return Err(too_few(dataset, seen.len(), measured.not_found.first()));
     }
-    let declared = of_session(&session, &seen, |i| session.observations[i].base_from_flange);
-    let case = Case {
+    let mut checkup = match basic {
+        // with another target or unit everything else looks wrong as well
+        Some(first) => Checkup { alike: 1, explanations: vec![first], ..empty(&seen) },
+        None => {
+            let robot = rereadings(&dataset.manifest, &dataset.root, dataset)?;
+            let case = case(dataset, session, text, &seen, robot);
+            let mut found = checkup(&case, &explain::explain(&case.declared, &case.readings));
+            add_layout(&mut found, dataset);
+            add_touches(&mut found, session);
+            found
+        }
+    };
+    checkup.not_seen = blind.iter().map(name).collect();
+    checkup.warnings = measured.warnings.clone();
+    Ok(checkup)
+}
+
+/// A checkup of these captures without findings.
+fn empty(seen: &[usize]) -> Checkup {
+    Checkup {
+        ok: false,
+        declared: None,
+        explanations: vec![],
+        alike: 0,
+        runner_up: None,
+        captures: seen.len(),
+        not_seen: vec![],
+        readings_tried: 0,
+        warnings: vec![],
+    }
+}
+
+fn case(
+    dataset: &Dataset,
+    session: &Session,
+    text: String,
+    seen: &[usize],
+    robot: Vec<Rereading>,
+) -> Case {
+    Case {
         setup: dataset.setup,
         target: dataset.target.clone(),
-        text: files::text(manifest)?,
-        names: seen.iter().map(name).collect(),
+        text,
+        names: seen.iter().map(|i| session.observations[*i].capture.clone()).collect(),
         bare: session.observations.iter().all(|o| o.corners.is_empty()),
         readings: robot
             .iter()
-            .map(|r| of_session(&session, &seen, |i| r.base_from_flange[i]))
+            .map(|r| of_session(session, seen, |i| r.base_from_flange[i]))
             .collect(),
         robot,
-        declared,
-    };
-    let found = explain::explain(&case.declared, &case.readings);
-    let mut checkup = checkup(&case, &found);
-    checkup.not_seen = blind.iter().map(name).collect();
-    checkup.warnings = measured.warnings;
-    Ok(checkup)
+        declared: of_session(session, seen, |i| session.observations[i].base_from_flange),
+    }
+}
+
+/// Another layout of the target, or scans in another unit: with these nothing else can be judged.
+///
+/// # Errors
+/// A manifest that cannot be read.
+pub(crate) fn basic_mistake(
+    dataset: &Dataset,
+    measured: &Measured,
+) -> Result<Option<Explanation>, Error> {
+    let layout = layout::layout_of_missing(dataset, measured);
+    let text = files::text(&dataset.manifest)?;
+    Ok(layout.or_else(|| scan_unit::wrong_scan_unit(dataset, measured, &text)))
+}
+
+/// Another layout of the target, where the captures contradict one another and nothing explains it.
+fn add_layout(found: &mut Checkup, dataset: &Dataset) {
+    let explained = |e: &Explanation| !SAY_LITTLE.contains(&e.code);
+    let most_agree = found.declared.is_some_and(|d| 2 * d.agree > found.captures);
+    if found.ok || most_agree || found.explanations.iter().any(explained) {
+        return;
+    }
+    if let Some(layout) = layout::layout_of_contradicting(dataset) {
+        found.explanations.insert(0, layout);
+        (found.alike, found.ok) = (1, false);
+    }
+}
+
+/// Findings whose captures cannot judge touches: poses that are read wrongly as a whole.
+fn is_wholesale(explanation: &Explanation) -> bool {
+    explanation.captures.is_empty()
+}
+
+/// Adds what is wrong with the touches, where the captures themselves are in order.
+fn add_touches(found: &mut Checkup, session: &Session) {
+    if found.explanations.iter().any(is_wholesale) {
+        return;
+    }
+    let touches = touched::wrong_touches(session);
+    if touches.is_empty() {
+        return;
+    }
+    if found.explanations.is_empty() {
+        found.alike = 1;
+    }
+    found.ok = false;
+    found.explanations.extend(touches);
+}
+
+/// Codes of findings that say that something is wrong, but not what.
+const SAY_LITTLE: [&str; 2] = ["captures-disagree", "captures-repeated"];
+/// An answer may be one of so many; more are no answer.
+const MOST_ANSWERS: usize = 3;
+
+/// What explains a dataset whose calibration was not accepted, in one sentence; `None` where that is not known.
+pub(crate) fn diagnosis(dataset: &Dataset, measured: &Measured) -> Option<String> {
+    if cannot_be_checked(dataset).is_some() {
+        return None;
+    }
+    let found = examine(dataset, measured).ok()?;
+    let first = found.explanations.get(..found.alike.max(1))?;
+    let is_answer = |e: &Explanation| !SAY_LITTLE.contains(&e.code);
+    if first.len() > MOST_ANSWERS || !first.iter().all(is_answer) {
+        return None;
+    }
+    let all: Vec<String> = first.iter().map(Explanation::sentence).collect();
+    Some(match &all[..] {
+        [only] => only.clone(),
+        several => format!("either {}", several.join("; or ")),
+    })
 }
 
 fn too_few(dataset: &Dataset, seen: usize, reason: Option<&(String, String)>) -> Error {

@@ -88,6 +88,8 @@ pub struct Dataset {
     pub notation: Option<String>,
     /// What looked suspicious.
     pub warnings: Vec<Warning>,
+    /// What names in the manifest are relative to.
+    pub(crate) root: PathBuf,
     bit_depth: Option<u32>,
     scan_options: ScanOptions,
 }

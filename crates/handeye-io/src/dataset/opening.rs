@@ -98,6 +98,7 @@ impl Opening {
             },
             notation: m.robot.as_ref().and_then(|r| r.table().notation),
             warnings,
+            root: self.root.clone(),
             bit_depth: m.images.as_ref().and_then(|i| i.bit_depth),
             scan_options: self.scan_options(intrinsics, &parts)?,
         })

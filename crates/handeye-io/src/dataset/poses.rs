@@ -106,15 +106,51 @@ impl Reading {
     pub(super) fn pose(&self, numbers: &[f64], place: &Place) -> Result<Isometry3<f64>, Error> {
         let advice = "correct the file, the notation or its column order";
         let iso = match self {
-            Reading::Notation(notation, units) => notation
-                .pose(numbers, *units)
-                .map_err(|what| malformed(place.clone(), what, advice))?,
+            Reading::Notation(notation, units) => {
+                notation.pose(numbers, *units).map_err(|what| {
+                    match other_order(notation, numbers) {
+                        Some((why, advice)) => malformed(place.clone(), why, advice),
+                        None => malformed(place.clone(), what, advice),
+                    }
+                })?
+            }
             Reading::Joints(model, unit) => *model.base_from_flange(numbers, *unit).iso(),
         };
         match farthest(iso.translation.vector.as_slice()) {
             Some(far) => Err(malformed(place.clone(), too_far(far), advice)),
             None => Ok(iso),
         }
+    }
+}
+
+/// A quaternion's length, or a matrix's last row, is right within this.
+const RIGHT: f64 = 1e-3;
+
+/// The other order in which numbers that are no pose would be one: what it is, and what to do.
+fn other_order(notation: &Notation, numbers: &[f64]) -> Option<(&'static str, &'static str)> {
+    let length = |n: &[f64]| n.iter().map(|x| x * x).sum::<f64>().sqrt();
+    match notation.rotation {
+        Rotation::QuaternionXyzw | Rotation::QuaternionWxyz
+            if numbers.len() == 7 && (length(&numbers[..4]) - 1.0).abs() < RIGHT =>
+        {
+            Some((
+                "the rotation stands before the position: the first four numbers are a unit quaternion, the \
+                 last four are none",
+                "say which columns hold position and quaternion, in this order: columns = [5, 6, 7, 1, 2, 3, 4], \
+                 counted on by one where the first column is a name",
+            ))
+        }
+        Rotation::Matrix if numbers.len() == 16 => {
+            let column = [numbers[3], numbers[7], numbers[11], numbers[15]];
+            let is_last = |n: &[f64]| length(&[n[0], n[1], n[2], n[3] - 1.0]) < RIGHT;
+            let is_transposed = is_last(&column) && !is_last(&numbers[12..]);
+            is_transposed.then_some((
+                "the matrix is transposed: 0 0 0 1 is its last column, not its last row",
+                "write it row by row, or say the order of its numbers: columns = [1, 5, 9, 13, 2, 6, 10, 14, 3, \
+                 7, 11, 15, 4, 8, 12, 16]",
+            ))
+        }
+        _ => None,
     }
 }
 

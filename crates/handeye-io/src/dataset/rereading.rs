@@ -68,7 +68,9 @@ pub fn rereadings(
     let mut all = match &reading {
         Reading::Notation(notation, units) => {
             let declared = Way { notation: notation.clone(), units: *units, inverted };
-            notations(&declared, &chosen, records.first(), flange_from_tool)
+            let mut all = notations(&declared, &chosen, records.first(), flange_from_tool);
+            all.extend(angles_first(&declared, &chosen, records.first(), flange_from_tool));
+            all
         }
         Reading::Joints(..) => joints(spec, &reading, &chosen, flange_from_tool)?,
     };
@@ -97,6 +99,51 @@ fn notations(
         })
     };
     ways.iter().filter(|way| *way != declared).filter_map(reread).collect()
+}
+
+/// The angles written before the position: three numbers each, in the other order.
+fn angles_first(
+    declared: &Way,
+    numbers: &[&[f64]],
+    record: Option<&Record>,
+    flange_from_tool: Pose<Flange, Tool>,
+) -> Vec<Rereading> {
+    if !matches!(declared.notation.rotation, Rotation::Euler(..) | Rotation::Vector) {
+        return vec![];
+    }
+    let exchanged: Vec<Vec<f64>> = numbers.iter().map(|n| [&n[3..], &n[..3]].concat()).collect();
+    let exchanged: Vec<&[f64]> = exchanged.iter().map(Vec::as_slice).collect();
+    let same = |way: &Way| {
+        way.notation.rotation == declared.notation.rotation && way.inverted == declared.inverted
+    };
+    let reread = |way: &Way| {
+        let base_from_flange: Option<Vec<_>> =
+            exchanged.iter().map(|n| pose(way, n, flange_from_tool)).collect();
+        let base_from_flange = base_from_flange?;
+        if !plausible(way, declared, &exchanged, &base_from_flange) {
+            return None;
+        }
+        let others = words(declared, way).replacen("the robot poses are ", "; and they are ", 1);
+        let words = format!(
+            "the angles stand before the positions in the robot poses: their columns are exchanged{others}"
+        );
+        Some(Rereading {
+            words_without_direction: words.clone(),
+            words,
+            changes: changes(declared, way),
+            columns: record.map_or_else(Vec::new, |r| exchanged_columns(declared, r)),
+            base_from_flange,
+        })
+    };
+    ways(declared).iter().filter(|way| same(way)).filter_map(reread).collect()
+}
+
+/// The columns of six numbers, the last three first: by their names, or by their numbers from 1.
+fn exchanged_columns(declared: &Way, record: &Record) -> Vec<String> {
+    let named = declared.notation.names_in(record);
+    let first = 1 + record.cells.len().saturating_sub(6);
+    let own = named.unwrap_or_else(|| (first..first + 6).map(|k| k.to_string()).collect());
+    [&own[3..], &own[..3]].concat()
 }
 
 fn pose(way: &Way, numbers: &[f64], tool: Pose<Flange, Tool>) -> Option<Pose<Base, Flange>> {

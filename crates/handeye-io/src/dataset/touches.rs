@@ -179,7 +179,11 @@ fn corner(record: &Record, context: &TouchContext) -> Result<u32, Error> {
                         format!(
                             "row {row}, column {column} are not on a board of {columns} x {rows}"
                         ),
-                        "rows and columns count from 0",
+                        if row < f64::from(columns) && column < f64::from(rows) {
+                            "rows and columns count from 0; are row and column exchanged?"
+                        } else {
+                            "rows and columns count from 0; are they counted from 1?"
+                        },
                     ));
                 }
                 // a fraction stays one, and is refused below
@@ -198,8 +202,12 @@ fn corner(record: &Record, context: &TouchContext) -> Result<u32, Error> {
         };
     let count = context.target.map_or(u32::MAX as usize, TargetModel::len);
     if corner < 0.0 || corner.fract() != 0.0 || corner >= count as f64 {
-        return Err(record
-            .refuse(format!("the target has no corner {corner}"), "ids count from 0, row by row"));
+        let advice = if corner == count as f64 {
+            "ids count from 0, row by row: these look counted from 1, so take one off each"
+        } else {
+            "ids count from 0, row by row: are they counted column by column, or on another board?"
+        };
+        return Err(record.refuse(format!("the target has no corner {corner}"), advice));
     }
     Ok(corner as u32)
 }

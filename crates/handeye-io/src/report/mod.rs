@@ -23,6 +23,7 @@ use std::fmt::Write;
 use handeye::{
     Base, Calibration, Intrinsics, Point, Setup, TargetModel, Verdict,
     calibration::{Candidate, CaptureResult},
+    findings::{self, Severity},
 };
 
 pub use dataset::{calibration_html, dataset_html};
@@ -55,13 +56,23 @@ const STYLE: &str = include_str!("style.css");
 pub fn html(report: &Report) -> String {
     let c = report.calibration;
     let mut body = verdict(report);
-    body += &transform(report);
-    body += &warnings(&c.warnings);
-    body += &candidates(c);
-    body += &captures(c);
-    body += &touches(c);
+    if c.verdict == Verdict::Rejected {
+        // the reasons first; its numbers below them, crossed out
+        body += &found(c);
+        body += &captures(c);
+        body += &touches(c);
+        body += &refused(&(transform(report) + &candidates(c) + &budget(c)));
+    } else {
+        body += &transform(report);
+        body += &found(c);
+        body += &candidates(c);
+        body += &captures(c);
+        body += &touches(c);
+    }
     body += &view(report);
-    body += &budget(c);
+    if c.verdict != Verdict::Rejected {
+        body += &budget(c);
+    }
     body += &arm::arm(c);
     body += &scans::scene(c);
     body += &scans::scans(c);
@@ -70,7 +81,10 @@ pub fn html(report: &Report) -> String {
     page(
         ("Hand-eye calibration", &report.title),
         &body,
-        "Lengths in mm, angles in degrees. A covariance is written in the camera's axes at the camera.",
+        &format!(
+            "Lengths in mm, angles in degrees. A covariance is written in the camera's axes at the camera.{}",
+            c.run_id.as_ref().map_or(String::new(), |id| format!(" Run {}.", escape(id)))
+        ),
     )
 }
 
@@ -96,6 +110,7 @@ fn judgement(
     facts: &[(String, String)],
 ) -> String {
     let class = match verdict {
+        Verdict::Accepted if word == RESERVED => "reserved",
         Verdict::Accepted => "accepted",
         Verdict::Rejected => "rejected",
         Verdict::Undetermined => "undetermined",
@@ -115,6 +130,9 @@ fn judgement(
          <div class=\"facts\">{facts}</div></section>\n"
     )
 }
+
+/// The word for an answer that is accepted with a finding that changes it.
+const RESERVED: &str = "Accepted, with a reservation";
 
 /// The word for a verdict.
 fn word(verdict: Verdict) -> &'static str {
@@ -144,7 +162,46 @@ fn deg(value: Option<f64>) -> String {
 
 fn verdict(report: &Report) -> String {
     let c = report.calibration;
-    judgement(c.verdict, word(c.verdict), &c.reasons, &facts(c))
+    let Some(reservation) = findings::reservation(c) else {
+        return judgement(c.verdict, word(c.verdict), &c.reasons, &facts(c));
+    };
+    let sentences: Vec<String> =
+        [reservation].into_iter().chain(c.reasons.iter().cloned()).collect();
+    judgement(c.verdict, RESERVED, &sentences, &facts(c))
+}
+
+/// Numbers of an answer that is not to be used: crossed out, and not to be selected.
+fn refused(content: &str) -> String {
+    format!(
+        "<div class=\"refused\"><p class=\"note\">Rejected: these numbers are shown to find out what went wrong, and not \
+         to be used.</p>{content}</div>\n"
+    )
+}
+
+/// The warnings of a result; those that change the answer stand out.
+fn found(c: &Calibration) -> String {
+    let all = findings::findings(c);
+    // what is a reason against the answer stands at the top already
+    let of_warnings = all.iter().filter(|f| {
+        !c.reasons.contains(&f.message) && c.warnings.iter().any(|w| w.message == f.message)
+    });
+    let item = |f: &findings::Finding| {
+        let class = match f.severity {
+            Severity::Info => "info",
+            Severity::ChangesAnswer => "changes",
+            Severity::Rejects => "rejects",
+        };
+        format!(
+            "<li class=\"{class}\">{} <code>{}</code></li>",
+            capital(&escape(&f.message)),
+            escape(&f.code)
+        )
+    };
+    let items: String = of_warnings.map(item).collect();
+    if items.is_empty() {
+        return items;
+    }
+    section("What to look at", "", &format!("<ul class=\"warnings\">{items}</ul>"))
 }
 
 fn capital(text: &str) -> String {
@@ -154,7 +211,7 @@ fn capital(text: &str) -> String {
 
 fn facts(c: &Calibration) -> Vec<(String, String)> {
     let mut all = Vec::new();
-    if let Some(tre) = &c.predicted_tre_mm {
+    if let Some(tre) = c.predicted_tre_mm.as_ref().filter(|_| c.verdict != Verdict::Rejected) {
         all.push((format!("{:.2} mm", tre.p95), "predicted error, 95 %".to_owned()));
         all.push((format!("{:.2} mm", tre.rms), "predicted error, RMS".to_owned()));
     }
@@ -165,6 +222,12 @@ fn facts(c: &Calibration) -> Vec<(String, String)> {
     if !c.captures.is_empty() {
         let used = c.captures.iter().filter(|k| k.used).count();
         all.push((format!("{used} of {}", c.captures.len()), "captures used".to_owned()));
+        let unseen = c.captures.len() - used - c.rejected.len().min(c.captures.len() - used);
+        for (count, name) in [(c.rejected.len(), "rejected"), (unseen, "without target")] {
+            if count > 0 {
+                all.push((count.to_string(), format!("captures {name}")));
+            }
+        }
     }
     if !c.touches.is_empty() {
         all.push((c.touches.len().to_string(), "touched corners".to_owned()));
@@ -179,8 +242,11 @@ fn transform(report: &Report) -> String {
         Setup::EyeToHand => "eye-to-hand: it takes points of the camera to the robot's base",
     };
     let Some(pose) = &c.hand_eye.mount_from_camera else {
-        let missing = escape(&c.undetermined.join(", "));
-        let mut content = format!("<p>No transform is given. Not determined: {missing}.</p>");
+        let missing = match &c.undetermined[..] {
+            [] => String::new(),
+            all => format!(" Not determined: {}.", escape(&all.join(", "))),
+        };
+        let mut content = format!("<p>No transform is given.{missing}</p>");
         if let Some(known) = &c.determined {
             let lines = escape(&known.lines().join("\n"));
             let _ = write!(content, "<h3>What is determined</h3><pre>{lines}</pre>");

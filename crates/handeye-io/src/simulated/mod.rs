@@ -20,7 +20,7 @@ use handeye::{
 };
 use serde_json::{Map, Value, json};
 
-use crate::{Error, MANIFEST, files::write_atomically, robot::arm_file};
+use crate::{Error, MANIFEST, files::write_atomically, hash::Hash, robot::arm_file};
 
 /// Name of the file with the truth.
 pub const TRUTH: &str = "truth.json";
@@ -166,10 +166,9 @@ fn earlier(out: &Path) -> Option<Vec<(PathBuf, String)>> {
     Some(named.map(|name| (PathBuf::from(name), print(name))).collect())
 }
 
-/// FNV-1a of 64 bits (Fowler, Noll, Vo): enough to notice an edit.
+/// Enough to notice an edit.
 fn fingerprint(content: &[u8]) -> String {
-    let mix = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    format!("{:016x}", content.iter().fold(0xcbf2_9ce4_8422_2325, mix))
+    Hash::of(content).to_string()
 }
 
 struct Folder<'a> {

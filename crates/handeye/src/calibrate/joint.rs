@@ -10,7 +10,7 @@ use super::{
     boards::Boards,
 };
 use crate::{
-    Warning,
+    TargetModel, Warning,
     calibration::{Calibration, TipResult},
     chance, evaluate,
     refine::{
@@ -339,9 +339,10 @@ impl Joint {
                 format!(
                     "views and touches disagree by {:.2} mm, p = {:.1e}; most likely the tool tip: \
                      its best estimate is off by ({x:.2}, {y:.2}, {z:.2}) mm in the {frame} frame; \
-                     calibrate the tool again. The answer takes it into account",
+                     calibrate the tool again. The answer takes it into account{}",
                     tip.offset.norm() * 1e3,
-                    tip.p_value
+                    tip.p_value,
+                    squares(tip.offset.norm(), views.session.target.as_ref())
                 ),
             ));
         }
@@ -357,6 +358,25 @@ impl Joint {
             ));
         }
     }
+}
+
+/// An offset of the tip is that of squares within this part of their size.
+const LIKE_SQUARES: f64 = 0.03;
+/// Squares by which corners are miscounted, at most.
+const MOST_SQUARES: u32 = 2;
+
+/// Says where an offset of the tip (m) is as large as one square or two: then the corners may be miscounted instead.
+fn squares(offset: f64, target: Option<&TargetModel>) -> String {
+    let Some(target) = target.filter(|t| t.len() > 4) else { return String::new() };
+    let pitch = target.pitch_m();
+    let like = |n: &u32| (offset / (f64::from(*n) * pitch) - 1.0).abs() < LIKE_SQUARES;
+    let Some(n) = (1..=MOST_SQUARES).find(like) else { return String::new() };
+    format!(
+        "; but {:.1} mm is {} of the board: if the touched corners are counted from another one than corner 0, \
+         correct their ids, and the tip is right",
+        offset * 1e3,
+        if n == 1 { "one square".to_owned() } else { format!("{n} squares") }
+    )
 }
 
 /// A tool tip that is not where the robot believes it.

@@ -336,5 +336,7 @@ fn empty(setup: Setup) -> Calibration {
         arm: None,
         certificate: None,
         warnings: vec![],
+        findings: vec![],
+        run_id: None,
     }
 }

@@ -442,7 +442,16 @@ pub(super) fn in_picture(camera: &Intrinsics, p: &Vector3<f64>) -> bool {
     let inside = |x: f64, size: u32| (-0.5..=f64::from(size) - 0.5).contains(&x);
     let known = camera.width > 0 && camera.height > 0;
     let seen = |u: Vector2<f64>| !known || inside(u.x, camera.width) && inside(u.y, camera.height);
-    camera.project(p).is_some_and(seen)
+    camera.project(p).filter(|u| seen(*u)).is_some_and(|u| comes_from(camera, &u, p))
+}
+
+/// A pixel's ray that misses a point by more (rad) is another one: beyond the corners that told the distortion, its
+/// polynomial may fold far directions back into the image.
+const SAME_RAY: f64 = 1e-3;
+
+/// Whether a pixel's ray leads to the point.
+fn comes_from(camera: &Intrinsics, pixel: &Vector2<f64>, p: &Vector3<f64>) -> bool {
+    camera.ray(pixel).is_some_and(|ray| ray.angle(p) < SAME_RAY)
 }
 
 /// How a point of the camera moves with one parameter of the lens, its pixel and its size in the

@@ -93,13 +93,10 @@ pub(super) fn find(
         return found;
     }
     let off = median(all.iter().map(|e| e.misfit.norm()));
-    let check = if let Some(how) = in_other_units(boards, problem, fit, all.len()) {
+    let answer = if let Some(how) = in_other_units(boards, problem, fit, all.len()) {
         how
     } else if let Some(how) = renamed(boards, target, problem, fit, all.len()) {
-        format!(
-            "check corner ids and frame of the touches, and which placement each belongs to; with \
-             {how} they would agree"
-        )
+        format!("{how}: correct the corner ids of the touches")
     } else if off > ELSEWHERE {
         "check the length unit of [touches], the same for every column, and that they are in the \
          robot's base"
@@ -107,13 +104,15 @@ pub(super) fn find(
     } else {
         "check corner ids and frame of the touches, and which placement each belongs to".into()
     };
-    found.contradiction = Some(format!(
-        "views and touches contradict each other: only {agreeing} of {} touches agree with any one \
-         tool tip, half of them are more than {:.0} mm from where the views put their corners: \
-         {check}",
+    let contradiction = format!(
+        "views and touches contradict each other: {answer}. As declared only {agreeing} of {} touches agree \
+         with any one tool tip, and half of them are more than {:.0} mm from where the views put their \
+         corners",
         all.len(),
         off * 1e3
-    ));
+    );
+    found.warnings.push(Warning::new("touches-misread", contradiction.clone()));
+    found.contradiction = Some(contradiction);
     found.which = all.iter().map(|e| e.touch).collect();
     found
 }
@@ -239,12 +238,13 @@ fn in_other_units(
     if enough(best.0) {
         let (_, read, meant) = best;
         return Some(format!(
-            "read in {meant} instead of {read} they would agree: correct length_unit of [touches]"
+            "the touches are in {meant}, not {read}, with which they agree: correct length_unit of \
+             [touches]"
         ));
     }
     enough(agreeing(1.0, 1e3)).then(|| {
-        "with the tool's tip a thousand times as far from the flange they would agree: [touches.tip] \
-         in_flange_mm is in mm"
+        "the tool's tip is in metres, and in_flange_mm of [touches.tip] is in mm: a thousand times as \
+         far from the flange they agree"
             .into()
     })
 }
@@ -265,11 +265,13 @@ fn renamed(
     let by_columns = |id: u32| Some((id % rows) * columns + id / rows);
     let other_way = |id: u32| Some(id / columns * columns + (columns - 1 - id % columns));
     let ways: [Way; 5] = [
-        ("the board turned by half a turn", &|id| last.checked_sub(id)),
-        ("the corners counted from 1", &|id| id.checked_sub(1)),
-        ("the corners counted from 0", &|id| Some(id + 1)),
-        ("the corners counted column by column", &by_columns),
-        ("the columns counted from the other side", &other_way),
+        ("the board is turned by half a turn against the ids of the touches", &|id| {
+            last.checked_sub(id)
+        }),
+        ("the corners are counted from 1, and ids count from 0", &|id| id.checked_sub(1)),
+        ("the corners are counted from one less than their ids", &|id| Some(id + 1)),
+        ("the corners are counted column by column, and ids count row by row", &by_columns),
+        ("the columns are counted from the other side of the board", &other_way),
     ];
     let reference = target.reference().vector();
     let id_of = |p: &Vector3<f64>| {

@@ -244,6 +244,10 @@ const DIRECTIONS: [Label; 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 const LARGEST_ENTRY: i32 = 3;
 /// Share of the circles that must be in the lattice; the others are looked for where they belong.
 const LEAST_SHARE: f64 = 0.8;
+/// Outliers beside a board, over its circles, at most: more are a board of another size ...
+const MOST_OUTLIERS: f64 = 0.15;
+/// ... or as many as these, beside a small board.
+const FEW_OUTLIERS: f64 = 3.0;
 /// Share of the circles of a board with a larger one.
 const LEAST_SHARE_WITH_LARGER: f64 = 0.5;
 
@@ -302,8 +306,10 @@ impl Board {
                 return None;
             }
             ((low.0, high.1 - most_tall), LEAST_SHARE_WITH_LARGER)
+        } else if (wide, tall) == (most_wide, most_tall) {
+            (low, LEAST_SHARE)
         } else {
-            ((wide, tall) == (most_wide, most_tall)).then_some((low, LEAST_SHARE))?
+            return self.among_outliers(&places, (low, high));
         };
         let ids: Option<BTreeMap<u32, usize>> = places
             .iter()
@@ -311,6 +317,54 @@ impl Board {
             .collect();
         let all = (self.columns * self.rows) as f64;
         ids.filter(|ids| ids.len() as f64 >= share * all)
+    }
+
+    /// The board in a lattice that reaches beyond it because circles beside the board joined: the one place where
+    /// all its circles are there, with too few outliers around it for another row or column.
+    fn among_outliers(
+        &self,
+        places: &[(Label, usize)],
+        (low, high): (Label, Label),
+    ) -> Option<BTreeMap<u32, usize>> {
+        let (wide, tall) = self.extent();
+        let (last_x, last_y) = (high.0 - wide, high.1 - tall);
+        let mut found = None;
+        for origin in (low.1..=last_y).flat_map(|y| (low.0..=last_x).map(move |x| (x, y))) {
+            let Some(ids) = self.whole_at(places, origin) else { continue };
+            if found.is_some() {
+                return None; // two places: it is a larger board
+            }
+            found = Some(ids);
+        }
+        found
+    }
+
+    /// All circles of a board whose top left is at `origin`, if what lies around it are mere outliers.
+    fn whole_at(&self, places: &[(Label, usize)], origin: Label) -> Option<BTreeMap<u32, usize>> {
+        let mut ids = BTreeMap::new();
+        let (mut in_columns, mut in_rows) = (BTreeMap::new(), BTreeMap::new());
+        for (place, blob) in places {
+            let (x, y) = (place.0 - origin.0, place.1 - origin.1);
+            match self.id((x, y)) {
+                Some(id) => drop(ids.insert(id, *blob)),
+                None => {
+                    *in_columns.entry(x).or_insert(0) += 1;
+                    *in_rows.entry(y).or_insert(0) += 1;
+                }
+            }
+        }
+        let all = self.columns * self.rows;
+        let outliers = places.len() - ids.len();
+        // places of a column, and of a row, of an asymmetric grid: in every second row or column
+        let column = if self.kind == Kind::Shifted { self.rows / 2 } else { self.rows };
+        let (wide, tall) = self.extent();
+        let outside = |(line, count): (&i32, &i32), last: i32, length: i32| {
+            (0..=last).contains(line) || 2 * count < length
+        };
+        let are_outliers = outliers as f64 <= (MOST_OUTLIERS * f64::from(all)).max(FEW_OUTLIERS)
+            && in_columns.iter().all(|c| outside(c, wide, column))
+            && in_rows.iter().all(|r| outside(r, tall, self.columns));
+        (ids.len() as i32 == all && are_outliers).then_some(ids)
     }
 
     /// A label in the board's own directions, in columns and rows; of an asymmetric grid in units
