@@ -78,7 +78,7 @@ const TABLE: &[Row] = &[
         "take a board of matt grey and white",
     ),
     changes(
-        "target-scale-used",
+        "target-scale",
         "the answer uses the estimated size of the target, not the declared one",
         "measure the target and declare its size",
     ),
@@ -141,6 +141,10 @@ const TABLE: &[Row] = &[
         "known-position-disagrees",
         "the data contradict the position that was given",
         "measure it again, or leave it out",
+    ),
+    rejects(
+        "picture-and-scan-differ",
+        "show the target at several distances and tilts, and check the calibration between image and scan",
     ),
     rejects("poses-inverted", "correct `direction` or `setup`"),
     rejects("robot-poses-inverted", "correct `direction` or `setup`"),

@@ -2,7 +2,7 @@
 
 use super::{Config, Session, agreement::Views, alternatives::SIZE};
 use crate::{
-    Camera, Mount, Pose, Warning,
+    Camera, Mount, Pose, TargetSize, Warning,
     calibration::{Answer, Calibration, Determined, Scale, Verdict},
     chance, diagnose, quaternion_xyzw,
     refine::{JointFit, noise::Source},
@@ -24,6 +24,9 @@ const LEAST_AGREEING: f64 = 0.5;
 /// Wrong size of the target that is beyond any printer: the declared size or the focal length is
 /// wrong, and so is every distance.
 const MOST_SCALE_ERROR: f64 = 0.03;
+
+/// Scale errors of measured distances below this part are within what cameras and their targets do.
+const LEAST_SCALE_ERROR: f64 = 0.005;
 
 /// Chance of a scale as far from one as it is below which it is called wrong.
 const IMPROBABLE_SCALE: f64 = 1e-3;
@@ -187,9 +190,16 @@ pub(super) fn judge_size(
         best.extra(SIZE).map_or((value, sigma), |(x, s)| (declared * (1.0 + x), declared * s));
     let dof = (by_views.degrees_of_freedom - 1.0).max(1.0);
     let p_value = chance::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
-    if !used && p_value > IMPROBABLE_SCALE {
-        return;
-    }
+    let off = (value - 1.0).abs();
+    let code = match (&views.session.target, views.session.target_size) {
+        _ if used => "target-scale",
+        // distances that came from elsewhere are taken as they are: small errors of scale are left to the user
+        (None, _) if off > LEAST_SCALE_ERROR && p_value < IMPROBABLE_SCALE => "target-scale",
+        (Some(_), TargetSize::Measured(_)) if p_value < IMPROBABLE_SCALE => {
+            "target-size-contradicted"
+        }
+        _ => return,
+    };
     let (value, sigma) = if used { answer } else { (value, sigma) };
     result.target_scale = Some(Scale { value, sigma, used });
     let message = size_message(views.session, (value, sigma), used);
@@ -197,7 +207,7 @@ pub(super) fn judge_size(
         result.reasons.push(message.clone());
         result.verdict = Verdict::Rejected;
     }
-    result.warnings.push(Warning::new("target-scale", message));
+    result.warnings.push(Warning::new(code, message));
 }
 
 fn size_message(session: &Session, (value, sigma): (f64, f64), used: bool) -> String {
