@@ -52,7 +52,7 @@ pub use files::write_atomically;
 pub use image::{image_size, read_image};
 pub use import::{Declared, Direction, Imported, import};
 pub use init::{FirstManifest, Question, first_manifest};
-pub use mesh::{is_mesh, points_on, read_mesh};
+pub use mesh::{is_mesh, points_on, read_mesh, spacing_on};
 pub use pairs_file::{MeasuredPoses, PosesFile, poses_from_json, read_poses};
 pub use problem::Problem;
 pub use registration::{RegistrationResult, Transform};

@@ -11,6 +11,7 @@ use super::{
     global,
     icp::Stop,
     rivals::{self, Opinions, Rival},
+    search::{Evidence, Search},
     size::Size,
     surface::Surface,
 };
@@ -121,6 +122,8 @@ pub struct Dense {
     pub rms_m: f64,
     /// Deviation of the matches over that which the scatter of their points promises.
     pub sigma: f64,
+    pub places: Vec<Isometry3<f64>>,
+    pub note: String,
 }
 
 /// Windows that are asked for their opinion of the answer.
@@ -129,6 +132,8 @@ const ASKED: f64 = 5000.0;
 const AGREEING: f64 = 0.9;
 /// Shifts and turns.
 const ALL_MOTIONS: usize = 6;
+/// A place that was found is improved by matches within so many times the spread of a window.
+const NEARBY: f64 = 3.0;
 /// With fewer matches, nothing is sure.
 const OVERLAPPING: f64 = 0.05;
 
@@ -178,6 +183,8 @@ pub fn register_surfaces(
         size: None,
         rms_m: f64::NAN,
         sigma: f64::NAN,
+        places: vec![],
+        note: String::new(),
     })
 }
 
@@ -199,9 +206,15 @@ fn registered(
     config: &DenseConfig,
 ) -> Result<Dense, Error> {
     let mut descent = Descent::new(source, target, config);
-    let gate = config.max_correspondence_distance_m;
+    let mut gate = config.max_correspondence_distance_m;
     let mut starts = vec![*start];
-    if config.global {
+    let search = config.global.then(|| Search::new(source, target, config.threads)).flatten();
+    let places = search.as_ref().map_or(vec![], Search::places);
+    if search.is_some() {
+        starts.clear();
+        starts.extend(places.first().map(|place| place.target_from_source));
+        gate = gate.min(NEARBY * source.spread.max(target.spread));
+    } else if config.global {
         starts = global::starts(source, target, config.threads);
     } else if config.restarts {
         starts.extend(rivals::around(start, &source.middle, 0.5 * gate));
@@ -209,7 +222,7 @@ fn registered(
     let from = (!config.global).then_some(start);
     let rivals = rivals::answers(&descent, &starts, from, gate)?;
     let mut reached = rivals[0].reached.clone();
-    let at_best = reached.target_from_source;
+    let at_best = if search.is_some() { starts[0] } else { reached.target_from_source };
     descent.nearby(&mut reached)?;
     descent.fine(&mut reached)?;
     let sigma = descent.sigma;
@@ -244,11 +257,23 @@ fn registered(
         agreement: Opinions::of(&descent, &at, ASKED, sigma).agreeing(),
         rms_m: reached.rms_m,
         sigma,
+        places: vec![],
+        note: String::new(),
     };
     if free == 0 {
         found.size = Size::of(&mut descent, &at);
     }
     judge(&mut found, source, &rivals);
+    if let Some(search) = &search {
+        if std::env::var_os("HANDEYE_SEARCH_DEBUG").is_some() {
+            for p in &places { eprintln!("{:?} {:.3}", p.evidence, search.apart(&p.target_from_source, &found.target_from_source)); }
+            eprintln!("end {:?}", search.evidence(&found.target_from_source));
+        }
+        let e = search.evidence(&found.target_from_source);
+        let f = |e: &Evidence| format!("ex {:.2} of {:.2} con {:.2} mis {:.2} sc {:.0}", e.explained, e.of_scan, e.contradicted, e.missing, e.score);
+        found.note = format!("{} / {} 2nd {:.2} ap {:.3}", f(&e), f(&places[0].evidence), places.get(1).map_or(0.0, |p| p.evidence.score / places[0].evidence.score), search.apart(&places[0].target_from_source, &found.target_from_source));
+        found.places = places.iter().filter(|p| p.evidence.score > 0.96 * places[0].evidence.score).map(|p| p.target_from_source).collect();
+    }
     Ok(found)
 }
 
