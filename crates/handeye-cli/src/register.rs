@@ -12,8 +12,8 @@ use handeye::{
     register::{DenseConfig, DenseMethod, Surface, register_surfaces},
 };
 use handeye_io::{
-    Error, RegistrationResult, ScanOptions, Transform, is_mesh, points_on, read_intrinsics,
-    read_mesh, read_scan,
+    Error, FoundPlace, RegistrationResult, ScanOptions, Transform, is_mesh, points_on,
+    read_intrinsics, read_mesh, read_scan,
     report::{NamedCloud, Registration, registration_html},
     robot::rotation_near,
     scan_size, scan_unit, spacing_on,
@@ -160,7 +160,8 @@ fn surface(input: &Input, threads: usize) -> Result<Surface, Failure> {
         None => Surface::of(&input.scan, threads),
     };
     found.ok_or_else(|| {
-        let what = "shows no surface: its points are too few, lie on a line, or lie far from all others";
+        let what =
+            "shows no surface: its points are too few, lie on a line, or lie far from all others";
         Failure::input(input.path, what)
     })
 }
@@ -355,6 +356,7 @@ fn text(a: &Answer) -> String {
         "\ntarget from source\n  translation  {}   mm\n  quaternion   {q}   x y z w\n",
         three(&pose.translation_m.map(|x| 1e3 * x))
     );
+    text += &places(&a.found.places);
     if let (Some(mm), Some(deg)) = (&a.found.sigma_mm, &a.found.sigma_deg) {
         text += &format!(
             "  one sigma    {}   mm\n               {}   deg, in the source's axes\n",
@@ -373,11 +375,12 @@ fn text(a: &Answer) -> String {
     text + &output::wrapped(
         "",
         &format!(
-            "{:.0} % of the source lies on the target, {:.3} mm apart (RMS); where both show something, \
-             {:.1} % agree. {} rounds ({}). Read in {:.2} s, prepared in {:.2} s, registered in {:.2} s.",
+            "{:.0} % of the source lies on the target, with an RMS residual of {:.3} mm (matches, without \
+             outliers); where both show something, {:.1} % agree.{} {} rounds ({}). Read in {:.2} s, prepared in {:.2} s, registered in {:.2} s.",
             100.0 * a.found.inlier_fraction,
             rms,
             100.0 * a.found.agreement,
+            explained(a.found.explained),
             a.found.iterations,
             a.found.stop,
             a.seconds.read,
@@ -385,6 +388,29 @@ fn text(a: &Answer) -> String {
             a.seconds.iterate,
         ),
     )
+}
+
+/// Those after the first, which is the answer.
+fn places(all: &[FoundPlace]) -> String {
+    let row = |place: &FoundPlace| {
+        let Transform { translation_m, rotation_xyzw } = &place.target_from_source;
+        let t = translation_m.map(|x| format!("{:10.3}", 1e3 * x)).join("");
+        let q = rotation_xyzw.map(|x| format!("{x:10.5}")).join("");
+        format!("  {t}{q}\n")
+    };
+    if all.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\nequally good places: mm; x y z w\n{}\n",
+        all.iter().skip(1).map(row).collect::<String>()
+    )
+}
+
+fn explained(share: Option<f64>) -> String {
+    share.map_or(String::new(), |share| {
+        format!(" Of the scan in the part's box, {:.0} % lies on the part.", 100.0 * share)
+    })
 }
 
 #[cfg(test)]

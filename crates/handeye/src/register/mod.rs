@@ -15,6 +15,7 @@ mod mesh_surface;
 mod moments;
 mod outlook;
 mod pair;
+mod part_search;
 mod patch;
 pub mod rigid_fit;
 mod rivals;

@@ -164,4 +164,3 @@ fn moved_by(
     let step = -linalg::invert_spd(&(information + held))? * gradient;
     Some(moved(at, &step, middle))
 }
-

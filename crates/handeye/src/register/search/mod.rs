@@ -221,7 +221,11 @@ impl Search {
     }
 
     /// The best of those that lie near one another.
-    fn distinct(&self, mut all: Vec<(f64, Isometry3<f64>)>, most: usize) -> Vec<(f64, Isometry3<f64>)> {
+    fn distinct(
+        &self,
+        mut all: Vec<(f64, Isometry3<f64>)>,
+        most: usize,
+    ) -> Vec<(f64, Isometry3<f64>)> {
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut kept: Vec<(f64, Isometry3<f64>)> = vec![];
         for (score, at) in all {
@@ -239,8 +243,19 @@ impl Search {
     fn moved(&self, a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
         let (a, b) = (a.inverse(), b.inverse());
         let step = (self.part.len() / 24).max(1);
-        let between = |s: &Surfel| (a.transform_point(&s.p.into()) - b.transform_point(&s.p.into())).norm();
+        let between =
+            |s: &Surfel| (a.transform_point(&s.p.into()) - b.transform_point(&s.p.into())).norm();
         self.part.iter().step_by(step).map(between).fold(0.0, f64::max)
+    }
+
+    /// The part's radius, m.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Where the scan lies in the part.
+    pub fn part_from_scan(&self, target_from_source: &Isometry3<f64>) -> Isometry3<f64> {
+        self.target_from_source(target_from_source)
     }
 
     /// From where the scan lies in the part, or back.
@@ -250,7 +265,8 @@ impl Search {
 
     /// What speaks for and against a place, to the finest that the scan tells.
     pub fn evidence(&self, target_from_source: &Isometry3<f64>) -> Evidence {
-        let field = Field::new(&self.fine, FINE * self.radius, ASIDE[1] * self.radius, self.oriented);
+        let field =
+            Field::new(&self.fine, FINE * self.radius, ASIDE[1] * self.radius, self.oriented);
         let at = self.target_from_source(target_from_source);
         self.evidence_of(&self.scene(), &field, &at)
     }

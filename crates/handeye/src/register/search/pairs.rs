@@ -60,11 +60,7 @@ fn key(a: &Surfel, b: &Surfel, longest: f64, oriented: bool) -> Option<Key> {
 }
 
 /// Pairs of both with the same key, about so many, of all keys alike.
-pub fn matches(
-    scan: &[(Key, [u16; 2])],
-    part: &[(Key, [u16; 2])],
-    most: usize,
-) -> Vec<Match> {
+pub fn matches(scan: &[(Key, [u16; 2])], part: &[(Key, [u16; 2])], most: usize) -> Vec<Match> {
     let mut kinds = vec![];
     for group in scan.chunk_by(|a, b| a.0 == b.0) {
         let first = part.partition_point(|(key, _)| *key < group[0].0);

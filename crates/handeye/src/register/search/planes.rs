@@ -71,7 +71,8 @@ fn fitted(surfels: &[Surfel], plane: Plane, within: f64) -> Option<Plane> {
     let on: Vec<&Surfel> = surfels.iter().filter(|s| plane.holds(s, within)).collect();
     let count = on.len() as f64;
     let mean = on.iter().map(|s| s.p).sum::<Vector3<f64>>() / count.max(1.0);
-    let scatter = on.iter().map(|s| (s.p - mean) * (s.p - mean).transpose()).sum::<nalgebra::Matrix3<f64>>();
+    let scatter =
+        on.iter().map(|s| (s.p - mean) * (s.p - mean).transpose()).sum::<nalgebra::Matrix3<f64>>();
     let eigen = scatter.symmetric_eigen();
     let n = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned();
     let n = if n.dot(&plane.n) < 0.0 { -n } else { n };

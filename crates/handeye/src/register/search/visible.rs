@@ -90,13 +90,15 @@ impl RangeImage {
 /// Between the rays of neighbours, from their number and where they lie; `None` of too few.
 fn spacing(surfels: &[Surfel]) -> Option<f64> {
     // area of surfels as seen, by how many coarse cells hold some
-    let all: Vec<Vector2<f64>> = surfels.iter().filter(|s| s.p.z > 0.0).map(|s| s.p.xy() / s.p.z).collect();
+    let all: Vec<Vector2<f64>> =
+        surfels.iter().filter(|s| s.p.z > 0.0).map(|s| s.p.xy() / s.p.z).collect();
     let low = all.iter().copied().reduce(|a, b| a.inf(&b))?;
     let high = all.iter().copied().reduce(|a, b| a.sup(&b))?;
     let mut apart = ((high - low).x * (high - low).y / all.len() as f64).sqrt();
     for _ in 0..4 {
         let edge = 3.0 * apart;
-        let mut cells: Vec<[i32; 2]> = all.iter().map(|d| ((d - low) / edge).map(|x| x as i32).into()).collect();
+        let mut cells: Vec<[i32; 2]> =
+            all.iter().map(|d| ((d - low) / edge).map(|x| x as i32).into()).collect();
         cells.sort_unstable();
         cells.dedup();
         apart = edge * (cells.len() as f64 / all.len() as f64).sqrt();
