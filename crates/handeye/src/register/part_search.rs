@@ -19,7 +19,7 @@ use crate::Error;
 /// Matches are looked for within so many times the spread of a window.
 const NEARBY: f64 = 3.0;
 /// Less of the scan within the part's box must not lie on the part.
-const EXPLAINED: f64 = 0.82;
+const EXPLAINED: f64 = 0.8;
 /// More of the part's visible surface must not be seen through.
 const CONTRADICTED: f64 = 0.12;
 /// More of the part's visible surface must not be missing in the scan.
@@ -49,6 +49,9 @@ pub fn registered(
     };
     let start = best.target_from_source;
     let gate = config.max_correspondence_distance_m.min(NEARBY * source.spread.max(target.spread));
+    // a scan of much else is registered where the part is
+    let cropped = search.cropped(source, &start);
+    let source = cropped.as_ref().unwrap_or(source);
     let mut descent = Descent::new(source, target, config);
     let reached = rivals::answers(&descent, &[start], None, gate)?;
     let mut found = refined(&mut descent, &reached[0].reached, &start, gate)?;

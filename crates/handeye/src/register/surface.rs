@@ -39,6 +39,8 @@ pub struct Surface {
     pub(super) corners: [Vector3<f64>; 8],
     /// Whether normals point to the side from which the surface was seen, or of a closed mesh outwards.
     pub(super) is_facing: bool,
+    /// Share of the windows that were left by [`cropped`](Self::cropped).
+    kept: f64,
     /// Windows along a row, of an organised scan.
     columns: Option<usize>,
     finder: Finder,
@@ -47,6 +49,7 @@ pub struct Surface {
 }
 
 /// How windows near a place are found.
+#[derive(Clone)]
 enum Finder {
     /// In the direction from the camera.
     Camera(GridView),
@@ -72,6 +75,22 @@ impl Surface {
         let finder = Finder::Nearest(KdTree::new(&means(&patches)));
         let surface = Self { is_facing: mesh.is_closed(), ..Self::new(patches, finder, None) };
         Ok(Some(surface).filter(Self::has_enough))
+    }
+
+    /// Without the windows whose mean is elsewhere; `None` where too few are left.
+    pub(super) fn cropped(&self, is_kept: impl Fn(&Vector3<f64>) -> bool) -> Option<Self> {
+        let keep = |patch: &Option<Patch>| patch.filter(|p| is_kept(&p.mean));
+        let patches: Vec<Option<Patch>> = self.patches.iter().map(keep).collect();
+        let [all, left] =
+            [&self.patches, &patches].map(|some| some.iter().flatten().count() as f64);
+        let own = Self {
+            spread: self.spread,
+            is_facing: self.is_facing,
+            kept: left / all.max(1.0),
+            outlook: self.outlook.clone(),
+            ..Self::new(patches, self.finder.clone(), self.columns)
+        };
+        Some(own).filter(Self::has_enough)
     }
 
     fn has_enough(&self) -> bool {
@@ -119,7 +138,8 @@ impl Surface {
         let middle = sum / count.max(1.0);
         let corners = corners(&patches);
         let is_facing = columns.is_some();
-        Self { patches, middle, spread, corners, is_facing, columns, finder, outlook: None }
+        let (kept, outlook) = (1.0, None);
+        Self { patches, middle, spread, corners, is_facing, kept, columns, finder, outlook }
     }
 
     /// A window near a place, the nearest or that in the same direction.
@@ -190,7 +210,7 @@ impl Surface {
 
     /// The stride at which there are about so many windows.
     pub(super) fn stride(&self, count: f64) -> usize {
-        (self.patches.len() as f64 / count).sqrt().ceil().max(1.0) as usize
+        (self.kept * self.patches.len() as f64 / count).sqrt().ceil().max(1.0) as usize
     }
 
     /// Of the farthest window from the middle, m.

@@ -27,8 +27,7 @@ fn prism(corners: &[[f64; 2]], pieces: &[[u32; 4]], height: f64) -> TriangleMesh
 
 /// An angle of unequal legs, cut off at one end.
 fn angle() -> TriangleMesh {
-    let corners =
-        [[0.0, 0.0], [80.0, 0.0], [80.0, 18.0], [22.0, 18.0], [22.0, 50.0], [0.0, 38.0]];
+    let corners = [[0.0, 0.0], [80.0, 0.0], [80.0, 18.0], [22.0, 18.0], [22.0, 50.0], [0.0, 38.0]];
     prism(&corners, &[[0, 1, 2, 3], [0, 3, 4, 5]], 30.0)
 }
 

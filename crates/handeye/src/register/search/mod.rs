@@ -44,6 +44,8 @@ const SCORING: usize = 90;
 const ALIGNING: (usize, usize) = (160, 700);
 /// Walls of the scan.
 const WALLS: usize = 140;
+/// Spread of a window of three surfels, over their distance.
+const SPREAD: f64 = 0.866;
 /// Proposals that are aligned.
 const ALIGNED: usize = 1400;
 /// Places that are aligned again.
@@ -58,6 +60,8 @@ const APART: f64 = 0.06;
 const WITHIN: [f64; 3] = [0.06, 0.015, 0.008];
 /// ... and no farther aside.
 const ASIDE: [f64; 3] = [0.1, 0.05, 0.05];
+/// The scan is registered within this margin of the part's box.
+const NEAR: f64 = 0.05;
 /// In the end they may be so many times the scatter of the scan's points apart.
 const SCATTERED: f64 = 3.0;
 /// Limits of matches in the steps of alignment.
@@ -96,6 +100,9 @@ pub struct Search {
     seen: Vec<Surfel>,
     walls: Vec<Surfel>,
     planes: Vec<Plane>,
+    /// Ends of the part's box.
+    low: Vector3<f64>,
+    high: Vector3<f64>,
     radius: f64,
     noise: f64,
     has_camera: bool,
@@ -116,7 +123,10 @@ impl Search {
         let kept = thinned(&seen, SCAN_APART * radius);
         let within = (SCATTERED * noise).max(WITHIN[2] * radius);
         let (planes, kept) = planes::removed(&kept, 2.0 * radius, within);
-        let walls = edges::walls(&kept, SCAN_APART * radius);
+        let apart = scan.spread / SPREAD;
+        let is_high = |s: &&Surfel| planes.iter().all(|p| p.height(&s.p).abs() >= within);
+        let high: Vec<Surfel> = seen.iter().filter(is_high).copied().collect();
+        let walls = edges::walls(&high, apart);
         Some(Self {
             part: thinned(&all, PART_APART * radius),
             coarse: thinned(&all, COARSE * radius),
@@ -125,6 +135,8 @@ impl Search {
             seen,
             walls: even(&walls, WALLS),
             planes,
+            low: all.iter().map(|s| s.p).reduce(|a, b| a.inf(&b))?,
+            high: all.iter().map(|s| s.p).reduce(|a, b| a.sup(&b))?,
             radius,
             noise,
             has_camera,
@@ -248,6 +260,22 @@ impl Search {
         self.part.iter().step_by(step).map(between).fold(0.0, f64::max)
     }
 
+    /// Whether a place of the scan is in the box around the part, or within a margin (m) of it.
+    fn is_in_box(&self, part_from_scan: &Isometry3<f64>, p: &Vector3<f64>, margin: f64) -> bool {
+        let p = part_from_scan.transform_point(&(*p).into()).coords;
+        let margin = Vector3::repeat(margin);
+        (p - self.low + margin).min() >= 0.0 && (self.high + margin - p).min() >= 0.0
+    }
+
+    /// The scan near a place of the part, if it is the source.
+    pub fn cropped(&self, source: &Surface, at: &Isometry3<f64>) -> Option<Surface> {
+        let margin = NEAR * self.radius;
+        let is_near = |p: &Vector3<f64>| self.is_in_box(at, p, margin);
+        let is_high =
+            |p: &Vector3<f64>| self.planes.iter().all(|plane| plane.height(p) > self.within());
+        self.scan_is_source.then(|| source.cropped(|p| is_near(p) && is_high(p))).flatten()
+    }
+
     /// The part's radius, m.
     pub fn radius(&self) -> f64 {
         self.radius
@@ -273,13 +301,7 @@ impl Search {
 
     fn evidence_of(&self, scene: &Scene, field: &Field, at: &Isometry3<f64>) -> Evidence {
         let score = scene.score(field, at, self.within(), ASIDE[2] * self.radius);
-        let low = self.part.iter().map(|s| s.p).reduce(|a, b| a.inf(&b)).unwrap_or_default();
-        let high = self.part.iter().map(|s| s.p).reduce(|a, b| a.sup(&b)).unwrap_or_default();
-        let margin = Vector3::repeat(self.within());
-        let is_inside = |s: &&Surfel| {
-            let p = at.transform_point(&s.p.into()).coords;
-            (p - low + margin).min() >= 0.0 && (high + margin - p).min() >= 0.0
-        };
+        let is_inside = |s: &&Surfel| self.is_in_box(at, &s.p, self.within());
         let inside = self.scan.iter().filter(is_inside).count().max(1) as f64;
         let should = (score.seen + score.contradicted + score.missing).max(1.0);
         Evidence {
