@@ -64,3 +64,42 @@ fn surfel(held: &Held, edge: f64) -> Option<Patch> {
         count: 9.0 * held.count,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A plate of 60 x 40 mm, this thick (mm), its triangles seen from outside.
+    fn plate(thick: f32) -> TriangleMesh {
+        let ends = [[0.0; 3], [0.06, 0.04, 1e-3 * thick]];
+        let at = |k: usize| std::array::from_fn(|a| ends[k >> a & 1][a]);
+        let sides =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
+        TriangleMesh::new((0..8).map(at).collect(), triangles.collect()).unwrap()
+    }
+
+    #[test]
+    fn both_sides_of_a_thin_sheet_have_their_own_surfels() {
+        let surfels = patches(&plate(0.8), 4e-4).unwrap();
+        let facing = |sign: f64| {
+            let all = surfels.iter().flatten();
+            all.filter(|p| p.normal.z * sign > 0.9).map(|p| p.mean.z).collect::<Vec<_>>()
+        };
+        let (upper, lower) = (facing(1.0), facing(-1.0));
+        assert!(upper.len() > 500 && lower.len() > 500, "{} {}", upper.len(), lower.len());
+        assert!(upper.iter().all(|z| (z - 8e-4).abs() < 1e-6));
+        assert!(lower.iter().all(|z| z.abs() < 1e-6));
+    }
+
+    #[test]
+    fn a_mesh_with_a_hole_or_inside_out_does_not_say_where_outside_is() {
+        let whole = plate(2.0);
+        assert!(whole.is_closed());
+        let (vertices, triangles) = (whole.vertices().to_vec(), whole.triangles().to_vec());
+        let open = TriangleMesh::new(vertices.clone(), triangles[..10].to_vec()).unwrap();
+        assert!(!open.is_closed());
+        let inside_out = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+        assert!(!TriangleMesh::new(vertices, inside_out).unwrap().is_closed());
+    }
+}

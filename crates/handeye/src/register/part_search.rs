@@ -23,7 +23,7 @@ const EXPLAINED: f64 = 0.8;
 /// More of the part's visible surface must not be seen through.
 const CONTRADICTED: f64 = 0.12;
 /// More of the part's visible surface must not be missing in the scan.
-const MISSING: f64 = 0.35;
+const MISSING: f64 = 0.2;
 /// Refinement must not move the part by more than this share of its radius, ...
 const MOVED: f64 = 0.04;
 /// ... nor leave less than this share of what was explained.

@@ -132,7 +132,7 @@ fn a_part_that_is_not_there_is_refused() {
         let scan = Surface::of(&scan(&shown, &truth, &mut Random::new(5)), 1).unwrap();
         let part = Surface::of_mesh(&searched, SPACING).unwrap().unwrap();
         let answer = found(&part, &scan, 1);
-        assert_eq!(answer.verdict, Verdict::Rejected, "{:?}", answer.reasons);
+        assert_eq!(answer.verdict, Verdict::Rejected, "{answer:?}");
     }
 }
 

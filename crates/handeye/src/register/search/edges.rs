@@ -59,3 +59,22 @@ fn widest_gap(angles: &mut [f64]) -> Option<f64> {
     let widest = (0..angles.len()).map(gap).max_by(|a, b| a.0.total_cmp(&b.0))?;
     (widest.0 > GAP).then_some(widest.1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rim_of_a_plate_stands_for_walls_that_face_outwards() {
+        let at = |k: usize| Vector3::new((k % 40) as f64 * 1e-3, (k / 40) as f64 * 1e-3, 0.5);
+        let plate: Vec<Surfel> = (0..1200).map(|k| Surfel { p: at(k), n: -Vector3::z() }).collect();
+        let walls = walls(&plate, 1e-3);
+        assert!((120..=140).contains(&walls.len()), "{}", walls.len());
+        let middle = Vector3::new(0.0195, 0.0145, 0.5);
+        for wall in &walls {
+            assert!(wall.n.z.abs() < 1e-9 && wall.n.dot(&(wall.p - middle)) > 0.0, "{wall:?}");
+        }
+        let straight = walls.iter().filter(|w| w.n.x.abs().max(w.n.y.abs()) > 0.99).count();
+        assert!(straight > 100, "{straight}");
+    }
+}

@@ -96,3 +96,32 @@ impl<'a> Field<'a> {
         (k != NOWHERE).then(|| &self.surfels[k as usize])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two sides of a sheet, 1 mm apart.
+    fn sheet() -> Vec<Surfel> {
+        let side = |z: f64, n: f64| {
+            (0..400).map(move |k| Surfel {
+                p: Vector3::new((k % 20) as f64, (k / 20) as f64, z) * 1e-3,
+                n: Vector3::z() * n,
+            })
+        };
+        side(0.0, -1.0).chain(side(1.0, 1.0)).collect()
+    }
+
+    #[test]
+    fn the_side_of_a_sheet_that_faces_the_same_way_is_found() {
+        let surfels = sheet();
+        let field = Field::new(&surfels, 1e-3, 3e-3, true);
+        let p = Vector3::new(7.2e-3, 9.1e-3, 0.4e-3);
+        for sign in [1.0, -1.0] {
+            let found = field.find(&p, &(Vector3::z() * sign)).unwrap();
+            assert!(found.n.z * sign > 0.9 && (found.p - p).xy().norm() < 1e-3, "{found:?}");
+        }
+        assert!(field.find(&p, &Vector3::x()).is_none());
+        assert!(field.find(&Vector3::repeat(0.05), &Vector3::z()).is_none());
+    }
+}

@@ -60,6 +60,8 @@ const APART: f64 = 0.06;
 const WITHIN: [f64; 3] = [0.06, 0.015, 0.008];
 /// ... and no farther aside.
 const ASIDE: [f64; 3] = [0.1, 0.05, 0.05];
+/// What is flush with a face of the part within this distance of the part's box should have been of the part.
+const BESIDE: f64 = 0.25;
 /// The scan is registered within this margin of the part's box.
 const NEAR: f64 = 0.05;
 /// In the end they may be so many times the scatter of the scan's points apart.
@@ -79,7 +81,7 @@ pub struct Place {
 /// What speaks for a place and against it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Evidence {
-    /// Share of the scan within the part's box that lies on the part.
+    /// Share of the scan within the part's box, or flush with it beside the box, that lies on the part.
     pub explained: f64,
     /// Share of the scan that lies on the part, but for what is on planes wider than the part.
     pub of_scan: f64,
@@ -122,7 +124,7 @@ impl Search {
         let has_camera = scan.has_camera();
         let kept = thinned(&seen, SCAN_APART * radius);
         let within = (SCATTERED * noise).max(WITHIN[2] * radius);
-        let (planes, kept) = planes::removed(&kept, 2.0 * radius, within);
+        let (planes, kept) = planes::removed(&kept, 2.0 * radius, within, has_camera);
         let apart = scan.spread / SPREAD;
         let is_high = |s: &&Surfel| planes.iter().all(|p| p.height(&s.p).abs() >= within);
         let high: Vec<Surfel> = seen.iter().filter(is_high).copied().collect();
@@ -267,6 +269,18 @@ impl Search {
         (p - self.low + margin).min() >= 0.0 && (self.high + margin - p).min() >= 0.0
     }
 
+    /// Whether a surfel of the scan is beside the part's box, and goes on from a face of the part where it ends.
+    fn continues(&self, field: &Field, part_from_scan: &Isometry3<f64>, s: &Surfel) -> bool {
+        if !self.is_in_box(part_from_scan, &s.p, BESIDE * self.radius) {
+            return false;
+        }
+        let (r, t) = shape::parts(part_from_scan);
+        let s = s.moved(&r, &t);
+        let at_end = s.p.sup(&self.low).inf(&self.high);
+        let found = field.find(&at_end, &s.n);
+        found.is_some_and(|end| (s.p - end.p).dot(&end.n).abs() < self.within())
+    }
+
     /// The scan near a place of the part, if it is the source.
     pub fn cropped(&self, source: &Surface, at: &Isometry3<f64>) -> Option<Surface> {
         let margin = NEAR * self.radius;
@@ -301,7 +315,8 @@ impl Search {
 
     fn evidence_of(&self, scene: &Scene, field: &Field, at: &Isometry3<f64>) -> Evidence {
         let score = scene.score(field, at, self.within(), ASIDE[2] * self.radius);
-        let is_inside = |s: &&Surfel| self.is_in_box(at, &s.p, self.within());
+        let is_inside =
+            |s: &&Surfel| self.is_in_box(at, &s.p, self.within()) || self.continues(field, at, s);
         let inside = self.scan.iter().filter(is_inside).count().max(1) as f64;
         let should = (score.seen + score.contradicted + score.missing).max(1.0);
         Evidence {

@@ -116,3 +116,31 @@ fn axes(a: &Vector3<f64>, b: &Vector3<f64>) -> Option<Matrix3<f64>> {
     let y = (a - b).try_normalize(1e-6)?;
     Some(Matrix3::from_columns(&[x, y, x.cross(&y)]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{lie, register::search::shape::parts, simulate::Random};
+
+    #[test]
+    fn a_pair_that_was_moved_has_the_same_key_and_tells_the_motion() {
+        let mut random = Random::new(7);
+        for _ in 0..50 {
+            let surfel = |random: &mut Random| Surfel {
+                p: random.normal3() * 0.02,
+                n: random.normal3().normalize(),
+            };
+            let pair = [surfel(&mut random), surfel(&mut random)];
+            let truth = Isometry3::new(random.normal3(), random.normal3());
+            let (r, t) = parts(&truth);
+            let moved = pair.map(|s| s.moved(&r, &t));
+            let Some(before) = key(&pair[0], &pair[1], 0.15, true) else { continue };
+            let after = key(&moved[0], &moved[1], 0.15, true).unwrap();
+            assert!(before.iter().zip(after).all(|(a, b)| a.abs_diff(b) <= 1));
+            let found = poses(pair, moved, true);
+            assert_eq!(found.len(), 1);
+            let off = lie::log(&truth.inv_mul(&found[0]));
+            assert!(off.norm() < 1e-6, "{off}");
+        }
+    }
+}

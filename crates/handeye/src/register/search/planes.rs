@@ -9,6 +9,8 @@ use super::shape::Surfel;
 
 /// Surfels from which planes are proposed.
 const PROPOSING: usize = 120;
+/// Planes that are looked at, those with most surfels first.
+const TRIED: usize = 5;
 /// Most planes.
 const MOST: usize = 3;
 /// A plane's surfels agree within 14 degrees.
@@ -37,16 +39,22 @@ impl Plane {
     }
 }
 
-/// Planes wider than the part, and the surfels that lie on none. Surfels lie on a plane within a distance, m.
-pub fn removed(surfels: &[Surfel], diameter: f64, within: f64) -> (Vec<Plane>, Vec<Surfel>) {
+/// Planes wider than the part, and the surfels that lie on none. Surfels lie on a plane within a distance, m. Where
+/// normals point to the camera, they tell the upper side of a plane.
+pub fn removed(
+    surfels: &[Surfel],
+    diameter: f64,
+    within: f64,
+    has_camera: bool,
+) -> (Vec<Plane>, Vec<Surfel>) {
     let (mut planes, mut left) = (vec![], surfels.to_vec());
     while planes.len() < MOST {
         let Some(plane) = widest(&left, diameter, within, surfels.len()) else { break };
         left.retain(|s| plane.height(&s.p).abs() >= within);
         planes.push(plane);
     }
-    // most of what stands on a plane is seen on its upper side
-    for plane in &mut planes {
+    // else, most of what stands on a plane is on its upper side
+    for plane in planes.iter_mut().filter(|_| !has_camera) {
         let above = left.iter().filter(|s| plane.height(&s.p) > 0.0).count();
         if 2 * above < left.len() {
             *plane = Plane { n: -plane.n, d: -plane.d };
@@ -55,15 +63,34 @@ pub fn removed(surfels: &[Surfel], diameter: f64, within: f64) -> (Vec<Plane>, V
     (planes, left)
 }
 
+/// Of the planes with most surfels, the first that is wide.
 fn widest(surfels: &[Surfel], diameter: f64, within: f64, all: usize) -> Option<Plane> {
     let step = (surfels.len() / PROPOSING).max(1);
     let proposed = surfels.iter().step_by(step).map(|s| Plane { n: s.n, d: s.n.dot(&s.p) });
     let held = |plane: &Plane| surfels.iter().filter(|s| plane.holds(s, 2.0 * within)).count();
-    let best = proposed.map(|plane| (held(&plane), plane)).max_by_key(|found| found.0)?;
-    let plane = fitted(surfels, fitted(surfels, best.1, 2.0 * within)?, within)?;
+    let mut counted: Vec<(usize, Plane)> = proposed.map(|plane| (held(&plane), plane)).collect();
+    counted.sort_by_key(|found| std::cmp::Reverse(found.0));
+    let mut tried: Vec<Plane> = vec![];
+    for (_, proposed) in counted {
+        let is_new =
+            |t: &Plane| (t.d - proposed.d).abs() > 4.0 * within || t.n.dot(&proposed.n) < ALIKE;
+        if tried.len() == TRIED || !tried.iter().all(is_new) {
+            continue;
+        }
+        tried.push(proposed);
+        if let Some(plane) = fitted(surfels, proposed, 2.0 * within)
+            .and_then(|plane| fitted(surfels, plane, within))
+            .filter(|plane| is_wide(surfels, plane, diameter, within, all))
+        {
+            return Some(plane);
+        }
+    }
+    None
+}
+
+fn is_wide(surfels: &[Surfel], plane: &Plane, diameter: f64, within: f64, all: usize) -> bool {
     let on: Vec<&Surfel> = surfels.iter().filter(|s| plane.holds(s, within)).collect();
-    let is_large = on.len() as f64 > LARGE * all as f64;
-    (is_large && extent(&on, &plane.n) > WIDER * diameter).then_some(plane)
+    on.len() as f64 > LARGE * all as f64 && extent(&on, &plane.n) > WIDER * diameter
 }
 
 /// The plane through the surfels on it.
@@ -92,4 +119,33 @@ fn extent(on: &[&Surfel], n: &Vector3<f64>) -> f64 {
         all[all.len() - 1 - beyond] - all[beyond]
     };
     (0..8).map(along).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Surfels of a square of this side (m) at this height.
+    fn square(side: f64, z: f64) -> impl Iterator<Item = Surfel> {
+        (0..900).map(move |k| {
+            let at = |n: usize| (n as f64 / 29.0 - 0.5) * side;
+            Surfel { p: Vector3::new(at(k % 30), at(k / 30), z), n: -Vector3::z() }
+        })
+    }
+
+    #[test]
+    fn a_table_is_taken_away_and_the_top_of_the_part_stays() {
+        // seen from below along z: the table is behind the part
+        let all: Vec<Surfel> = square(0.5, 0.6).chain(square(0.1, 0.57)).collect();
+        let (planes, left) = removed(&all, 0.15, 1e-3, true);
+        assert_eq!((planes.len(), left.len()), (1, 900));
+        assert!((planes[0].height(&left[0].p) - 0.03).abs() < 1e-9, "{planes:?}");
+    }
+
+    #[test]
+    fn a_side_of_the_part_is_no_table() {
+        let all: Vec<Surfel> = square(0.1, 0.57).collect();
+        let (planes, left) = removed(&all, 0.15, 1e-3, true);
+        assert_eq!((planes.len(), left.len()), (0, 900));
+    }
 }

@@ -105,3 +105,22 @@ fn spacing(surfels: &[Surfel]) -> Option<f64> {
     }
     (apart.is_finite() && apart > 0.0).then_some(apart)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_in_front_of_a_scan_contradicts_it_and_what_is_behind_is_hidden() {
+        let at = |n: usize| (n as f64 - 24.5) * 2e-3;
+        let wall: Vec<Surfel> = (0..2500)
+            .map(|k| Surfel { p: Vector3::new(at(k % 50), at(k / 50), 0.5), n: -Vector3::z() })
+            .collect();
+        let view = RangeImage::new(&wall).unwrap();
+        let sight = |x: f64, z: f64| view.sight(&Vector3::new(x, 0.003, z), 1e-3);
+        assert_eq!(sight(0.01, 0.5003), Sight::Seen);
+        assert_eq!(sight(0.01, 0.48), Sight::Contradicted);
+        assert_eq!(sight(0.01, 0.52), Sight::Hidden);
+        assert_eq!(sight(0.2, 0.48), Sight::Missing);
+    }
+}
