@@ -4,11 +4,12 @@
     cargo build --release -p handeye-cli
     python bench/search/run.py                        1000 scenes: writes its section of BENCHMARK.md
     python bench/search/run.py --seeds 0 2 --dry      80 scenes, prints only
+    python bench/search/run.py --compared 25          the peer on all of them, and not on the first 80 alone: two hours more
     python bench/search/run.py --folder DIR           keeps the scenes there
     python bench/search/run.py --rows rows.json       keeps what each scene gave
 
 Forty kinds of parts; a scene is a scan of one of them from one side and the part itself, as files. The run takes half
-an hour of two processors.
+an hour of two processors, ten minutes of it for the peer.
 """
 
 import os
@@ -137,7 +138,7 @@ def run(job):
            "error": error, "s": spent, "verdict": answer["verdict"], "reasons": answer["reasons"],
            "sizes": {key: answer.get(key) for key in ("inlier_fraction", "agreement", "rms_mm", "explained", "seconds")},
            "places": len(answer.get("places") or [])}
-    if not options.alone and not scene.absent:
+    if seed < options.seeds[0] + options.compared and not scene.absent:
         found, row["peer_s"] = peer(scene, options.voxel)
         row["peer_error"] = scene.error(found)
         row["peer"] = "right" if is_right(row["peer_error"]) else "wrong"
@@ -151,7 +152,7 @@ def table(head, rows):
     return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head), *("| " + " | ".join(row) + " |" for row in rows), ""]
 
 
-def counted(name, rows):
+def counted(name, rows, is_compared):
     there = [row for row in rows if not row["absent"]]
     outcomes = collections.Counter(row["outcome"] for row in there)
     absent = collections.Counter(row["outcome"] for row in rows if row["absent"])
@@ -159,10 +160,14 @@ def counted(name, rows):
     cells = [name, str(len(there)), str(outcomes["right"]), str(outcomes["listed"]), str(outcomes["refused"]),
              f"{absent['refused'] + absent['listed']} of {sum(absent.values())}", f"**{wrong}**" if wrong else "0",
              f"{np.mean([row['s'] for row in rows]):.2f}"]
-    with_peer = [row for row in there if "peer" in row]
-    if with_peer:
-        right = sum(row["peer"] == "right" for row in with_peer)
-        cells += [f"{right}", f"{np.mean([row['peer_s'] for row in with_peer]):.2f}"]
+    both = [row for row in there if "peer" in row]
+    if both:
+        own = collections.Counter(row["outcome"] for row in both)
+        right = sum(row["peer"] == "right" for row in both)
+        cells += [f"{own['right']} + {own['listed']} of {len(both)}", f"{np.mean([row['s'] for row in both]):.2f}",
+                  f"{right} of {len(both)}", f"{np.mean([row['peer_s'] for row in both]):.2f}"]
+    elif is_compared:
+        cells += ["", "", "", ""]
     return cells
 
 
@@ -180,13 +185,14 @@ def groups(rows):
 
 def lines(rows, options):
     head = ["scenes", "with the part", "right", "listed", "refused", "refused without it", "wrong", "s"]
-    if any("peer" in row for row in rows):
-        head += ["Open3D right", "s"]
+    is_compared = any("peer" in row for row in rows)
+    if is_compared:
+        head += ["beside Open3D: right + listed", "s", "Open3D right", "s"]
     seeds = "seeds {} to {}".format(options.seeds[0], options.seeds[1] - 1)
     setting = SETTING.format(count=len(rows), seeds=seeds, voxel=100 * options.voxel)
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("open3d", "trimesh", "manifold3d"))
     return ["## Search without an initial guess", "", *setting.splitlines(), "", f"Written by `bench/search/run.py` with {versions}.", "",
-            *table(head, [counted(name, some) for name, some in groups(rows) if some])]
+            *table(head, [counted(name, some, is_compared) for name, some in groups(rows) if some])]
 
 
 def write_section(lines):
@@ -204,7 +210,7 @@ def main():
     parser.add_argument("--kinds", type=int, nargs="*", default=range(len(parts.KINDS)), help="these alone")
     parser.add_argument("--program", default=str(PROGRAM), help="of handeye")
     parser.add_argument("--voxel", type=float, default=VOXEL, help="of the peer, as a share of the part's radius")
-    parser.add_argument("--alone", action="store_true", help="without the peer")
+    parser.add_argument("--compared", type=int, default=2, help="seeds of each kind at which the peer runs as well")
     parser.add_argument("--folder", type=pathlib.Path, help="keep the scenes there")
     parser.add_argument("--rows", type=pathlib.Path, help="keep the rows there")
     parser.add_argument("--workers", type=int, default=2)
