@@ -292,7 +292,7 @@ pub struct DetectArgs {
 /// Arguments of `register`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register scan.zdf part.stl --length-unit mm\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n  handeye register scan.ply reference.ply --report registration.html\n\n\
+    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register scan.zdf part.stl --length-unit mm --global\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n  handeye register scan.ply reference.ply --report registration.html\n\n\
 target_from_source takes points of SOURCE into TARGET; so does --initial, and the answer contains it.\n\
 guess.json: {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}, or a matrix of 4 rows.\n\n\
 Exit code 0: accepted; 3: rejected, or not determined by what both scans show."
@@ -309,7 +309,8 @@ pub struct RegisterArgs {
     /// JSON file with the start [default: both scans lie as they are; see --global].
     #[arg(long)]
     pub initial: Option<PathBuf>,
-    /// Look for the source everywhere in the target, without a start.
+    /// Search for the source everywhere in the target, without an initial guess. A symmetric part is answered with all
+    /// of its places.
     #[arg(long, conflicts_with = "initial")]
     pub global: bool,
     /// Surfaces farther apart are not compared; about how far the start may be off [default: 50].

@@ -12,11 +12,11 @@ use handeye::{
     register::{DenseConfig, DenseMethod, Surface, register_surfaces},
 };
 use handeye_io::{
-    Error, RegistrationResult, ScanOptions, Transform, is_mesh, points_on, read_intrinsics,
-    read_mesh, read_scan,
+    Error, FoundPlace, RegistrationResult, ScanOptions, Transform, is_mesh, points_on,
+    read_intrinsics, read_mesh, read_scan,
     report::{NamedCloud, Registration, registration_html},
     robot::rotation_near,
-    scan_size, scan_unit,
+    scan_size, scan_unit, spacing_on,
     units::LengthUnit,
     write_atomically,
 };
@@ -93,7 +93,7 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     let source = read(&args.source, &args.reading, &mut warnings)?;
     let target = read(&args.target, &args.reading, &mut warnings)?;
     let read = began.elapsed();
-    let surfaces = surfaces([(&source, &args.source), (&target, &args.target)], &config)?;
+    let surfaces = [surface(&source, config.threads)?, surface(&target, config.threads)?];
     let prepared = began.elapsed();
     let found = register_surfaces(&surfaces[0], &surfaces[1], &start, &config);
     if found.verdict == Verdict::Rejected && args.initial.is_none() && !args.global {
@@ -107,8 +107,8 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     };
     if let Some(page) = &args.report {
         let html = registration_html(&Registration {
-            source: NamedCloud { name: &name_of(&args.source), points: source.points() },
-            target: NamedCloud { name: &name_of(&args.target), points: target.points() },
+            source: NamedCloud { name: &name_of(&args.source), points: source.scan.points() },
+            target: NamedCloud { name: &name_of(&args.target), points: target.scan.points() },
             start,
             found: &found,
             method,
@@ -119,7 +119,7 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         });
         write_atomically(page, html.as_bytes())?;
     }
-    let points = [&source, &target].map(|scan| seen(scan.points()).count());
+    let points = [&source, &target].map(|input| seen(input.scan.points()).count());
     let found = RegistrationResult::from(&found);
     let answer = Answer { found, method, points, seconds, warnings };
     if manners.json {
@@ -153,18 +153,17 @@ fn config(args: &RegisterArgs) -> Result<DenseConfig, Failure> {
     })
 }
 
-fn surfaces(scans: [(&Scan, &PathBuf); 2], config: &DenseConfig) -> Result<Vec<Surface>, Failure> {
-    let none = |path: &Path| {
-        Failure::input(
-            path,
-            "shows no surface: its points are too few, lie on a line, or lie far from all others",
-        )
+fn surface(input: &Input, threads: usize) -> Result<Surface, Failure> {
+    let found = match &input.mesh {
+        Some(mesh) => Surface::of_mesh(mesh, spacing_on(mesh))
+            .map_err(|error| Failure::input(input.path, error.to_string()))?,
+        None => Surface::of(&input.scan, threads),
     };
-    Surface::of_all(&scans.map(|scan| scan.0), config.threads)
-        .into_iter()
-        .zip(scans)
-        .map(|(surface, (_, path))| surface.ok_or_else(|| none(path)))
-        .collect()
+    found.ok_or_else(|| {
+        let what =
+            "shows no surface: its points are too few, lie on a line, or lie far from all others";
+        Failure::input(input.path, what)
+    })
 }
 
 /// A page that would take the place of what it shows is refused.
@@ -227,13 +226,25 @@ pub fn initial(path: &Path) -> Result<Isometry3<f64>, Failure> {
     Ok(Isometry3::from_parts(Translation3::from(nalgebra::Vector3::from(t)), rotation))
 }
 
-/// Reads a scan, or a mesh as points laid over it, in the unit that was said or that its width tells.
-fn read(path: &Path, args: &Reading, warnings: &mut Vec<Warning>) -> Result<Scan, Failure> {
+/// A scan, or points laid over a mesh.
+struct Input<'a> {
+    path: &'a Path,
+    scan: Scan,
+    mesh: Option<TriangleMesh>,
+}
+
+/// Reads a scan, or a mesh, in the unit that was said or that its width tells.
+fn read<'a>(
+    path: &'a Path,
+    args: &Reading,
+    warnings: &mut Vec<Warning>,
+) -> Result<Input<'a>, Failure> {
     if !is_mesh(path) {
-        return read_points(path, args, warnings);
+        return Ok(Input { path, scan: read_points(path, args, warnings)?, mesh: None });
     }
     let mesh = read_triangles(path, args, warnings)?;
-    points_on(&mesh).map_err(|error| Failure::input(path, error.to_string()))
+    let scan = points_on(&mesh).map_err(|error| Failure::input(path, error.to_string()))?;
+    Ok(Input { path, scan, mesh: Some(mesh) })
 }
 
 /// Reads a scan.
@@ -345,6 +356,7 @@ fn text(a: &Answer) -> String {
         "\ntarget from source\n  translation  {}   mm\n  quaternion   {q}   x y z w\n",
         three(&pose.translation_m.map(|x| 1e3 * x))
     );
+    text += &places(&a.found.places);
     if let (Some(mm), Some(deg)) = (&a.found.sigma_mm, &a.found.sigma_deg) {
         text += &format!(
             "  one sigma    {}   mm\n               {}   deg, in the source's axes\n",
@@ -363,11 +375,12 @@ fn text(a: &Answer) -> String {
     text + &output::wrapped(
         "",
         &format!(
-            "{:.0} % of the source lies on the target, {:.3} mm apart (RMS); where both show something, \
-             {:.1} % agree. {} rounds ({}). Read in {:.2} s, prepared in {:.2} s, registered in {:.2} s.",
+            "{:.0} % of the source lies on the target, with an RMS residual of {:.3} mm (matches, without \
+             outliers); where both show something, {:.1} % agree.{} {} rounds ({}). Read in {:.2} s, prepared in {:.2} s, registered in {:.2} s.",
             100.0 * a.found.inlier_fraction,
             rms,
             100.0 * a.found.agreement,
+            explained(a.found.explained),
             a.found.iterations,
             a.found.stop,
             a.seconds.read,
@@ -375,6 +388,29 @@ fn text(a: &Answer) -> String {
             a.seconds.iterate,
         ),
     )
+}
+
+/// Those after the first, which is the answer.
+fn places(all: &[FoundPlace]) -> String {
+    let row = |place: &FoundPlace| {
+        let Transform { translation_m, rotation_xyzw } = &place.target_from_source;
+        let t = translation_m.map(|x| format!("{:10.3}", 1e3 * x)).join("");
+        let q = rotation_xyzw.map(|x| format!("{x:10.5}")).join("");
+        format!("  {t}{q}\n")
+    };
+    if all.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\nequally good places: mm; x y z w\n{}\n",
+        all.iter().skip(1).map(row).collect::<String>()
+    )
+}
+
+fn explained(share: Option<f64>) -> String {
+    share.map_or(String::new(), |share| {
+        format!(" Of the scan in the part's box, {:.0} % lies on the part.", 100.0 * share)
+    })
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use handeye::{
     quaternion_xyzw,
     register::{Dense, Stop},
 };
+use nalgebra::Isometry3;
 use serde::{Deserialize, Serialize};
 
 /// A rigid transform.
@@ -16,6 +17,13 @@ pub struct Transform {
     pub translation_m: [f64; 3],
     /// A unit quaternion.
     pub rotation_xyzw: [f64; 4],
+}
+
+/// One of several equally good places.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FoundPlace {
+    /// The whole transform.
+    pub target_from_source: Transform,
 }
 
 /// Where one scan lies in another.
@@ -47,10 +55,21 @@ pub struct RegistrationResult {
     pub size_ratio: Option<f64>,
     /// Its standard deviation.
     pub size_sigma: Option<f64>,
-    /// RMS distance between the surfaces.
+    /// Of a part that was searched for: the share of the scan within the part's box that lies on the part.
+    pub explained: Option<f64>,
+    /// Where several places explain the scan equally well: all of them, the answer first; else none.
+    pub places: Vec<FoundPlace>,
+    /// RMS residual of the matches that count (without outliers).
     pub rms_mm: Option<f64>,
     /// Deviation of the distances over that which the scatter of the points promises.
     pub residual_sigma: Option<f64>,
+}
+
+fn transform(pose: &Isometry3<f64>) -> Transform {
+    Transform {
+        translation_m: pose.translation.vector.into(),
+        rotation_xyzw: quaternion_xyzw(&pose.rotation),
+    }
 }
 
 impl From<&Dense> for RegistrationResult {
@@ -65,10 +84,7 @@ impl From<&Dense> for RegistrationResult {
         Self {
             verdict: found.verdict,
             reasons: found.reasons.clone(),
-            target_from_source: Transform {
-                translation_m: pose.translation.vector.into(),
-                rotation_xyzw: quaternion_xyzw(&pose.rotation),
-            },
+            target_from_source: transform(pose),
             covariance: found.covariance.as_ref().map(rows),
             sigma_mm: sigma(3, 1e3),
             sigma_deg: sigma(0, 1f64.to_degrees()),
@@ -84,6 +100,12 @@ impl From<&Dense> for RegistrationResult {
             agreement: found.agreement,
             size_ratio: found.size.map(|size| size.ratio),
             size_sigma: found.size.map(|size| size.sigma),
+            explained: found.explained,
+            places: found
+                .places
+                .iter()
+                .map(|at| FoundPlace { target_from_source: transform(at) })
+                .collect(),
             rms_mm: Some(found.rms_m * 1e3).filter(|x| x.is_finite()),
             residual_sigma: Some(found.sigma).filter(|x| x.is_finite()),
         }

@@ -5,12 +5,16 @@
 //! how it is cut, and triangles smaller than the spacing get their share. A line through a common edge
 //! belongs to one side alone: both compute the edge from the same ends in the same order.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 
 use crate::{Error, Scan, frame::FARTHEST_M};
 
 /// Most points that are laid over a mesh, and most lattice lines that are followed for them.
 const MOST_POINTS: f64 = 1e8;
+/// Share of the edges of a closed mesh that must be paired: rounding of vertices opens a few.
+const CLOSED: f64 = 0.99;
 /// Points closer than this, m, cannot be told apart in single precision, nor by any camera.
 const LEAST_SPACING_M: f64 = 1e-9;
 
@@ -74,6 +78,12 @@ impl TriangleMesh {
     /// # Errors
     /// A spacing that makes more than 100 million points, or is below a nanometre.
     pub fn sampled(&self, spacing_m: f64) -> Result<Scan, Error> {
+        let (points, _) = self.laid(spacing_m)?;
+        Scan::new(points.len(), 1, points).ok_or_else(|| Error::Invalid("no points".into()))
+    }
+
+    /// The points of [`sampled`](Self::sampled), and for each the number of its triangle.
+    pub(crate) fn laid(&self, spacing_m: f64) -> Result<(Vec<[f32; 3]>, Vec<u32>), Error> {
         if !(spacing_m >= LEAST_SPACING_M && spacing_m.is_finite()) {
             let what = format!("points {spacing_m} m apart cannot be laid over a mesh");
             return Err(Error::Invalid(what));
@@ -87,9 +97,41 @@ impl TriangleMesh {
             );
             return Err(Error::Invalid(what));
         }
-        let mut points = Vec::new();
-        self.corners().for_each(|corners| lay(corners, spacing_m, &mut points));
-        Scan::new(points.len(), 1, points).ok_or_else(|| Error::Invalid("no points".into()))
+        let (mut points, mut triangles) = (Vec::new(), Vec::new());
+        for (k, corners) in self.corners().enumerate() {
+            lay(corners, spacing_m, &mut points);
+            triangles.resize(points.len(), k as u32);
+        }
+        Ok((points, triangles))
+    }
+
+    /// Across each triangle, of length one; zero of those without area.
+    pub(crate) fn normals(&self) -> Vec<Vector3<f64>> {
+        self.corners().map(|c| normal(&c).try_normalize(0.0).unwrap_or_default()).collect()
+    }
+
+    /// Whether all but a few edges belong to two triangles that run along them in opposite directions, and normals point
+    /// outwards: then they tell the side from which a surface can be seen. Vertices at one place count as one.
+    pub(crate) fn is_closed(&self) -> bool {
+        let mut places: BTreeMap<[u32; 3], u32> = BTreeMap::new();
+        let mut number = |v: u32| {
+            // -0.0 is at the place of 0.0
+            let at = self.vertices[v as usize].map(|x| (x + 0.0).to_bits());
+            let next = places.len() as u32;
+            *places.entry(at).or_insert(next)
+        };
+        let mut edges = Vec::with_capacity(3 * self.triangles.len());
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(&mut number);
+            if a != b && b != c && c != a {
+                edges.extend([(a, b), (b, c), (c, a)]);
+            }
+        }
+        edges.sort_unstable();
+        let back = |&(a, b): &(u32, u32)| edges.binary_search(&(b, a)).is_ok();
+        let volume: f64 = self.corners().map(|[a, b, c]| a.dot(&b.cross(&c))).sum();
+        let paired = edges.iter().filter(|edge| back(edge)).count();
+        volume > 0.0 && paired as f64 >= CLOSED * edges.len() as f64
     }
 
     fn corners(&self) -> impl Iterator<Item = [Vector3<f64>; 3]> {

@@ -32,8 +32,12 @@ const FINEST_SPACING_M: f64 = 2e-4;
 /// # Errors
 /// A mesh too large to be covered.
 pub fn points_on(mesh: &TriangleMesh) -> Result<Scan, handeye::Error> {
-    let spacing = (mesh.area_m2() / POINTS_ON_MESH).sqrt().max(FINEST_SPACING_M);
-    mesh.sampled(spacing)
+    mesh.sampled(spacing_on(mesh))
+}
+
+/// How far apart points are laid on a mesh, m.
+pub fn spacing_on(mesh: &TriangleMesh) -> f64 {
+    (mesh.area_m2() / POINTS_ON_MESH).sqrt().max(FINEST_SPACING_M)
 }
 
 /// Whether a file is a mesh: STL, OBJ, and PLY whose header promises faces.

@@ -80,11 +80,17 @@ fn in_mm(gaps: &[f32]) -> Vec<f64> {
     gaps.iter().filter(|g| g.is_finite()).map(|g| f64::from(*g) * 1e3).collect()
 }
 
+/// `None` of nothing.
+fn rms(mm: &[f64]) -> Option<f64> {
+    let mean = mm.iter().map(|g| g * g).sum::<f64>() / mm.len() as f64;
+    Some(mean.sqrt()).filter(|rms| rms.is_finite())
+}
+
 /// The whole page.
 pub fn registration_html(r: &Registration) -> String {
     let gaps = Gaps::of(r);
     let found = r.found;
-    let body = judgement(found.verdict, word(found.verdict), &reasons(found), &facts(found))
+    let body = judgement(found.verdict, word(found.verdict), &reasons(found), &facts(found, &gaps))
         + &warnings(r.warnings)
         + &section("Both scans", "", &view(r, &gaps))
         + &section("Distances to the target", "", &distances(r, &gaps))
@@ -106,11 +112,15 @@ fn reasons(found: &Dense) -> Vec<String> {
     vec!["no other place that was tried fits as well, and the common surface leaves no direction free".into()]
 }
 
-fn facts(found: &Dense) -> Vec<(String, String)> {
+fn facts(found: &Dense, gaps: &Gaps) -> Vec<(String, String)> {
     let mut all = vec![];
     let mut say = |value: String, name: &str| all.push((value, name.to_owned()));
-    if found.rms_m.is_finite() {
-        say(format!("{:.3} mm", 1e3 * found.rms_m), "between the surfaces, RMS");
+    // the same number as in the table below
+    if let Some(mm) = rms(&in_mm(&gaps.after)) {
+        say(format!("{mm:.3} mm"), "RMS distance of all points with a counterpart");
+    }
+    if let Some(share) = found.explained {
+        say(format!("{:.0} %", 100.0 * share), "of the scan in the part's box lies on the part");
     }
     say(format!("{:.0} %", 100.0 * found.inlier_fraction), "of the source on the target");
     if found.rms_m.is_finite() {
@@ -159,8 +169,7 @@ fn distances(r: &Registration, gaps: &Gaps) -> String {
             Some(mm) => format!("{mm:.3}"),
             None => "&ndash;".into(),
         };
-        let rms = (gaps.iter().map(|g| g * g).sum::<f64>() / gaps.len() as f64).sqrt();
-        let rms = if rms.is_finite() { format!("{rms:.3}") } else { "&ndash;".into() };
+        let rms = rms(gaps).map_or("&ndash;".into(), |mm| format!("{mm:.3}"));
         let counterpart = 100.0 * gaps.len() as f64 / of.max(1) as f64;
         format!(
             "<tr><td>{name}</td><td>{}</td><td>{rms}</td><td>{}</td><td>{}</td><td>{counterpart:.1} %</td></tr>",
@@ -175,13 +184,22 @@ fn distances(r: &Registration, gaps: &Gaps) -> String {
          <th>with a counterpart</th></tr>{}{}</table></div><p class=\"note\">Of {} points of the source, evenly \
          spread in space: how far each lies from the plane through the target's points around the nearest \
          one. Points farther than {:.0} mm, and those beside the rim of the target, have no counterpart. The \
-         scale of the plot is logarithmic, and each area is drawn to its own height. Matches that were left out count here as well.</p>",
+         scale of the plot is logarithmic, and each area is drawn to its own height. Outliers count here as well; {}.</p>",
         plot::histogram(&all, 1e3 * r.gate_m, "mm"),
         row("before", &before, of),
         row("after", &after, of),
         grouped(of),
-        1e3 * r.gate_m
+        1e3 * r.gate_m,
+        matches(r.found)
     )
+}
+
+fn matches(found: &Dense) -> String {
+    if found.rms_m.is_finite() {
+        format!("without them, the RMS residual of the matches is {:.3} mm", 1e3 * found.rms_m)
+    } else {
+        "there are no matches".into()
+    }
 }
 
 fn transform(found: &Dense) -> String {
@@ -219,6 +237,20 @@ fn transform(found: &Dense) -> String {
             s(0, deg),
             s(1, deg),
             s(2, deg)
+        );
+    }
+    if !found.places.is_empty() {
+        let row = |at: &Isometry3<f64>| {
+            let (t, q) = (at.translation.vector * 1e3, at.rotation.coords);
+            format!(
+                "{:.4} {:.4} {:.4}   {:.8} {:.8} {:.8} {:.8}\n",
+                t.x, t.y, t.z, q.x, q.y, q.z, q.w
+            )
+        };
+        let rows: String = found.places.iter().map(row).collect();
+        let _ = write!(
+            content,
+            "<h3>Equally good places: translation, mm; quaternion x y z w</h3><pre>{rows}</pre>"
         );
     }
     if !found.undetermined.is_empty() {
@@ -281,6 +313,8 @@ mod tests {
             size: None,
             rms_m: 1e-4,
             sigma: 1.0,
+            explained: None,
+            places: vec![],
         }
     }
 
@@ -323,6 +357,14 @@ mod tests {
             assert!(page.contains(words), "{words}");
         }
         assert!(page == registration_html(&registration(&points, &found, 3)));
+    }
+
+    #[test]
+    fn the_headline_is_the_number_of_the_table() {
+        let (points, found) = (wave(), found(5e-3));
+        let page = registration_html(&registration(&points, &found, 1));
+        let rms = rms(&in_mm(&Gaps::of(&registration(&points, &found, 1)).after)).unwrap();
+        assert_eq!(page.matches(&format!("{rms:.3}")).count(), 2, "{rms}");
     }
 
     #[test]

@@ -57,11 +57,15 @@ class Registration(NamedTuple):
     agreement: float
     """Of the places where both scans show something, the share at which it is the same."""
     rms_mm: Optional[float]
-    """Distance between the surfaces, where anything could be compared."""
+    """RMS residual of the matches that count, where anything could be compared."""
     residual_sigma: Optional[float]
     size_ratio: Optional[float]
     """Size of what the target shows over that of what the source shows."""
     size_sigma: Optional[float]
+    explained: Optional[float]
+    """Of a part that was searched for: the share of the scan within the part's box that lies on the part."""
+    places: List[Pose]
+    """Where several places explain the scan equally well: all of them, the answer first; else none."""
 
     @property
     def accepted(self) -> bool:
@@ -354,11 +358,16 @@ def register(
     import numpy as np
 
     found = json.loads(text)
-    pose, covariance = found["target_from_source"], found["covariance"]
+    covariance = found["covariance"]
+
+    def pose(place: Any) -> Pose:
+        at = place["target_from_source"]
+        return Pose("target", "source", rotation=at["rotation_xyzw"], translation=at["translation_m"])
+
     return Registration(
         found["verdict"],
         found["reasons"],
-        Pose("target", "source", rotation=pose["rotation_xyzw"], translation=pose["translation_m"]),
+        pose(found),
         None if covariance is None else np.array(covariance),
         found["undetermined"],
         found["iterations"],
@@ -369,6 +378,8 @@ def register(
         found["residual_sigma"],
         found["size_ratio"],
         found["size_sigma"],
+        found["explained"],
+        [pose(place) for place in found["places"]],
     )
 
 

@@ -6,11 +6,13 @@
 use nalgebra::{Isometry3, Matrix6};
 
 use super::{
-    descent::Descent,
+    descent::{Descent, Reached},
     freedom::Freedom,
     global,
     icp::Stop,
+    part_search,
     rivals::{self, Opinions, Rival},
+    search::Search,
     size::Size,
     surface::Surface,
 };
@@ -121,6 +123,10 @@ pub struct Dense {
     pub rms_m: f64,
     /// Deviation of the matches over that which the scatter of their points promises.
     pub sigma: f64,
+    /// Of a part that was searched for: the share of the scan within the part's box that lies on the part.
+    pub explained: Option<f64>,
+    /// Where several places explain the scan equally well: all of them, this answer first; else none.
+    pub places: Vec<Isometry3<f64>>,
 }
 
 /// Windows that are asked for their opinion of the answer.
@@ -178,6 +184,8 @@ pub fn register_surfaces(
         size: None,
         rms_m: f64::NAN,
         sigma: f64::NAN,
+        explained: None,
+        places: vec![],
     })
 }
 
@@ -198,6 +206,11 @@ fn registered(
     start: &Isometry3<f64>,
     config: &DenseConfig,
 ) -> Result<Dense, Error> {
+    if config.global
+        && let Some(search) = Search::new(source, target, config.threads)
+    {
+        return part_search::registered(&search, source, target, config);
+    }
     let mut descent = Descent::new(source, target, config);
     let gate = config.max_correspondence_distance_m;
     let mut starts = vec![*start];
@@ -208,31 +221,45 @@ fn registered(
     }
     let from = (!config.global).then_some(start);
     let rivals = rivals::answers(&descent, &starts, from, gate)?;
-    let mut reached = rivals[0].reached.clone();
-    let at_best = reached.target_from_source;
+    let best = &rivals[0].reached;
+    let held = if config.global { best.target_from_source } else { *start };
+    let mut found = refined(&mut descent, best, &held, gate)?;
+    add_reasons(&mut found, source, &rivals);
+    found.conclude();
+    Ok(found)
+}
+
+/// An answer over all windows; along motions that the common surface leaves free it stays where it is `held`.
+pub(super) fn refined(
+    descent: &mut Descent,
+    from: &Reached,
+    held: &Isometry3<f64>,
+    gate: f64,
+) -> Result<Dense, Error> {
+    let mut reached = from.clone();
     descent.nearby(&mut reached)?;
     descent.fine(&mut reached)?;
     let sigma = descent.sigma;
-    let freedom = Freedom::of(&descent, &reached.target_from_source);
+    let freedom = Freedom::of(descent, &reached.target_from_source);
     let (directions, free) = freedom.directions();
     let (mut undetermined, mut reasons) = (vec![], vec![]);
     if free == ALL_MOTIONS {
         // there is no surface that leaves all free: the matches say nothing where they are
-        reasons.push(stuck(config));
+        reasons.push(stuck(descent.config));
     } else if free > 0 {
         let columns: Vec<_> = (0..free).map(|k| directions.column(k).into_owned()).collect();
-        undetermined = freedom.named(&columns, source.radius());
-        // once more from the start, along the other directions alone
+        undetermined = freedom.named(&columns, descent.source.radius());
+        // once more, along the other directions alone
         let mut rest = directions;
         rest.columns_mut(0, free).fill(0.0);
         descent.along = Some(rest);
-        reached.target_from_source = if config.global { at_best } else { *start };
+        reached.target_from_source = *held;
         descent.afar(&mut reached, gate)?;
         descent.fine(&mut reached)?;
     }
     let at = reached.target_from_source;
-    let mut found = Dense {
-        verdict: Verdict::Accepted,
+    Ok(Dense {
+        verdict: Verdict::Rejected,
         reasons,
         undetermined,
         target_from_source: at,
@@ -240,16 +267,13 @@ fn registered(
         iterations: reached.iterations,
         stop: reached.stop,
         inlier_fraction: reached.inliers / reached.all,
-        size: None,
-        agreement: Opinions::of(&descent, &at, ASKED, sigma).agreeing(),
+        agreement: Opinions::of(descent, &at, ASKED, sigma).agreeing(),
+        size: if free == 0 { Size::of(descent, &at) } else { None },
         rms_m: reached.rms_m,
         sigma,
-    };
-    if free == 0 {
-        found.size = Size::of(&mut descent, &at);
-    }
-    judge(&mut found, source, &rivals);
-    Ok(found)
+        explained: None,
+        places: vec![],
+    })
 }
 
 /// Matches that hold one another where they are, in no place that is right.
@@ -264,7 +288,8 @@ fn stuck(config: &DenseConfig) -> String {
     )
 }
 
-fn judge(found: &mut Dense, source: &Surface, rivals: &[Rival]) {
+/// What speaks against an answer.
+pub(super) fn add_reasons(found: &mut Dense, source: &Surface, rivals: &[Rival]) {
     if let [best, others @ ..] = rivals
         && !others.is_empty()
         && found.undetermined.is_empty()
@@ -309,15 +334,21 @@ fn judge(found: &mut Dense, source: &Surface, rivals: &[Rival]) {
             100.0 * found.inlier_fraction
         ));
     }
-    found.verdict = match (found.reasons.is_empty(), found.undetermined.is_empty()) {
-        (false, _) => Verdict::Rejected,
-        (true, false) => Verdict::Undetermined,
-        (true, true) => Verdict::Accepted,
-    };
-    if !found.undetermined.is_empty() {
-        found
-            .reasons
-            .push(format!("the common surface leaves free: {}", found.undetermined.join("; ")));
+}
+
+impl Dense {
+    /// The verdict that follows from the reasons, from what is free and from how many places there are.
+    pub(super) fn conclude(&mut self) {
+        let is_one = self.undetermined.is_empty() && self.places.is_empty();
+        self.verdict = match (self.reasons.is_empty(), is_one) {
+            (false, _) => Verdict::Rejected,
+            (true, false) => Verdict::Undetermined,
+            (true, true) => Verdict::Accepted,
+        };
+        if !self.undetermined.is_empty() {
+            let free = self.undetermined.join("; ");
+            self.reasons.push(format!("the common surface leaves free: {free}"));
+        }
     }
 }
 

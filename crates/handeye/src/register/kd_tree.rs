@@ -44,6 +44,7 @@ struct Leaf {
 }
 
 /// Points in an order in which near ones are found fast.
+#[derive(Clone)]
 pub struct KdTree {
     nodes: Vec<Node>,
     leaves: Vec<Leaf>,

@@ -8,10 +8,10 @@
 use nalgebra::{Isometry3, Vector3};
 
 use super::{
-    blocks, creases::Scatter, grid_view::GridView, kd_tree::KdTree, outlook::Outlook, patch::Patch,
-    voxels::Voxels,
+    blocks, creases::Scatter, grid_view::GridView, kd_tree::KdTree, mesh_surface, outlook::Outlook,
+    patch::Patch, voxels::Voxels,
 };
-use crate::{Scan, linalg, parallel};
+use crate::{Error, Scan, TriangleMesh, linalg, parallel};
 
 /// Side of a block in a scan of 100 000 points, pixels. It grows with the power 0.4 of their number: finer
 /// pixels go into quieter windows more than into smaller ones.
@@ -37,8 +37,10 @@ pub struct Surface {
     pub(super) spread: f64,
     /// Corners of a box around all of them: when the scan moves, none moves more than one of these.
     pub(super) corners: [Vector3<f64>; 8],
-    /// Whether normals point to the side from which the surface was seen.
+    /// Whether normals point to the side from which the surface was seen, or of a closed mesh outwards.
     pub(super) is_facing: bool,
+    /// Share of the windows that were left by [`cropped`](Self::cropped).
+    kept: f64,
     /// Windows along a row, of an organised scan.
     columns: Option<usize>,
     finder: Finder,
@@ -47,6 +49,7 @@ pub struct Surface {
 }
 
 /// How windows near a place are found.
+#[derive(Clone)]
 enum Finder {
     /// In the direction from the camera.
     Camera(GridView),
@@ -59,7 +62,39 @@ impl Surface {
     pub fn of(scan: &Scan, threads: usize) -> Option<Self> {
         Self::of_grid(scan, threads)
             .or_else(|| Self::of_cloud(scan.points(), threads))
-            .filter(|surface| surface.patches.iter().flatten().count() >= FEWEST_PIECES)
+            .filter(Self::has_enough)
+    }
+
+    /// Of a mesh on which points are laid so far apart, m; `None` where they are too few.
+    ///
+    /// # Errors
+    /// A mesh too large to be covered.
+    pub fn of_mesh(mesh: &TriangleMesh, spacing_m: f64) -> Result<Option<Self>, Error> {
+        let mut patches = mesh_surface::patches(mesh, spacing_m)?;
+        patches.retain(Option::is_some);
+        let finder = Finder::Nearest(KdTree::new(&means(&patches)));
+        let surface = Self { is_facing: mesh.is_closed(), ..Self::new(patches, finder, None) };
+        Ok(Some(surface).filter(Self::has_enough))
+    }
+
+    /// Without the windows whose mean is elsewhere; `None` where too few are left.
+    pub(super) fn cropped(&self, is_kept: impl Fn(&Vector3<f64>) -> bool) -> Option<Self> {
+        let keep = |patch: &Option<Patch>| patch.filter(|p| is_kept(&p.mean));
+        let patches: Vec<Option<Patch>> = self.patches.iter().map(keep).collect();
+        let [all, left] =
+            [&self.patches, &patches].map(|some| some.iter().flatten().count() as f64);
+        let own = Self {
+            spread: self.spread,
+            is_facing: self.is_facing,
+            kept: left / all.max(1.0),
+            outlook: self.outlook.clone(),
+            ..Self::new(patches, self.finder.clone(), self.columns)
+        };
+        Some(own).filter(Self::has_enough)
+    }
+
+    fn has_enough(&self) -> bool {
+        self.patches.iter().flatten().count() >= FEWEST_PIECES
     }
 
     /// Of several scans, side by side.
@@ -91,9 +126,7 @@ impl Surface {
         let mut patches = voxels.patches(FILLED * 9.0 * held, threads);
         Scatter::of(&patches, false).leave_out_rough(&mut patches);
         patches.retain(Option::is_some);
-        let means: Vec<[f32; 3]> =
-            patches.iter().flatten().map(|p| p.mean.map(|x| x as f32).into()).collect();
-        let finder = Finder::Nearest(KdTree::new(&means));
+        let finder = Finder::Nearest(KdTree::new(&means(&patches)));
         let surface = Self::new(patches, finder, None);
         Some(Self { outlook: Outlook::of(&surface.patches, surface.spread), ..surface })
     }
@@ -105,7 +138,8 @@ impl Surface {
         let middle = sum / count.max(1.0);
         let corners = corners(&patches);
         let is_facing = columns.is_some();
-        Self { patches, middle, spread, corners, is_facing, columns, finder, outlook: None }
+        let (kept, outlook) = (1.0, None);
+        Self { patches, middle, spread, corners, is_facing, kept, columns, finder, outlook }
     }
 
     /// A window near a place, the nearest or that in the same direction.
@@ -123,6 +157,11 @@ impl Surface {
     /// Whether there is a side from which all of it was seen, or may have been.
     pub(super) fn has_a_front(&self) -> bool {
         self.is_facing || self.outlook.is_some()
+    }
+
+    /// Whether all of it was seen from the origin, as it seems.
+    pub(super) fn has_camera(&self) -> bool {
+        self.columns.is_some() || self.outlook.is_some()
     }
 
     /// The window that would hide what is at a place, or be hidden by it.
@@ -171,7 +210,7 @@ impl Surface {
 
     /// The stride at which there are about so many windows.
     pub(super) fn stride(&self, count: f64) -> usize {
-        (self.patches.len() as f64 / count).sqrt().ceil().max(1.0) as usize
+        (self.kept * self.patches.len() as f64 / count).sqrt().ceil().max(1.0) as usize
     }
 
     /// Of the farthest window from the middle, m.
@@ -187,6 +226,10 @@ impl Surface {
         };
         self.corners.iter().map(between).fold(0.0, f64::max)
     }
+}
+
+fn means(patches: &[Option<Patch>]) -> Vec<[f32; 3]> {
+    patches.iter().flatten().map(|p| p.mean.map(|x| x as f32).into()).collect()
 }
 
 fn corners(patches: &[Option<Patch>]) -> [Vector3<f64>; 8] {

@@ -265,6 +265,8 @@ mod tests {
                 agreement: 1.0,
                 rms_m: 1e-4,
                 sigma: 1.0,
+                explained: None,
+                places: vec![],
             };
             Link { source, target, found, left_out: None }
         };
