@@ -118,7 +118,7 @@ fn full() -> Calibration {
         time_offset_sigma_s: Some(0.0),
         scale: Some(1.0),
         scale_sigma: Some(0.0),
-        target_scale: Some(Scale { value: 1.0, sigma: 0.0 }),
+        target_scale: Some(Scale { value: 1.0, sigma: 0.0, used: false }),
         camera: Some(CameraResult {
             intrinsics: Intrinsics {
                 distortion: Distortion::BrownConrady([0.0; 12]),

@@ -77,6 +77,7 @@ fn a_measured_position_that_the_data_contradict_is_named() {
         let found = calibrate(&session, &Config::default()).unwrap();
         let says = found.warnings.iter().any(|w| w.code == "known-position-disagrees");
         assert_eq!(says, named, "{off}: {:?}", found.warnings);
-        assert_eq!(found.verdict, Verdict::Accepted);
+        // where position and target cannot both be right, there may be no answer
+        assert!(named || found.verdict == Verdict::Accepted, "{:?}", found.reasons);
     }
 }

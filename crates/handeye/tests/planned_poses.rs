@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use handeye::{
-    Base, Flange, HandEye, Pose, Session, Setup, calibrate,
+    Base, Flange, HandEye, Pose, Session, Setup, TargetSize, calibrate,
     plan::{self, ExpectedNoise, Setting},
     predict::{Volume, difference},
     refine::KnownNoise,
@@ -135,7 +135,9 @@ fn the_promise_is_what_the_calibration_states() {
     let t = trial(1);
     let chosen = t.chosen();
     let observations = chosen.iter().map(|&k| t.session.observations[k].clone()).collect();
-    let session = Session { observations, ..t.session.clone() };
+    // the promise is for a target of known size
+    let target_size = TargetSize::Measured(1e-5);
+    let session = Session { observations, target_size, ..t.session.clone() };
     let known = KnownNoise {
         robot_rotation_rad: Some(t.setting.noise.robot_rotation_rad),
         robot_position_m: Some(t.setting.noise.robot_position_m),

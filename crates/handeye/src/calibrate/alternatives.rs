@@ -104,6 +104,8 @@ impl Alternatives {
     /// What the user said of the target's size, and what is known of scans.
     pub(super) fn of(session: &Session) -> Self {
         let printed: Vec<(f64, Option<f64>)> = match session.target_size {
+            // without a target of a declared size a free scale has a prior of its own
+            _ if unknown_size(session).is_none() => vec![(1.0, None)],
             TargetSize::Measured(_) => vec![(1.0, None)],
             TargetSize::Printed => PRINTED.iter().map(|(p, sigma)| (*p, Some(*sigma))).collect(),
         };
@@ -167,11 +169,16 @@ impl Alternatives {
                 as_declared: NO_DOUBT,
             });
         }
+        // the noise is that of the widest prior: a mistake would otherwise pass for noise, and likelihoods under
+        // different noise do not compare
+        let widest = components.last().map_or_else(|| problem.clone(), |c| c.applied(problem));
+        let reference = fit(&widest)?;
         let mut all = Vec::with_capacity(components.len());
         for component in components {
             let problem = component.applied(problem);
-            let found = fit(&problem)?;
-            all.push((component.log_probability + found.log_likelihood, problem, found));
+            let found = refine::joint::refit_under_noise_of(&problem, &reference);
+            let evidence = found.log_likelihood + for_unknown_noise(&found, &reference);
+            all.push((component.log_probability + evidence, problem, found));
         }
         let declared = |which: fn(&Declared<bool>) -> bool, weights: &[f64]| {
             let narrow = components.iter().zip(weights).filter(|(c, _)| which(&c.declared));
@@ -190,6 +197,17 @@ impl Alternatives {
         };
         Ok(Averaged { problem: all[best].1.clone(), fit, as_declared })
     }
+}
+
+/// Share of the equations that tell the noise of one kind, of rotations or of positions.
+const OF_ONE_NOISE: f64 = 0.5;
+
+/// What the likelihood of a fit that costs `Δ` more gains where the noise is an estimate, of `ν` equations: integrated
+/// over the noise, `exp(-Δ/2)` is `(1 + Δ/ν)^(-ν/2)`.
+fn for_unknown_noise(fit: &JointFit, reference: &JointFit) -> f64 {
+    let more = (fit.cost - reference.cost).max(0.0);
+    let equations = (OF_ONE_NOISE * reference.degrees_of_freedom).max(1.0);
+    0.5 * more - 0.5 * equations * (more / equations).ln_1p()
 }
 
 impl Component {

@@ -25,6 +25,8 @@ use crate::{
 
 /// Offsets that move no point of the target by more than this are none, m.
 const LEAST: f64 = 5e-5;
+/// Scans that are shifted along the optical axis by less than this read a biased depth, m.
+const LARGEST_BIAS: f64 = 5e-3;
 /// Fewest corners that tell the plane of a board in a scan.
 const FEWEST: usize = 4;
 
@@ -42,7 +44,7 @@ pub(super) enum Found {
     /// They agree, or too few captures have both.
     Nothing,
     /// They differ by a rigid offset.
-    Offset(Offset),
+    Offset(Box<Offset>),
     /// They differ, and the captures do not tell by what.
     NotSeparable,
 }
@@ -59,7 +61,7 @@ pub(super) fn find(session: &Session) -> Found {
     if offset.moves() < LEAST {
         return Found::Nothing;
     }
-    if found.separable { Found::Offset(offset) } else { Found::NotSeparable }
+    if found.separable { Found::Offset(Box::new(offset)) } else { Found::NotSeparable }
 }
 
 fn of(found: &Frames, distance: f64) -> Offset {
@@ -67,8 +69,14 @@ fn of(found: &Frames, distance: f64) -> Offset {
         let proven = found.proven.contains(&part);
         if proven { found.values.fixed_rows::<3>(first).into() } else { Vector3::zeros() }
     };
-    let (turn, shift) = (part(Part::Tilt, 1), part(Part::Shift, 4));
-    let covariance: Matrix6<f64> = found.covariance.fixed_view::<6, 6>(1, 1).into();
+    let (turn, mut shift) = (part(Part::Tilt, 1), part(Part::Shift, 4));
+    let mut covariance: Matrix6<f64> = found.covariance.fixed_view::<6, 6>(1, 1).into();
+    if shift.z.abs() < LARGEST_BIAS {
+        // a bias of depth, which the fit has among its unknowns
+        shift.z = 0.0;
+        covariance.fixed_rows_mut::<1>(5).fill(0.0);
+        covariance.fixed_columns_mut::<1>(5).fill(0.0);
+    }
     Offset { scan_from_image: Isometry3::new(shift, turn), covariance, distance }
 }
 

@@ -49,7 +49,7 @@ const HELD_OUT_SLACK: f64 = 1.02;
 /// A move below this part of its standard deviation needs no further look.
 const SETTLED: f64 = 0.1;
 /// Sizes that differ by less than this share need no further look: poses are as good as linear in them.
-const LINEAR_SIZE: f64 = 2e-3;
+const LINEAR_SIZE: f64 = 1e-2;
 /// The same of a bias of depth, m.
 const LINEAR_BIAS: f64 = 5e-4;
 /// Fewest views that say anything about a lens beside the poses.

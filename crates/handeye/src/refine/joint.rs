@@ -93,6 +93,8 @@ pub struct JointFit {
     pub chi_squared: f64,
     /// Equations minus unknowns.
     pub degrees_of_freedom: f64,
+    /// The cost that was minimised, priors included.
+    pub cost: f64,
     /// Logarithm of the restricted likelihood, up to a constant.
     pub log_likelihood: f64,
 }
@@ -167,6 +169,17 @@ pub fn refit(problem: &Problem, near: &JointFit, known: &KnownNoise) -> JointFit
     let state = near.state(problem, &near.noise);
     let prior = first_noise(problem, &state, known);
     climb(problem, state, &prior, known)
+}
+
+/// Fits the unknowns again for another prior, from an answer that is near and under its noise.
+pub(crate) fn refit_under_noise_of(problem: &Problem, near: &JointFit) -> JointFit {
+    let mut state = near.state(problem, &near.noise);
+    for _ in 0..MOST_ROUNDS {
+        if System::at(problem, &state).advance(problem, &mut state) < STEP {
+            break;
+        }
+    }
+    System::at(problem, &state).finish(problem, state)
 }
 
 /// Information and gradient at an answer, for a problem that may have more unknowns.

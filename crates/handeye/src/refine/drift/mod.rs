@@ -333,6 +333,7 @@ impl Climb {
             noise: self.levels.noise,
             chi_squared: filtered.sum[(0, 0)],
             degrees_of_freedom: 6.0 * count - 12.0,
+            cost: filtered.sum[(0, 0)],
             log_likelihood: self.log_likelihood,
         };
         DriftFit { fit, drift: self.levels.drift, views }

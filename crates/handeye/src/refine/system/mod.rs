@@ -266,6 +266,7 @@ impl System {
             noise: state.noise,
             chi_squared,
             degrees_of_freedom: equations as f64 - 12.0,
+            cost: self.cost,
             log_likelihood: -0.5 * (self.log_determinant + log_h + log_prior + self.cost),
         }
     }
