@@ -92,7 +92,9 @@ fn fused_or_one(
 ) -> Calibration {
     let fused = run(session);
     let Some(gap) = gap(session, target, camera, &fused) else { return fused };
-    let stated = fused.predicted_tre_mm.as_ref().map_or(0.0, |t| t.p95 * 1e-3);
+    // an answer that is not accepted states no error that could hide a disagreement
+    let accepted = fused.predicted_tre_mm.as_ref().filter(|_| fused.verdict == Verdict::Accepted);
+    let stated = accepted.map_or(0.0, |t| t.p95 * 1e-3);
     if !gap.counts(stated) {
         return fused;
     }

@@ -195,6 +195,10 @@ pub(super) fn judge_size(
         _ if used => "target-scale",
         // distances that came from elsewhere are taken as they are: small errors of scale are left to the user
         (None, _) if off > LEAST_SCALE_ERROR && p_value < IMPROBABLE_SCALE => "target-scale",
+        // beyond what the prior of a printed target reaches
+        (Some(_), TargetSize::Printed) if off > MOST_SCALE_ERROR && p_value < IMPROBABLE_SCALE => {
+            "target-scale"
+        }
         (Some(_), TargetSize::Measured(_)) if p_value < IMPROBABLE_SCALE => {
             "target-size-contradicted"
         }
