@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Chance of a capture as far off as it is below which it stays out.
-const IMPROBABLE: f64 = 1e-5;
+pub(super) const IMPROBABLE: f64 = 1e-5;
 
 /// Rounds of letting captures in and putting the worst out. Each round that puts one out may hold
 /// another that was hidden behind it.
@@ -60,7 +60,7 @@ fn fit_of(
 
 /// Lets captures in, in their best reading, that are no surprise.
 fn readmit(captures: &Captures, found: &mut Consensus, fit: &JointFit) -> bool {
-    let limit = surprise_limit(fit.degrees_of_freedom);
+    let limit = surprise_limit(IMPROBABLE, 1, fit.degrees_of_freedom);
     let mut changed = false;
     for i in (0..found.agrees.len()).filter(|&i| !found.agrees[i]).collect::<Vec<_>>() {
         let best = (0..captures.readings[i].camera_from_target.len())
@@ -89,7 +89,7 @@ fn put_out(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &
         let rest: Vec<usize> = used.iter().copied().filter(|&k| k != i).collect();
         let without = fit_of(captures, found, &rest, config)?;
         let d2 = without.surprise(&captures.view(i, found.reading[i]), setup)?;
-        let excess = d2 / surprise_limit(without.degrees_of_freedom);
+        let excess = d2 / surprise_limit(IMPROBABLE, 1, without.degrees_of_freedom);
         (excess > 1.0).then_some((excess, i))
     };
     let worst =
@@ -114,9 +114,10 @@ fn unmask(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &C
     !hidden.is_empty()
 }
 
-/// Squared distance, in units of six axes, that noise estimated from so few equations reaches with
-/// probability [`IMPROBABLE`].
-pub(super) fn surprise_limit(degrees_of_freedom: f64) -> f64 {
-    let dof = degrees_of_freedom.max(1.0);
-    FisherSnedecor::new(6.0, dof).map_or(f64::INFINITY, |f| 6.0 * f.inverse_cdf(1.0 - IMPROBABLE))
+/// Squared distance, six axes a capture, that so many captures exceed with this chance where the
+/// noise is estimated from so few equations.
+pub(super) fn surprise_limit(chance: f64, captures: usize, degrees_of_freedom: f64) -> f64 {
+    let axes = 6.0 * captures as f64;
+    FisherSnedecor::new(axes, degrees_of_freedom.max(1.0))
+        .map_or(f64::INFINITY, |f| axes * f.inverse_cdf(1.0 - chance))
 }

@@ -2,7 +2,8 @@
 //!
 //! Several captures that are each a little wrong make the noise look larger than it is, and none of
 //! them is a surprise any more. So the fit starts from the part of the captures that agrees best and
-//! grows, always by the capture that fits next best, until the next one is a surprise. The best part
+//! grows, always by the capture that fits next best, until the next one is a surprise, or all that are
+//! still outside are one as a group. The best part
 //! of good captures is better than all of them: their squared distances, six axes each, fall short by
 //! `P(χ²₈ < q)/P(χ²₆ < q)`, with `q` where the part ends.
 //!
@@ -12,7 +13,7 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::gate::surprise_limit;
+use super::gate::{IMPROBABLE, surprise_limit};
 use crate::{
     Setup,
     refine::{JointFit, View},
@@ -22,6 +23,8 @@ use crate::{
 const BEST_PART: f64 = 0.6;
 /// Fewest captures to start from.
 const FEWEST: usize = 6;
+/// Chance below which each capture of a group that is improbable as a whole stays out with it.
+const UNLIKELY: f64 = 1e-3;
 /// Rounds in which that part settles.
 const ROUNDS: usize = 6;
 /// Steps in which the search grows, at most: of many captures it takes several at once.
@@ -52,12 +55,18 @@ pub(super) fn masked(
     let step = (views.len() - start).div_ceil(STEPS).max(1);
     while let Some(of_inner) = fit {
         let fitted = inner.len() as f64 / views.len() as f64;
-        let limit = surprise_limit(of_inner.degrees_of_freedom) / shortfall(fitted);
+        let dof = of_inner.degrees_of_freedom;
+        let limit = |chance: f64, captures: usize| {
+            surprise_limit(chance, captures, dof) / shortfall(fitted)
+        };
         let outside = (0..views.len()).filter(|i| !inner.contains(i));
         let surprises: Vec<(usize, f64)> =
             outside.filter_map(|i| Some((i, of_inner.surprise(&views[i], setup)?))).collect();
         let next = surprises.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
-        if next > limit {
+        let together = surprises.iter().map(|s| s.1).sum::<f64>();
+        let chance = IMPROBABLE / ways(views.len(), surprises.len());
+        let as_a_group = together > limit(chance, surprises.len()) && next > limit(UNLIKELY, 1);
+        if next > limit(IMPROBABLE, 1) || as_a_group {
             return surprises.into_iter().map(|s| s.0).collect();
         }
         if inner.len() + step >= views.len() {
@@ -67,6 +76,11 @@ pub(super) fn masked(
         fit = fit_of(&inner);
     }
     vec![]
+}
+
+/// In how many ways `part` of `count` captures can be picked.
+fn ways(count: usize, part: usize) -> f64 {
+    (0..part).map(|k| (count - k) as f64 / (part - k) as f64).product()
 }
 
 /// The `count` views with the smallest misfit in units of the noise, in order.
@@ -90,6 +104,12 @@ fn shortfall(part: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn groups_are_counted() {
+        assert!((ways(14, 3) - 364.0).abs() < 1e-9);
+        assert!((ways(5, 5) - 1.0).abs() < 1e-12);
+    }
 
     #[test]
     fn the_best_part_of_good_captures_is_better_than_all() {

@@ -6,7 +6,7 @@
 use nalgebra::{Isometry3, Rotation3, UnitQuaternion, Vector3};
 
 use super::Random;
-use crate::{Base, Camera, Flange, ImageCorner, Observation, Pose, Session, Target, detect};
+use crate::{Base, Camera, Flange, ImageCorner, Observation, Point, Pose, Session, Target, detect};
 
 /// One kind of mistake.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -126,7 +126,8 @@ fn commit(
             Mistake::WrongDetection => {
                 let turn = random.normal3() * GARBAGE.0;
                 let shift = random.normal3() * GARBAGE.1;
-                move_target(session, i, |_| Isometry3::new(shift, turn));
+                let step = Isometry3::new(shift, turn);
+                move_target(session, i, |_| step);
             }
             Mistake::Mirrored => move_target(session, i, mirrored),
             Mistake::Moving => {
@@ -161,18 +162,55 @@ fn relabel(session: &mut Session, i: usize, name: impl Fn(u32, (u32, u32)) -> Op
         .map_or(vec![], |poses| detect::with_symmetries(&poses, &target));
 }
 
-/// Moves the target of a capture about its centre, in the axes of the camera.
+/// Moves what was measured of the target with it, each corner keeping its noise; what the camera
+/// would not see there is gone.
+fn move_measurements(
+    session: &mut Session,
+    i: usize,
+    before: &Pose<Camera, Target>,
+    after: &Pose<Camera, Target>,
+) {
+    let (Some(target), Some(camera)) = (session.target.clone(), session.camera) else { return };
+    let o: &mut Observation = &mut session.observations[i];
+    let seen = |id: u32| {
+        let corner = target.corner(id)?;
+        Some(((*before * corner).vector(), (*after * corner).vector()))
+    };
+    o.corners.retain_mut(|c| {
+        let Some((was, is)) = seen(c.id) else { return false };
+        let (Some(from), Some(to)) = (camera.project(&was), camera.project(&is)) else {
+            return false;
+        };
+        c.pixel += to - from;
+        true
+    });
+    o.surface.retain_mut(|c| {
+        let Some((was, is)) = seen(c.id) else { return false };
+        c.in_camera = Point::from_vector(c.in_camera.vector() + is - was);
+        true
+    });
+}
+
+/// A pose turned about the target's centre and shifted, in the axes of the camera.
+fn stepped(pose: &Pose<Camera, Target>, step: &Isometry3<f64>) -> Pose<Camera, Target> {
+    let rotation = step.rotation.to_rotation_matrix().into_inner() * pose.rotation();
+    Pose::from_parts(&rotation, pose.translation() + step.translation.vector)
+}
+
+/// Moves the target of a capture about its centre, in the axes of the camera: its pose, and what
+/// was measured of it.
 fn move_target(
     session: &mut Session,
     i: usize,
     by: impl Fn(&Pose<Camera, Target>) -> Isometry3<f64>,
 ) {
+    if let Some(first) = session.observations[i].candidates.first() {
+        let pose = first.camera_from_target;
+        move_measurements(session, i, &pose, &stepped(&pose, &by(&pose)));
+    }
     for candidate in &mut session.observations[i].candidates {
         let pose = candidate.camera_from_target;
-        let turn = by(&pose);
-        let rotation = turn.rotation.to_rotation_matrix().into_inner() * pose.rotation();
-        let translation = pose.translation() + turn.translation.vector;
-        candidate.camera_from_target = Pose::from_parts(&rotation, translation);
+        candidate.camera_from_target = stepped(&pose, &by(&pose));
     }
 }
 
