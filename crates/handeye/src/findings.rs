@@ -109,7 +109,7 @@ const TABLE: &[Row] = &[
     ),
     changes(
         "picture-and-scan-disagree",
-        "images and scans disagree, and one of them is not used",
+        "images and scans disagree, and the answer is for the frame of one of them",
         "check the calibration between image and depth, and the frame of the points",
     ),
     changes(

@@ -161,7 +161,9 @@ fn agreement(
         warnings.push(not_separable());
         return None;
     }
-    let named = found.proven.iter().filter(|p| worth(**p));
+    // said with the frames' whole difference where the answer is for one of them
+    let is_told = warnings.iter().any(|w| w.code == "picture-and-scan-disagree");
+    let named = found.proven.iter().filter(|p| !is_told && worth(**p));
     warnings.extend(named.map(|p| disagreement(*p, &found)));
     Some(frames_result(&found))
 }
