@@ -55,6 +55,11 @@ const fn rejects(code: &'static str, advice: &'static str) -> Row {
     Row { code, severity: Severity::Rejects, headline: "", advice }
 }
 
+/// Images and scans in different frames, and what that difference consists of: one headline is enough.
+const DISAGREE: &str = "picture-and-scan-disagree";
+const PARTS_OF_DISAGREE: [&str; 3] =
+    ["picture-and-scan-scale", "picture-and-scan-tilt", "picture-and-scan-shift"];
+
 /// What codes mean; those that are not here are `info` without advice.
 const TABLE: &[Row] = &[
     changes(
@@ -108,7 +113,7 @@ const TABLE: &[Row] = &[
         "calibrate the robot where it works, or touch corners there",
     ),
     changes(
-        "picture-and-scan-disagree",
+        DISAGREE,
         "images and scans disagree, and the answer is for the frame of one of them",
         "check the calibration between image and depth, and the frame of the points",
     ),
@@ -199,10 +204,14 @@ pub fn reservation(result: &Calibration) -> Option<String> {
     if result.verdict != Verdict::Accepted {
         return None;
     }
+    let all = findings(result);
+    let is_told = all.iter().any(|f| f.code == DISAGREE);
+    let is_part = |code: &str| is_told && PARTS_OF_DISAGREE.contains(&code);
     let mut codes: Vec<String> = vec![];
     let mut headlines: Vec<String> = vec![];
-    for f in findings(result) {
-        if f.severity == Severity::ChangesAnswer && !codes.contains(&f.code) {
+    for f in all {
+        let changes = f.severity == Severity::ChangesAnswer && !is_part(&f.code);
+        if changes && !codes.contains(&f.code) {
             let headline = row(&f.code).map_or("", |row| row.headline);
             headlines.push(if headline.is_empty() { f.message } else { headline.to_owned() });
             codes.push(f.code);

@@ -161,9 +161,7 @@ fn agreement(
         warnings.push(not_separable());
         return None;
     }
-    // said with the frames' whole difference where the answer is for one of them
-    let is_told = warnings.iter().any(|w| w.code == "picture-and-scan-disagree");
-    let named = found.proven.iter().filter(|p| !is_told && worth(**p));
+    let named = found.proven.iter().filter(|p| worth(**p));
     warnings.extend(named.map(|p| disagreement(*p, &found)));
     Some(frames_result(&found))
 }
