@@ -13,7 +13,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3};
 
-use super::{Session, scans::seen_planes};
+use super::{AnswerFrame, Session, scans::seen_planes};
 use crate::{
     Calibration, Camera, Intrinsics, Mount, Pose, SurfaceCorner, Warning,
     calibration::{matrix, rows},
@@ -157,7 +157,7 @@ impl Offset {
             tre.map = None;
         }
         if let Some(x) = own {
-            result.warnings.insert(0, self.warning(&x));
+            result.warnings.insert(0, self.warning(&x, AnswerFrame::Scan));
         }
         result
     }
@@ -172,32 +172,52 @@ impl Offset {
     }
 
     /// What was found, and the answer in the other frame.
-    pub(super) fn warning(&self, image: &Pose<Mount, Camera>) -> Warning {
-        let d = self.scan_from_image.translation.vector * 1e3;
-        let sigma = |k: usize| self.covariance[(k, k)].max(0.0).sqrt();
-        let turn = self.scan_from_image.rotation.scaled_axis().map(f64::to_degrees);
-        let t = image.translation() * 1e3;
+    pub(super) fn warning(&self, image: &Pose<Mount, Camera>, frame: AnswerFrame) -> Warning {
+        let other = match frame {
+            AnswerFrame::Scan => *image,
+            AnswerFrame::Image => self.pose(image),
+        };
+        let (own, others) = match frame {
+            AnswerFrame::Scan => ("scans", "images"),
+            AnswerFrame::Image => ("images", "scans"),
+        };
+        let t = other.translation() * 1e3;
         Warning::new(
             "picture-and-scan-disagree",
             format!(
-                "the frame of the scans is not that of the images: scans are shifted by ({:+.3}, {:+.3}, {:+.3}) +- \
-                 {:.3} mm and rotated by ({:+.4}, {:+.4}, {:+.4}) +- {:.4} degrees, {:.2} mm at the target. The answer \
-                 is for the scans; for the images the camera is at ({:.2}, {:.2}, {:.2}) mm. Check the calibration \
+                "the frame of the scans is not that of the images: scans are {}, {:.2} mm at the target. The answer is \
+                 for the {own}; for the {others} the camera is at ({:.2}, {:.2}, {:.2}) mm. Check the calibration \
                  between image and scan, and in which frame the points are given",
-                d.x,
-                d.y,
-                d.z,
-                sigma(3).max(sigma(4)).max(sigma(5)) * 1e3,
-                turn.x,
-                turn.y,
-                turn.z,
-                sigma(0).max(sigma(1)).max(sigma(2)).to_degrees(),
+                self.in_words(),
                 self.moves() * 1e3,
                 t.x,
                 t.y,
                 t.z,
             ),
         )
+    }
+
+    /// The parts of the difference that the captures prove.
+    fn in_words(&self) -> String {
+        let largest = |rows: std::ops::Range<usize>| {
+            rows.map(|k| self.covariance[(k, k)].max(0.0).sqrt()).fold(0.0, f64::max)
+        };
+        let axes = |v: Vector3<f64>, digits: usize| {
+            let one = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:+.digits$}") };
+            format!("({}, {}, {})", one(v.x), one(v.y), one(v.z))
+        };
+        let d = self.scan_from_image.translation.vector * 1e3;
+        let turn = self.scan_from_image.rotation.scaled_axis().map(f64::to_degrees);
+        let mut parts = vec![];
+        if d != Vector3::zeros() {
+            let sigma = largest(3..6) * 1e3;
+            parts.push(format!("shifted by {} +- {sigma:.3} mm", axes(d, 3)));
+        }
+        if turn != Vector3::zeros() {
+            let sigma = largest(0..3).to_degrees();
+            parts.push(format!("rotated by {} +- {sigma:.4} degrees", axes(turn, 4)));
+        }
+        parts.join(" and ")
     }
 }
 

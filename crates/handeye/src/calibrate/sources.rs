@@ -76,7 +76,7 @@ pub(super) fn in_one_frame(
         (AnswerFrame::Scan, _) => offset.in_scan_frame(&image),
         (AnswerFrame::Image, Some(x)) => {
             let mut image = image;
-            image.warnings.insert(0, offset.warning(&x));
+            image.warnings.insert(0, offset.warning(&x, frame));
             image
         }
         (AnswerFrame::Image, None) => image,

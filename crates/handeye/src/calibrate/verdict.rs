@@ -191,17 +191,14 @@ pub(super) fn judge_size(
     let dof = (by_views.degrees_of_freedom - 1.0).max(1.0);
     let p_value = chance::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
     let off = (value - 1.0).abs();
+    let improbable = p_value < IMPROBABLE_SCALE;
     let code = match (&views.session.target, views.session.target_size) {
         _ if used => "target-scale",
         // distances that came from elsewhere are taken as they are: small errors of scale are left to the user
-        (None, _) if off > LEAST_SCALE_ERROR && p_value < IMPROBABLE_SCALE => "target-scale",
+        (None, _) if off > LEAST_SCALE_ERROR && improbable => "target-scale",
         // beyond what the prior of a printed target reaches
-        (Some(_), TargetSize::Printed) if off > MOST_SCALE_ERROR && p_value < IMPROBABLE_SCALE => {
-            "target-scale"
-        }
-        (Some(_), TargetSize::Measured(_)) if p_value < IMPROBABLE_SCALE => {
-            "target-size-contradicted"
-        }
+        (Some(_), TargetSize::Printed) if off > MOST_SCALE_ERROR && improbable => "target-scale",
+        (Some(_), TargetSize::Measured(_)) if improbable => "target-size-contradicted",
         _ => return,
     };
     let (value, sigma) = if used { answer } else { (value, sigma) };
