@@ -3,7 +3,7 @@
 //! A finding is made of a warning, or of a reason against the answer. Its code decides what it does to the answer:
 //! nothing (`info`), the answer is another one because of it (`changes-answer`), or there is no answer to use
 //! (`rejects`). An answer that is accepted with a finding that changes it is neither green nor red: page and terminal
-//! say first what changed. A new code needs one row of [`TABLE`]; without one it is `info`.
+//! say first what changed. A new code needs one row of the table below; without one it is `info`.
 
 use std::collections::BTreeMap;
 
