@@ -198,6 +198,45 @@ pub struct Scale {
     pub used: bool,
 }
 
+/// Something that moved during the session, or captures that say so.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Movement {
+    /// How.
+    pub kind: MovementKind,
+    /// Whether it may be the camera that moved.
+    pub camera: bool,
+    /// Whether it may be the target that moved.
+    pub target: bool,
+    /// First capture of a block, after a step, or of a slip.
+    pub first: String,
+    /// Last one.
+    pub last: String,
+    /// Whether the captures run to the end of the session.
+    pub at_end: bool,
+    /// Whether the robot poses of a block lie at a place of their own, where the robot may err.
+    pub at_a_place: bool,
+    /// How far, at the target (mm).
+    pub displacement_mm: f64,
+    /// By which angle.
+    pub rotation_deg: f64,
+    /// How probable a movement is.
+    pub probability: f64,
+    /// By how much the predicted error was widened (mm, squares added).
+    pub widened_mm: f64,
+}
+
+/// How something moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MovementKind {
+    /// Captures one after the other are rejected, and agree with one another.
+    Block,
+    /// At once, between two captures.
+    Step,
+    /// Evenly from the first capture to the last.
+    Slip,
+}
+
 /// The determined part of `mount_from_camera` where the data leave directions free.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Determined {
@@ -401,6 +440,9 @@ pub struct Calibration {
     pub scale_sigma: Option<f64>,
     /// Size of the target as the robot sees it, for comparison.
     pub target_scale: Option<Scale>,
+    /// Something that moved during the session.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub movement: Option<Movement>,
     /// The camera, where its parameters were part of the fit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraResult>,

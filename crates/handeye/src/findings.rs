@@ -103,6 +103,21 @@ const TABLE: &[Row] = &[
         "find out what they have in common: something moved, or the robot errs there",
     ),
     changes(
+        "camera-moved",
+        "the camera moved during the session, and the answer is where it is now",
+        "fasten the camera and the target, and take the captures again",
+    ),
+    changes(
+        "captures-displaced",
+        "captures were rejected one after the other and agree with one another",
+        "find out whether something moved or the robot errs there",
+    ),
+    changes(
+        "moved-during-session",
+        "something moved during the session, and the stated error covers it",
+        "tighten what gives way, and take the captures again",
+    ),
+    changes(
         "order-shifted",
         "captures were rejected because images and robot poses are out of order",
         "correct the order of the files or lines",

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::{Config, Session, doubt, gate, rejected};
+use super::{Config, Session, doubt, gate, movement, rejected};
 use crate::{
     Error, Observation, Pose, PosePair, Target, Warning,
-    calibration::{Calibration, CaptureResult, Verdict},
+    calibration::{Calibration, CaptureResult, Movement, Verdict},
     diagnose::{self, Convention},
     evaluate,
     linalg::median,
@@ -27,6 +27,8 @@ pub(super) struct Views<'a> {
     pub target_from_corner: Pose<Target, Target>,
     /// Which observations of the session they are.
     pub indices: Vec<usize>,
+    /// Something that moved between captures.
+    pub movement: Option<Movement>,
 }
 
 pub(super) fn first_report(o: &Observation) -> CaptureResult {
@@ -223,6 +225,7 @@ pub(super) fn agree<'a>(
         views: indices.iter().map(of).collect(),
         target_from_corner,
         indices,
+        movement: fit.and_then(|fit| movement::look(&captures, &found, &fit)),
     };
     Some((views, found))
 }

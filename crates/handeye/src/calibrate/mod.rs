@@ -23,6 +23,7 @@ mod gate;
 mod joint;
 mod known_position;
 mod masked;
+mod movement;
 mod named;
 mod offset;
 mod optics;
@@ -176,12 +177,15 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
         verdict::conclude(config, &mut result);
         return result;
     }
-    let mut result = sources::in_one_frame(&session, config.answer_frame, |session| {
-        let mut result = empty(session.setup);
-        from_views(session, (session, &Optics::of(session), 0), config, &mut result);
-        verdict::conclude(config, &mut result);
-        result
-    });
+    let run = |session: &Session| {
+        sources::in_one_frame(session, config.answer_frame, |session| {
+            let mut result = empty(session.setup);
+            from_views(session, (session, &Optics::of(session), 0), config, &mut result);
+            verdict::conclude(config, &mut result);
+            result
+        })
+    };
+    let mut result = movement::answer_of_the_end(&session, run(&session), run);
     refined::tell(&session, &mut result);
     scans::report(&session, &mut result);
     result.warnings.extend(touched_twice);
@@ -236,6 +240,9 @@ fn from_views(
         }
     }
     captures::report_captures(&views, result);
+    if let Some(moved) = views.movement {
+        movement::apply(moved, session.setup, result);
+    }
 }
 
 /// Captures and touches in the order of their names, whatever order they came in.
@@ -329,6 +336,7 @@ fn empty(setup: Setup) -> Calibration {
         scale: Some(1.0),
         scale_sigma: None,
         target_scale: None,
+        movement: None,
         camera: None,
         depth: None,
         scans: None,

@@ -1,0 +1,414 @@
+//! Whether something moved during the session: captures that disagree as one block, and a step or a slow slip in those
+//! that agree.
+//!
+//! Captures come in the order in which they were taken. A movement by a twist `δ`, of the camera or of the target,
+//! moves the misfits of the captures before it,
+//!
+//! ```text
+//! r_i ≈ s_i J_i δ        s_i = 1 before a step, and 0 after; falling evenly from 1 to 0 for a slip
+//! ```
+//!
+//! with `J_i` the Jacobian by the camera's or the target's pose, so that `X` is where the camera is at the end. Each
+//! hypothesis is one linear fit beside that without movement; they are weighed by their evidence, with the noise
+//! integrated out, and the error of the answer is widened by how far it would be off under each,
+//!
+//! ```text
+//! w_m ∝ π_m |N_m|^(-1/2) (RSS_m/RSS_0)^(-ν/2)        e² = Σ w_m |X_m - X_0|²
+//! ```
+//!
+//! Captures that were rejected one after the other and agree on one displacement may be right: the camera or the target
+//! moved, or the robot errs at that place. The stated error then reaches as far.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, Vector6};
+
+use super::{
+    Session,
+    agreement::Captures,
+    gate::{IMPROBABLE, surprise_limit},
+};
+use crate::{
+    Calibration, Setup, Verdict, Warning,
+    calibration::{CaptureResult, Movement, MovementKind},
+    lie,
+    refine::{JointFit, pose_fit},
+    solve::consensus::Consensus,
+};
+
+/// Fewest captures one after the other that are a block.
+const FEWEST_IN_BLOCK: usize = 3;
+/// Fewest captures that tell a movement from noise.
+const FEWEST: usize = 8;
+/// Fewest captures on either side of a step.
+const FEWEST_BESIDE: usize = 3;
+/// Believed probability that something moves in a session.
+const PRIOR: f64 = 0.05;
+/// Standard deviations of a movement, per axis: rad and m.
+const USUAL: (f64, f64) = (3e-3, 3e-3);
+/// A movement is named from this probability on.
+const NAMED: f64 = 0.95;
+/// Share of the equations that tell the noise of one kind, of rotations or of positions.
+const OF_ONE_NOISE: f64 = 0.5;
+/// A rotation counts against a position by this lever when neighbours are looked for, m.
+const LEVER: f64 = 0.3;
+/// A block whose captures have their nearest neighbour in the block this often lies at a place of its own.
+const OF_ITS_OWN: f64 = 0.8;
+
+/// The 95 % point over its root mean square, of how far an answer is off that was moved by a twist.
+const WIDE: f64 = 1.6;
+
+/// The side that moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Camera,
+    Target,
+}
+
+const SIDES: [Side; 2] = [Side::Camera, Side::Target];
+
+/// One capture, linearised at the answer and whitened.
+struct Row {
+    /// Which capture of the session.
+    capture: usize,
+    residual: Vector6<f64>,
+    jacobian: SMatrix<f64, 6, 12>,
+    /// Where it saw the target, in the camera frame.
+    seen: nalgebra::Vector3<f64>,
+}
+
+/// Looks for movement; `None` where nothing points to it and nothing has to be widened.
+pub(super) fn look(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Movement> {
+    block(captures, found, fit).or_else(|| gradual(captures, found, fit))
+}
+
+fn row(captures: &Captures, fit: &JointFit, i: usize, reading: usize) -> Option<Row> {
+    let view = captures.view(i, reading);
+    let (r, j) = pose_fit::misfit_with_jacobian(&fit.hand_eye, &view.pair);
+    let covariance = fit.noise.covariance(&view, &fit.hand_eye, captures.session.setup);
+    let root = Cholesky::new(covariance)?.l();
+    Some(Row {
+        capture: i,
+        residual: root.solve_lower_triangular(&r)?,
+        jacobian: root.solve_lower_triangular(&j)?,
+        seen: view.pair.camera_from_target.translation(),
+    })
+}
+
+impl Row {
+    fn by(&self, side: Side) -> Matrix6<f64> {
+        let first = if side == Side::Camera { 0 } else { 6 };
+        self.jacobian.fixed_columns::<6>(first).into_owned()
+    }
+}
+
+/// Captures left out one after the other that agree with one another.
+fn block(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Movement> {
+    let seen: Vec<usize> = (0..found.agrees.len())
+        .filter(|&i| !captures.readings[i].camera_from_target.is_empty())
+        .collect();
+    let runs = seen.chunk_by(|&a, &b| found.agrees[a] == found.agrees[b]);
+    let longest = runs.filter(|run| !found.agrees[run[0]]).max_by_key(|run| run.len())?;
+    if longest.len() < FEWEST_IN_BLOCK {
+        return None;
+    }
+    let rows: Vec<Row> = longest.iter().filter_map(|&i| nearest_row(captures, fit, i)).collect();
+    let explained: Vec<(Side, Vector6<f64>)> = SIDES
+        .into_iter()
+        .filter_map(|side| Some((side, common(&rows, side, fit.degrees_of_freedom)?)))
+        .collect();
+    let &(side, delta) = explained.first()?;
+    let at_end = longest.last() == seen.last();
+    let at_a_place = is_at_a_place(captures, longest, &seen);
+    let name = |i: usize| captures.session.observations[i].capture.clone();
+    let distance = match side {
+        Side::Camera => root_mean_square(rows.iter().map(|row| moved(&delta, row))),
+        Side::Target => lie::nu(&delta).norm(),
+    };
+    let other = |s: Side| explained.iter().any(|(side, _)| *side == s);
+    Some(Movement {
+        kind: MovementKind::Block,
+        camera: other(Side::Camera),
+        target: other(Side::Target),
+        first: name(*longest.first()?),
+        last: name(*longest.last()?),
+        at_end,
+        at_a_place,
+        displacement_mm: distance * 1e3,
+        rotation_deg: lie::omega(&delta).norm().to_degrees(),
+        probability: 1.0,
+        widened_mm: if other(Side::Camera) { distance * 1e3 } else { 0.0 },
+    })
+}
+
+/// The capture in the reading that lies nearest.
+fn nearest_row(captures: &Captures, fit: &JointFit, i: usize) -> Option<Row> {
+    (0..captures.readings[i].camera_from_target.len())
+        .filter_map(|k| row(captures, fit, i, k))
+        .min_by(|a, b| a.residual.norm().total_cmp(&b.residual.norm()))
+}
+
+/// The displacement on which captures agree within their noise.
+fn common(rows: &[Row], side: Side, degrees_of_freedom: f64) -> Option<Vector6<f64>> {
+    let mut normal = Matrix6::zeros();
+    let mut right = Vector6::zeros();
+    for row in rows {
+        let j = row.by(side);
+        normal += j.transpose() * j;
+        right += j.transpose() * row.residual;
+    }
+    let delta = -(Cholesky::new(normal)?.solve(&right));
+    let left: f64 = rows.iter().map(|r| (r.residual + r.by(side) * delta).norm_squared()).sum();
+    let limit = surprise_limit(IMPROBABLE, rows.len() - 1, degrees_of_freedom);
+    (left < limit).then_some(delta)
+}
+
+/// Whether robot poses of a block lie among themselves, and not between the others.
+fn is_at_a_place(captures: &Captures, block: &[usize], seen: &[usize]) -> bool {
+    let pose = |i: usize| &captures.readings[i].anchor_from_mount;
+    let apart = |i: usize, j: usize| {
+        let (a, b) = (pose(i), pose(j));
+        a.distance_to(b).hypot(LEVER * a.angle_to(b))
+    };
+    let own = |i: &&usize| {
+        let others = seen.iter().filter(|j| j != i);
+        let nearest = others.min_by(|a, b| apart(**i, **a).total_cmp(&apart(**i, **b)));
+        nearest.is_some_and(|j| block.contains(j))
+    };
+    block.iter().filter(own).count() as f64 >= OF_ITS_OWN * block.len() as f64
+}
+
+/// How far a displacement of the camera moves where it saw the target, m.
+fn moved(delta: &Vector6<f64>, row: &Row) -> f64 {
+    (lie::omega(delta).cross(&row.seen) + lie::nu(delta)).norm()
+}
+
+fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0), |(s, n), x| (s + x * x, n + 1.0));
+    f64::sqrt(sum / f64::max(count, 1.0))
+}
+
+/// One way in which something may have moved.
+#[derive(Clone, Copy)]
+struct Hypothesis {
+    side: Side,
+    /// The first capture after a step; `None` for a slip.
+    step: Option<usize>,
+}
+
+impl Hypothesis {
+    fn share(&self, k: usize, n: usize) -> f64 {
+        match self.step {
+            Some(step) => f64::from(u8::from(k < step)),
+            None => 1.0 - k as f64 / (n - 1) as f64,
+        }
+    }
+
+    /// Half of the belief goes to slips, half to steps.
+    fn log_prior(&self, steps: usize) -> f64 {
+        let of = if self.step.is_some() { steps as f64 } else { 1.0 };
+        (PRIOR / (2.0 * SIDES.len() as f64 * of)).ln()
+    }
+}
+
+/// One linear fit.
+struct Linear {
+    solution: DVector<f64>,
+    log_determinant: f64,
+    /// Squares that are left.
+    left: f64,
+}
+
+/// A step or a slip in the captures that agree.
+fn gradual(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Movement> {
+    let inside = (0..found.agrees.len()).filter(|&i| found.agrees[i]);
+    let rows: Vec<Row> = inside.filter_map(|i| row(captures, fit, i, found.reading[i])).collect();
+    let n = rows.len();
+    if n < FEWEST {
+        return None;
+    }
+    let still = linear(&rows, None)?;
+    let steps = FEWEST_BESIDE..=(n - FEWEST_BESIDE);
+    let count = steps.clone().count();
+    let all = SIDES.into_iter().flat_map(|side| {
+        let of_side = move |step| Hypothesis { side, step };
+        steps.clone().map(Some).chain([None]).map(of_side)
+    });
+    let equations = OF_ONE_NOISE * (6 * n - 12) as f64;
+    let weighed: Vec<(f64, Hypothesis, Linear)> = all
+        .filter_map(|h| {
+            let fit = linear(&rows, Some(&h))?;
+            let gain = -0.5 * equations * (fit.left / still.left).ln()
+                - 0.5 * (fit.log_determinant - still.log_determinant);
+            Some((h.log_prior(count) + gain, h, fit))
+        })
+        .collect();
+    let none = (1.0 - PRIOR).ln();
+    let most = weighed.iter().map(|w| w.0).fold(none, f64::max);
+    let sum = (none - most).exp() + weighed.iter().map(|w| (w.0 - most).exp()).sum::<f64>();
+    let weight = |log: f64| (log - most).exp() / sum;
+    let off = |fit: &Linear| {
+        let by = Vector6::from_fn(|k, _| fit.solution[k] - still.solution[k]);
+        root_mean_square(rows.iter().map(|row| moved(&by, row)))
+    };
+    let widened =
+        weighed.iter().map(|(w, _, fit)| weight(*w) * off(fit).powi(2)).sum::<f64>().sqrt();
+    let probability = weighed.iter().map(|w| weight(w.0)).sum::<f64>();
+    let side = |s: Side| {
+        weighed.iter().filter(|w| w.1.side == s).map(|w| weight(w.0)).sum::<f64>()
+            > (1.0 - NAMED) * probability
+    };
+    let (_, best, of_best) = weighed.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let delta = Vector6::from_fn(|k, _| of_best.solution[12 + k]);
+    let distance = match best.side {
+        Side::Camera => root_mean_square(rows.iter().map(|row| moved(&delta, row))),
+        Side::Target => lie::nu(&delta).norm(),
+    };
+    let name = |k: usize| captures.session.observations[rows[k].capture].capture.clone();
+    Some(Movement {
+        kind: if best.step.is_some() { MovementKind::Step } else { MovementKind::Slip },
+        camera: side(Side::Camera),
+        target: side(Side::Target),
+        first: name(best.step.unwrap_or(0)),
+        last: name(n - 1),
+        at_end: true,
+        at_a_place: false,
+        displacement_mm: distance * 1e3,
+        rotation_deg: lie::omega(&delta).norm().to_degrees(),
+        probability,
+        widened_mm: widened * 1e3,
+    })
+}
+
+/// Fits both poses, and a movement where there is one.
+fn linear(rows: &[Row], movement: Option<&Hypothesis>) -> Option<Linear> {
+    let size = if movement.is_some() { 18 } else { 12 };
+    let mut normal = DMatrix::zeros(size, size);
+    let mut right = DVector::zeros(size);
+    let mut left = 0.0;
+    for (k, row) in rows.iter().enumerate() {
+        let mut j = DMatrix::zeros(6, size);
+        j.fixed_view_mut::<6, 12>(0, 0).copy_from(&row.jacobian);
+        if let Some(h) = movement {
+            let own = row.by(h.side) * h.share(k, rows.len());
+            j.fixed_view_mut::<6, 6>(0, 12).copy_from(&own);
+        }
+        normal += j.tr_mul(&j);
+        right -= j.tr_mul(&row.residual);
+        left += row.residual.norm_squared();
+    }
+    let mut of_prior = 0.0;
+    for k in 12..size {
+        let sigma = if k < 15 { USUAL.0 } else { USUAL.1 };
+        normal[(k, k)] += sigma.powi(-2);
+        of_prior += 2.0 * sigma.ln();
+    }
+    let cholesky = Cholesky::new(normal)?;
+    let solution = cholesky.solve(&right);
+    let log_determinant: f64 = cholesky.l().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
+    left = (left - right.dot(&solution)).max(f64::MIN_POSITIVE);
+    Some(Linear { solution, log_determinant: log_determinant + of_prior, left })
+}
+
+/// Widens the stated error by what the movement leaves open, and says what was found.
+pub(super) fn apply(movement: Movement, setup: Setup, result: &mut Calibration) {
+    if let Some(tre) = &mut result.predicted_tre_mm {
+        let off = movement.widened_mm;
+        (tre.rms, tre.p95) = (tre.rms.hypot(off), tre.p95.hypot(WIDE * off));
+    }
+    if movement.probability < NAMED {
+        return;
+    }
+    let message = in_words(&movement, setup);
+    let code = match movement.kind {
+        MovementKind::Block => "captures-displaced",
+        _ => "moved-during-session",
+    };
+    result.warnings.push(Warning::new(code, message));
+    result.movement = Some(movement);
+}
+
+/// The answer for where the camera is now, where the captures of a block that runs to the end say that it moved: that of
+/// these captures alone, if they determine one; `run` calibrates a session.
+pub(super) fn answer_of_the_end(
+    session: &Session,
+    all: Calibration,
+    run: impl Fn(&Session) -> Calibration,
+) -> Calibration {
+    let Some(m) = &all.movement else { return all };
+    let moved = m.kind == MovementKind::Block && m.camera && m.at_end && !m.at_a_place;
+    let first = session.observations.iter().position(|o| o.capture == m.first);
+    let Some(first) = first.filter(|_| moved) else { return all };
+    let mut after = session.clone();
+    after.observations.drain(..first);
+    let mut end = run(&after);
+    if end.verdict != Verdict::Accepted {
+        return not_determined(all);
+    }
+    let mut before: Vec<CaptureResult> = all.captures[..first].to_vec();
+    for capture in before.iter_mut().filter(|c| c.used) {
+        capture.used = false;
+        capture.reason = Some("taken before the camera or the target moved".into());
+    }
+    let names = before.iter().map(|c| c.id.clone());
+    end.rejected = names.chain(end.rejected).collect();
+    end.captures = before.into_iter().chain(end.captures).collect();
+    let message = format!(
+        "{}. The answer is where the camera is since capture {}, from the {} captures since then alone",
+        in_words(&Movement { widened_mm: 0.0, ..m.clone() }, session.setup),
+        m.first,
+        session.observations.len() - first,
+    );
+    end.warnings.insert(0, Warning::new("camera-moved", message));
+    end.movement = all.movement;
+    end
+}
+
+/// Where too few captures were taken since the camera moved, nobody knows where it is.
+fn not_determined(mut all: Calibration) -> Calibration {
+    let Some(m) = &all.movement else { return all };
+    let message = format!(
+        "{}, and these do not determine an answer alone: take more captures as the camera sits now",
+        in_words(&Movement { widened_mm: 0.0, ..m.clone() }, all.setup)
+    );
+    all.warnings.retain(|w| w.code != "captures-displaced");
+    all.warnings.insert(0, Warning::new("camera-moved", message.clone()));
+    all.reasons = vec![message];
+    all.verdict = Verdict::Rejected;
+    all
+}
+
+fn in_words(m: &Movement, setup: Setup) -> String {
+    let how_far = format!("{:.2} mm and {:.3} degrees", m.displacement_mm, m.rotation_deg);
+    let camera = format!("the camera moved on the {}", setup.mount());
+    let target = match setup {
+        Setup::EyeInHand => "the target moved",
+        Setup::EyeToHand => "the target moved on the flange",
+    };
+    let mut causes: Vec<&str> = vec![];
+    if m.camera {
+        causes.push(&camera);
+    }
+    if m.target {
+        causes.push(target);
+    }
+    if m.kind == MovementKind::Block && m.at_a_place {
+        causes.push("the robot errs where these were taken");
+    }
+    let causes = causes.join(", or ");
+    let covers = if m.widened_mm > 0.0 { "; the stated error covers it" } else { "" };
+    match m.kind {
+        MovementKind::Block => format!(
+            "captures {} to {} agree with one another, {how_far} away from the others: {causes}{covers}",
+            m.first, m.last
+        ),
+        MovementKind::Step => format!(
+            "the captures from {} on differ from those before by {how_far}: {causes}{covers}. Tighten what gives way, \
+             and take the captures again",
+            m.first
+        ),
+        MovementKind::Slip => format!(
+            "errors grow evenly by {how_far} from capture {} to {}: {causes}, slowly{covers}. Warm up, tighten what \
+             gives way, and take the captures again",
+            m.first, m.last
+        ),
+    }
+}
