@@ -9,11 +9,12 @@
 //! ```
 //!
 //! with `J_i` the Jacobian by the camera's or the target's pose, so that `X` is where the camera is at the end. Each
-//! hypothesis is one linear fit beside that without movement; they are weighed by their evidence, with the noise
-//! integrated out, and the error of the answer is widened by how far it would be off under each,
+//! hypothesis is one linear fit beside that without movement, each with its own noise `s` of rotations and positions;
+//! they are weighed by their restricted likelihood, and the error of the answer is widened by how far it would be off
+//! under each,
 //!
 //! ```text
-//! w_m ∝ π_m |N_m|^(-1/2) (RSS_m/RSS_0)^(-ν/2)        e² = Σ w_m |X_m - X_0|²
+//! w_m ∝ π_m |N_m|^(-1/2) Π s^(-3n)        e² = Σ w_m |X_m - X_0|²
 //! ```
 //!
 //! Captures that were rejected one after the other and agree on one displacement may be right: the camera or the target
@@ -41,13 +42,11 @@ const FEWEST: usize = 8;
 /// Fewest captures on either side of a step.
 const FEWEST_BESIDE: usize = 3;
 /// Believed probability that something moves in a session.
-const PRIOR: f64 = 0.05;
-/// Standard deviations of a movement, per axis: rad and m.
-const USUAL: (f64, f64) = (3e-3, 3e-3);
+const PRIOR: f64 = 0.2;
+/// Standard deviations of a movement, per axis: rad and m alike. Small ones and large ones are believed alike.
+const SIZES: [f64; 3] = [0.5e-3, 1.5e-3, 5e-3];
 /// A movement is named from this probability on.
 const NAMED: f64 = 0.95;
-/// Share of the equations that tell the noise of one kind, of rotations or of positions.
-const OF_ONE_NOISE: f64 = 0.5;
 /// A rotation counts against a position by this lever when neighbours are looked for, m.
 const LEVER: f64 = 0.3;
 /// A block whose captures have their nearest neighbour in the block this often lies at a place of its own.
@@ -192,6 +191,8 @@ struct Hypothesis {
     side: Side,
     /// The first capture after a step; `None` for a slip.
     step: Option<usize>,
+    /// Standard deviation of the movement, per axis (rad, m).
+    size: f64,
 }
 
 impl Hypothesis {
@@ -205,16 +206,16 @@ impl Hypothesis {
     /// Half of the belief goes to slips, half to steps.
     fn log_prior(&self, steps: usize) -> f64 {
         let of = if self.step.is_some() { steps as f64 } else { 1.0 };
-        (PRIOR / (2.0 * SIDES.len() as f64 * of)).ln()
+        (PRIOR / (2.0 * (SIDES.len() * SIZES.len()) as f64 * of)).ln()
     }
 }
 
 /// One linear fit.
 struct Linear {
     solution: DVector<f64>,
-    log_determinant: f64,
-    /// Squares that are left.
-    left: f64,
+    log_evidence: f64,
+    /// Squares that are left, of rotations and of positions.
+    left: (f64, f64),
 }
 
 /// A step or a slip in the captures that agree.
@@ -228,17 +229,14 @@ fn gradual(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Mov
     let still = linear(&rows, None)?;
     let steps = FEWEST_BESIDE..=(n - FEWEST_BESIDE);
     let count = steps.clone().count();
-    let all = SIDES.into_iter().flat_map(|side| {
-        let of_side = move |step| Hypothesis { side, step };
-        steps.clone().map(Some).chain([None]).map(of_side)
+    let of_size = |size: f64| SIDES.map(|side| (side, size));
+    let all = SIZES.into_iter().flat_map(of_size).flat_map(|(side, size)| {
+        steps.clone().map(Some).chain([None]).map(move |step| Hypothesis { side, step, size })
     });
-    let equations = OF_ONE_NOISE * (6 * n - 12) as f64;
     let weighed: Vec<(f64, Hypothesis, Linear)> = all
         .filter_map(|h| {
             let fit = linear(&rows, Some(&h))?;
-            let gain = -0.5 * equations * (fit.left / still.left).ln()
-                - 0.5 * (fit.log_determinant - still.log_determinant);
-            Some((h.log_prior(count) + gain, h, fit))
+            Some((h.log_prior(count) + fit.log_evidence - still.log_evidence, h, fit))
         })
         .collect();
     let none = (1.0 - PRIOR).ln();
@@ -278,34 +276,68 @@ fn gradual(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Mov
     })
 }
 
-/// Fits both poses, and a movement where there is one.
+/// Rounds in which the noise settles.
+const ROUNDS: usize = 4;
+/// Least part of the noise that may be left: a fit is not better than its instruments.
+const LEAST_NOISE: f64 = 1e-2;
+
+/// Fits both poses, a movement where there is one, and how large the noise of rotations and of positions is then: what
+/// moved in positions alone would otherwise be judged by a noise that it made itself.
 fn linear(rows: &[Row], movement: Option<&Hypothesis>) -> Option<Linear> {
+    let equations = 3.0 * rows.len() as f64;
+    let mut variances = (1.0, 1.0);
+    let mut fit = weighted(rows, movement, variances)?;
+    for _ in 0..ROUNDS {
+        let variance = |left: f64| (left / (equations - 6.0)).max(LEAST_NOISE);
+        variances = (variance(fit.left.0), variance(fit.left.1));
+        fit = weighted(rows, movement, variances)?;
+    }
+    let of_noise = equations * (variances.0.ln() + variances.1.ln());
+    let of_squares = fit.left.0 / variances.0 + fit.left.1 / variances.1;
+    fit.log_evidence -= 0.5 * (of_noise + of_squares);
+    Some(fit)
+}
+
+/// The same under noise of these variances, as shares of those that the rows are whitened by.
+fn weighted(rows: &[Row], movement: Option<&Hypothesis>, variances: (f64, f64)) -> Option<Linear> {
     let size = if movement.is_some() { 18 } else { 12 };
+    let weight = |k: usize| if k < 3 { 1.0 / variances.0 } else { 1.0 / variances.1 };
+    let weights = Matrix6::from_diagonal(&Vector6::from_fn(|k, _| weight(k)));
     let mut normal = DMatrix::zeros(size, size);
     let mut right = DVector::zeros(size);
-    let mut left = 0.0;
-    for (k, row) in rows.iter().enumerate() {
+    let jacobian = |k: usize, row: &Row| {
         let mut j = DMatrix::zeros(6, size);
         j.fixed_view_mut::<6, 12>(0, 0).copy_from(&row.jacobian);
         if let Some(h) = movement {
             let own = row.by(h.side) * h.share(k, rows.len());
             j.fixed_view_mut::<6, 6>(0, 12).copy_from(&own);
         }
-        normal += j.tr_mul(&j);
-        right -= j.tr_mul(&row.residual);
-        left += row.residual.norm_squared();
+        j
+    };
+    for (k, row) in rows.iter().enumerate() {
+        let j = jacobian(k, row);
+        normal += j.tr_mul(&(weights * &j));
+        right -= j.tr_mul(&(weights * row.residual));
     }
     let mut of_prior = 0.0;
-    for k in 12..size {
-        let sigma = if k < 15 { USUAL.0 } else { USUAL.1 };
-        normal[(k, k)] += sigma.powi(-2);
-        of_prior += 2.0 * sigma.ln();
+    if let Some(h) = movement {
+        for k in 12..size {
+            normal[(k, k)] += h.size.powi(-2);
+            of_prior += 2.0 * h.size.ln();
+        }
     }
     let cholesky = Cholesky::new(normal)?;
     let solution = cholesky.solve(&right);
     let log_determinant: f64 = cholesky.l().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
-    left = (left - right.dot(&solution)).max(f64::MIN_POSITIVE);
-    Some(Linear { solution, log_determinant: log_determinant + of_prior, left })
+    let mut left = (0.0, 0.0);
+    for (k, row) in rows.iter().enumerate() {
+        let r = jacobian(k, row) * &solution + row.residual;
+        left.0 += r.rows(0, 3).norm_squared();
+        left.1 += r.rows(3, 3).norm_squared();
+    }
+    let by_prior = movement.map_or(0.0, |h| solution.rows(12, 6).norm_squared() / h.size.powi(2));
+    let log_evidence = -0.5 * (log_determinant + of_prior + by_prior);
+    Some(Linear { solution, log_evidence, left })
 }
 
 /// Widens the stated error by what the movement leaves open, and says what was found.
@@ -410,5 +442,91 @@ fn in_words(m: &Movement, setup: Setup) -> String {
              gives way, and take the captures again",
             m.first, m.last
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+    use super::*;
+    use crate::{Base, Config, Flange, Pose, calibrate, simulate::Cell};
+    use nalgebra::{Isometry3, Vector3};
+
+    const SETUP: Setup = Setup::EyeToHand;
+
+    /// A cell whose camera moves by a share of `mm` (m: mm/1000) in the captures before its end.
+    fn moving(
+        seed: u64,
+        mm: f64,
+        share: impl Fn(usize, usize) -> f64,
+    ) -> (Session, Pose<crate::Mount, crate::Camera>) {
+        let cell = Cell { touches: 0, ..Cell::new(SETUP, seed) };
+        let (mut session, truth) = cell.session(seed).unwrap();
+        let n = session.observations.len();
+        for (k, o) in session.observations.iter_mut().enumerate() {
+            let by = Vector3::new(0.6, -0.64, 0.48) * (mm * 1e-3 * share(k, n));
+            // the base moves against the camera
+            let moved = Isometry3::new(by, Vector3::zeros()) * o.base_from_flange.iso();
+            o.base_from_flange = Pose::<Base, Flange>::claim(moved);
+        }
+        (session, truth.hand_eye.mount_from_camera)
+    }
+
+    fn found(seed: u64, mm: f64, share: impl Fn(usize, usize) -> f64) -> (Calibration, f64) {
+        let (session, truth) = moving(seed, mm, share);
+        let found = calibrate(&session, &Config::default()).unwrap();
+        let off = found.hand_eye.mount_from_camera.unwrap().distance_to(&truth) * 1e3;
+        (found, off)
+    }
+
+    fn halfway(k: usize, n: usize) -> f64 {
+        f64::from(u8::from(2 * k >= n))
+    }
+
+    #[test]
+    fn what_stands_still_is_not_said_to_move() {
+        for seed in 0..12 {
+            let (found, _) = found(seed, 0.0, |_, _| 0.0);
+            assert_eq!(found.movement, None, "seed {seed}");
+            assert_eq!(found.verdict, Verdict::Accepted);
+        }
+    }
+
+    #[test]
+    fn after_a_bump_the_answer_is_where_the_camera_is_now() {
+        for seed in 0..6 {
+            // before the bump all is shifted against the truth, after it nothing
+            let (found, off) = found(seed, 8.0, |k, n| 1.0 - halfway(k, n));
+            let said = found.warnings.iter().any(|w| w.code == "camera-moved")
+                || found.verdict == Verdict::Rejected;
+            assert!(said, "seed {seed}: {:?}", found.warnings);
+            if found.verdict == Verdict::Accepted {
+                assert!(
+                    off < found.predicted_tre_mm.as_ref().unwrap().p95 * 1.5,
+                    "seed {seed}: {off}"
+                );
+                assert!(found.captures.len() > found.captures.iter().filter(|c| c.used).count());
+            }
+        }
+    }
+
+    #[test]
+    fn a_slip_is_named_and_covered() {
+        for seed in 0..6 {
+            let (found, off) = found(seed, 4.0, |k, n| 1.0 - k as f64 / (n - 1) as f64);
+            let moved = found.movement.as_ref().unwrap();
+            assert!(moved.camera && moved.probability > NAMED, "seed {seed}: {moved:?}");
+            assert!(off < found.predicted_tre_mm.as_ref().unwrap().p95 * 1.5, "seed {seed}: {off}");
+        }
+    }
+
+    #[test]
+    fn belief_in_all_movements_adds_up() {
+        let steps = 7;
+        let one = |side, step, size| Hypothesis { side, step, size }.log_prior(steps).exp();
+        let of = |(side, size)| one(side, None, size) + steps as f64 * one(side, Some(4), size);
+        let all = SIZES.into_iter().flat_map(|size| SIDES.map(|side| (side, size)));
+        assert!((all.map(of).sum::<f64>() - PRIOR).abs() < 1e-12);
     }
 }
