@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::{Config, Session, doubt, gate, movement, rejected};
 use crate::{
     Error, Observation, Pose, PosePair, Target, Warning,
-    calibration::{Calibration, CaptureResult, Movement, Verdict},
+    calibration::{Calibration, CaptureResult, Verdict},
     diagnose::{self, Convention},
     evaluate,
     linalg::median,
@@ -28,7 +28,7 @@ pub(super) struct Views<'a> {
     /// Which observations of the session they are.
     pub indices: Vec<usize>,
     /// Something that moved between captures.
-    pub movement: Option<Movement>,
+    pub movement: Option<movement::Suspected>,
 }
 
 pub(super) fn first_report(o: &Observation) -> CaptureResult {

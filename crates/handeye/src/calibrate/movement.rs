@@ -20,7 +20,7 @@
 //! Captures that were rejected one after the other and agree on one displacement may be right: the camera or the target
 //! moved, or the robot errs at that place. The stated error then reaches as far.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, Vector6};
+use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
 
 use super::{
     Session,
@@ -29,9 +29,10 @@ use super::{
 };
 use crate::{
     Calibration, Setup, Verdict, Warning,
-    calibration::{CaptureResult, Movement, MovementKind},
+    calibration::{CaptureResult, Movement, MovementKind, matrix, rows},
     lie,
     refine::{JointFit, pose_fit},
+    register::rigid_fit::point_jacobian,
     solve::consensus::Consensus,
 };
 
@@ -71,12 +72,50 @@ struct Row {
     residual: Vector6<f64>,
     jacobian: SMatrix<f64, 6, 12>,
     /// Where it saw the target, in the camera frame.
-    seen: nalgebra::Vector3<f64>,
+    seen: Vector3<f64>,
+}
+
+/// A movement that may have been, and what it does to the camera's pose.
+pub(super) struct Suspected {
+    movement: Movement,
+    /// Mean square of how far the pose of the camera from views alone would be off (rad and m, perturbed on the
+    /// right).
+    spread: Matrix6<f64>,
+    /// What the views say of that pose.
+    information: Matrix6<f64>,
+    /// Where the camera saw the target, in its own frame.
+    seen: Vec<Vector3<f64>>,
 }
 
 /// Looks for movement; `None` where nothing points to it and nothing has to be widened.
-pub(super) fn look(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Movement> {
-    block(captures, found, fit).or_else(|| gradual(captures, found, fit))
+pub(super) fn look(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Suspected> {
+    let inside = (0..found.agrees.len()).filter(|&i| found.agrees[i]);
+    let rows: Vec<Row> = inside.filter_map(|i| row(captures, fit, i, found.reading[i])).collect();
+    let (movement, spread) = block(captures, found, fit).or_else(|| gradual(captures, &rows))?;
+    let information = of_camera(&rows)?;
+    Some(Suspected { movement, spread, information, seen: rows.iter().map(|r| r.seen).collect() })
+}
+
+impl Suspected {
+    /// The mean square of how far the answer would be off, of which views are one part: what else it rests on did not
+    /// move. `stated` is its covariance.
+    fn beside(&self, stated: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        let root = Cholesky::new(*stated)?.l();
+        let shares = SymmetricEigen::new(root.transpose() * self.information * root);
+        let most = Matrix6::from_diagonal(&shares.eigenvalues.map(|share| share.clamp(0.0, 1.0)));
+        let by_views = root * shares.eigenvectors * most * shares.eigenvectors.transpose();
+        let off = by_views * root.try_inverse()?;
+        Some(off * self.spread * off.transpose())
+    }
+}
+
+/// What captures say of the camera's pose, whatever the target's is.
+fn of_camera(rows: &[Row]) -> Option<Matrix6<f64>> {
+    let normal: SMatrix<f64, 12, 12> =
+        rows.iter().map(|r| r.jacobian.transpose() * r.jacobian).sum();
+    let part = |i, j| normal.fixed_view::<6, 6>(i, j).into_owned();
+    let of_target = Cholesky::new(part(6, 6))?;
+    Some(part(0, 0) - part(0, 6) * of_target.solve(&part(6, 0)))
 }
 
 fn row(captures: &Captures, fit: &JointFit, i: usize, reading: usize) -> Option<Row> {
@@ -99,8 +138,12 @@ impl Row {
     }
 }
 
-/// Captures left out one after the other that agree with one another.
-fn block(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Movement> {
+/// Captures left out one after the other that agree with one another, and the square of what they are displaced by.
+fn block(
+    captures: &Captures,
+    found: &Consensus,
+    fit: &JointFit,
+) -> Option<(Movement, Matrix6<f64>)> {
     let seen: Vec<usize> = (0..found.agrees.len())
         .filter(|&i| !captures.readings[i].camera_from_target.is_empty())
         .collect();
@@ -119,11 +162,11 @@ fn block(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Movem
     let at_a_place = is_at_a_place(captures, longest, &seen);
     let name = |i: usize| captures.session.observations[i].capture.clone();
     let distance = match side {
-        Side::Camera => root_mean_square(rows.iter().map(|row| moved(&delta, row))),
+        Side::Camera => root_mean_square(rows.iter().map(|row| moved(&delta, &row.seen))),
         Side::Target => lie::nu(&delta).norm(),
     };
     let other = |s: Side| explained.iter().any(|(side, _)| *side == s);
-    Some(Movement {
+    let movement = Movement {
         kind: MovementKind::Block,
         camera: other(Side::Camera),
         target: other(Side::Target),
@@ -134,8 +177,10 @@ fn block(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Movem
         displacement_mm: distance * 1e3,
         rotation_deg: lie::omega(&delta).norm().to_degrees(),
         probability: 1.0,
-        widened_mm: if other(Side::Camera) { distance * 1e3 } else { 0.0 },
-    })
+        widened_mm: 0.0,
+    };
+    let by_camera = if other(Side::Camera) { 1.0 } else { 0.0 };
+    Some((movement, delta * delta.transpose() * by_camera))
 }
 
 /// The capture in the reading that lies nearest.
@@ -176,8 +221,8 @@ fn is_at_a_place(captures: &Captures, block: &[usize], seen: &[usize]) -> bool {
 }
 
 /// How far a displacement of the camera moves where it saw the target, m.
-fn moved(delta: &Vector6<f64>, row: &Row) -> f64 {
-    (lie::omega(delta).cross(&row.seen) + lie::nu(delta)).norm()
+fn moved(delta: &Vector6<f64>, seen: &Vector3<f64>) -> f64 {
+    (lie::omega(delta).cross(seen) + lie::nu(delta)).norm()
 }
 
 fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
@@ -218,50 +263,53 @@ struct Linear {
     left: (f64, f64),
 }
 
-/// A step or a slip in the captures that agree.
-fn gradual(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Movement> {
-    let inside = (0..found.agrees.len()).filter(|&i| found.agrees[i]);
-    let rows: Vec<Row> = inside.filter_map(|i| row(captures, fit, i, found.reading[i])).collect();
-    let n = rows.len();
-    if n < FEWEST {
-        return None;
-    }
-    let still = linear(&rows, None)?;
-    let steps = FEWEST_BESIDE..=(n - FEWEST_BESIDE);
+/// A way in which something may have moved, its logarithm of the likelihood, and the fit under it.
+type Weighed = (f64, Hypothesis, Linear);
+
+/// Every way of moving, with its likelihood beside that of standing still.
+fn weighed(rows: &[Row], still: &Linear) -> Vec<Weighed> {
+    let steps = FEWEST_BESIDE..=(rows.len() - FEWEST_BESIDE);
     let count = steps.clone().count();
     let of_size = |size: f64| SIDES.map(|side| (side, size));
     let all = SIZES.into_iter().flat_map(of_size).flat_map(|(side, size)| {
         steps.clone().map(Some).chain([None]).map(move |step| Hypothesis { side, step, size })
     });
-    let weighed: Vec<(f64, Hypothesis, Linear)> = all
-        .filter_map(|h| {
-            let fit = linear(&rows, Some(&h))?;
-            Some((h.log_prior(count) + fit.log_evidence - still.log_evidence, h, fit))
-        })
-        .collect();
+    all.filter_map(|h| {
+        let fit = linear(rows, Some(&h))?;
+        Some((h.log_prior(count) + fit.log_evidence - still.log_evidence, h, fit))
+    })
+    .collect()
+}
+
+/// A step or a slip in the captures that agree, and the mean square of what it displaces the camera's pose by.
+fn gradual(captures: &Captures, rows: &[Row]) -> Option<(Movement, Matrix6<f64>)> {
+    let n = rows.len();
+    if n < FEWEST {
+        return None;
+    }
+    let still = linear(rows, None)?;
+    let all = weighed(rows, &still);
     let none = (1.0 - PRIOR).ln();
-    let most = weighed.iter().map(|w| w.0).fold(none, f64::max);
-    let sum = (none - most).exp() + weighed.iter().map(|w| (w.0 - most).exp()).sum::<f64>();
+    let most = all.iter().map(|w| w.0).fold(none, f64::max);
+    let sum = (none - most).exp() + all.iter().map(|w| (w.0 - most).exp()).sum::<f64>();
     let weight = |log: f64| (log - most).exp() / sum;
-    let off = |fit: &Linear| {
+    let spread = |(log, _, fit): &Weighed| {
         let by = Vector6::from_fn(|k, _| fit.solution[k] - still.solution[k]);
-        root_mean_square(rows.iter().map(|row| moved(&by, row)))
+        by * by.transpose() * weight(*log)
     };
-    let widened =
-        weighed.iter().map(|(w, _, fit)| weight(*w) * off(fit).powi(2)).sum::<f64>().sqrt();
-    let probability = weighed.iter().map(|w| weight(w.0)).sum::<f64>();
+    let probability = all.iter().map(|w| weight(w.0)).sum::<f64>();
     let side = |s: Side| {
-        weighed.iter().filter(|w| w.1.side == s).map(|w| weight(w.0)).sum::<f64>()
+        all.iter().filter(|w| w.1.side == s).map(|w| weight(w.0)).sum::<f64>()
             > (1.0 - NAMED) * probability
     };
-    let (_, best, of_best) = weighed.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let (_, best, of_best) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
     let delta = Vector6::from_fn(|k, _| of_best.solution[12 + k]);
     let distance = match best.side {
-        Side::Camera => root_mean_square(rows.iter().map(|row| moved(&delta, row))),
+        Side::Camera => root_mean_square(rows.iter().map(|row| moved(&delta, &row.seen))),
         Side::Target => lie::nu(&delta).norm(),
     };
     let name = |k: usize| captures.session.observations[rows[k].capture].capture.clone();
-    Some(Movement {
+    let movement = Movement {
         kind: if best.step.is_some() { MovementKind::Step } else { MovementKind::Slip },
         camera: side(Side::Camera),
         target: side(Side::Target),
@@ -272,8 +320,9 @@ fn gradual(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Mov
         displacement_mm: distance * 1e3,
         rotation_deg: lie::omega(&delta).norm().to_degrees(),
         probability,
-        widened_mm: widened * 1e3,
-    })
+        widened_mm: 0.0,
+    };
+    Some((movement, all.iter().map(spread).sum()))
 }
 
 /// Rounds in which the noise settles.
@@ -341,7 +390,18 @@ fn weighted(rows: &[Row], movement: Option<&Hypothesis>, variances: (f64, f64)) 
 }
 
 /// Widens the stated error by what the movement leaves open, and says what was found.
-pub(super) fn apply(movement: Movement, setup: Setup, result: &mut Calibration) {
+pub(super) fn apply(found: Suspected, setup: Setup, result: &mut Calibration) {
+    let mut movement = found.movement.clone();
+    if let Some(stated) = result.hand_eye.covariance.mount_from_camera
+        && let Some(spread) = found.beside(&matrix(&stated))
+    {
+        let squares = found.seen.iter().map(|p| {
+            let j = point_jacobian(p);
+            (j * spread * j.transpose()).trace()
+        });
+        movement.widened_mm = root_mean_square(squares.map(f64::sqrt)) * 1e3;
+        result.hand_eye.covariance.mount_from_camera = Some(rows(&(matrix(&stated) + spread)));
+    }
     if let Some(tre) = &mut result.predicted_tre_mm {
         let off = movement.widened_mm;
         (tre.rms, tre.p95) = (tre.rms.hypot(off), tre.p95.hypot(WIDE * off));
