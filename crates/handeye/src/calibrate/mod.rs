@@ -187,7 +187,8 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
     };
     let mut result = movement::answer_of_the_end(&session, run(&session), run);
     refined::tell(&session, &mut result);
-    scans::report(&session, &mut result);
+    let bent = scans::report(&session, &mut result);
+    movement::tell(bent, &mut result);
     result.warnings.extend(touched_twice);
     result
 }
@@ -241,7 +242,7 @@ fn from_views(
     }
     captures::report_captures(&views, result);
     if let Some(moved) = views.movement {
-        movement::apply(moved, session.setup, result);
+        movement::apply(moved, result);
     }
 }
 

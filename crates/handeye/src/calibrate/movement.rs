@@ -389,8 +389,8 @@ fn weighted(rows: &[Row], movement: Option<&Hypothesis>, variances: (f64, f64)) 
     Some(Linear { solution, log_evidence, left })
 }
 
-/// Widens the stated error by what the movement leaves open, and says what was found.
-pub(super) fn apply(found: Suspected, setup: Setup, result: &mut Calibration) {
+/// Widens the stated error by what the movement leaves open, and keeps what was found.
+pub(super) fn apply(found: Suspected, result: &mut Calibration) {
     let mut movement = found.movement.clone();
     if let Some(stated) = result.hand_eye.covariance.mount_from_camera
         && let Some(spread) = found.beside(&matrix(&stated))
@@ -406,16 +406,28 @@ pub(super) fn apply(found: Suspected, setup: Setup, result: &mut Calibration) {
         let off = movement.widened_mm;
         (tre.rms, tre.p95) = (tre.rms.hypot(off), tre.p95.hypot(WIDE * off));
     }
-    if movement.probability < NAMED {
-        return;
-    }
-    let message = in_words(&movement, setup);
+    result.movement = (movement.probability >= NAMED).then_some(movement);
+}
+
+/// Says what moved. `explained`: what was measured besides says already why captures disagree.
+pub(super) fn tell(explained: bool, result: &mut Calibration) {
+    let Some(movement) = &result.movement else { return };
     let code = match movement.kind {
+        MovementKind::Block if runs_to_the_end(movement) => return,
         MovementKind::Block => "captures-displaced",
+        _ if explained => {
+            result.movement = None;
+            return;
+        }
         _ => "moved-during-session",
     };
+    let message = in_words(movement, result.setup);
     result.warnings.push(Warning::new(code, message));
-    result.movement = Some(movement);
+}
+
+/// Whether a block says where the camera is now: `answer_of_the_end` has dealt with it.
+fn runs_to_the_end(m: &Movement) -> bool {
+    m.kind == MovementKind::Block && m.camera && m.at_end && !m.at_a_place
 }
 
 /// The answer for where the camera is now, where the captures of a block that runs to the end say that it moved: that of
@@ -426,9 +438,8 @@ pub(super) fn answer_of_the_end(
     run: impl Fn(&Session) -> Calibration,
 ) -> Calibration {
     let Some(m) = &all.movement else { return all };
-    let moved = m.kind == MovementKind::Block && m.camera && m.at_end && !m.at_a_place;
     let first = session.observations.iter().position(|o| o.capture == m.first);
-    let Some(first) = first.filter(|_| moved) else { return all };
+    let Some(first) = first.filter(|_| runs_to_the_end(m)) else { return all };
     let mut after = session.clone();
     after.observations.drain(..first);
     let mut end = run(&after);
@@ -461,7 +472,6 @@ fn not_determined(mut all: Calibration) -> Calibration {
         "{}, and these do not determine an answer alone: take more captures as the camera sits now",
         in_words(&Movement { widened_mm: 0.0, ..m.clone() }, all.setup)
     );
-    all.warnings.retain(|w| w.code != "captures-displaced");
     all.warnings.insert(0, Warning::new("camera-moved", message.clone()));
     all.reasons = vec![message];
     all.verdict = Verdict::Rejected;

@@ -24,20 +24,26 @@ struct Seen<'a> {
     surface: Vec<SurfaceCorner>,
 }
 
-/// Fills in what the scans say, and warns of what is wrong.
-pub(super) fn report(session: &Session, result: &mut Calibration) {
-    let Some(target) = session.target.as_ref().filter(|t| !t.is_empty()) else { return };
+/// Fills in what the scans say, and warns of what is wrong; true where the target is bent.
+pub(super) fn report(session: &Session, result: &mut Calibration) -> bool {
+    let Some(target) = session.target.as_ref().filter(|t| !t.is_empty()) else { return false };
     let seen = seen(session, target, result);
     if seen.is_empty() {
-        return;
+        return false;
+    }
+    let flatness = flat(&seen, target);
+    let bent = flatness.as_ref().is_some_and(|f| f.is_bent(target));
+    if let Some(found) = flatness.as_ref().filter(|_| bent) {
+        result.warnings.push(not_flat(&found.board, seen.len()));
     }
     let found = ScanResult {
         colour_step: None,
-        flatness: flat(&seen, target, &mut result.warnings),
+        flatness: flatness.map(|f| as_result(&f, &seen)),
         frames: agreement(session, &seen, target, &mut result.warnings),
         scene: None,
     };
     result.scans = Some(found);
+    bent
 }
 
 fn seen<'a>(session: &'a Session, target: &TargetModel, result: &Calibration) -> Vec<Seen<'a>> {
@@ -52,22 +58,14 @@ fn seen<'a>(session: &'a Session, target: &TargetModel, result: &Calibration) ->
     session.observations.iter().zip(&result.captures).filter_map(one).collect()
 }
 
-fn flat(
-    seen: &[Seen],
-    target: &TargetModel,
-    warnings: &mut Vec<Warning>,
-) -> Option<FlatnessResult> {
+fn flat(seen: &[Seen], target: &TargetModel) -> Option<Flatness> {
     let felt = |s: &Seen| -> Vec<Felt> {
         let one = |c: &SurfaceCorner| {
             Some((target.corner(c.id)?.vector().xy(), c.in_camera.vector(), c.covariance))
         };
         s.surface.iter().filter_map(one).collect()
     };
-    let found = flatness(&seen.iter().map(felt).collect::<Vec<_>>())?;
-    if found.is_bent(target) {
-        warnings.push(not_flat(&found.board, seen.len()));
-    }
-    Some(as_result(&found, seen))
+    flatness(&seen.iter().map(felt).collect::<Vec<_>>())
 }
 
 fn not_flat(bend: &Bend, captures: usize) -> Warning {
