@@ -160,11 +160,13 @@ impl Intrinsics {
         ((d - at).norm() < 1e-9).then_some(n)
     }
 
-    /// Derivative of a point's pixel by `fx fy cx cy k1 k2 p1 p2 k3`; those of the distortion are
-    /// Brown-Conrady's, and zero for a lens of another model.
+    /// Derivative of a point's pixel by `f a cx cy k1 k2 p1 p2 k3`: `f` changes `fx`, and `fy` in proportion, `a`
+    /// changes `fy` beyond that (a focal length is often off, the shape of the pixels hardly ever). Those of the
+    /// distortion are Brown-Conrady's, and zero for a lens of another model.
     pub fn by_parameters(&self, point: &Vector3<f64>) -> SMatrix<f64, 2, PARAMETERS> {
         let all = self.by_lens(point);
         let mut j = all.fixed_columns::<PARAMETERS>(0).into_owned();
+        j.set_column(0, &(all.column(0) + all.column(1) * (self.fy / self.fx)));
         if let Distortion::KannalaBrandt(_) = self.distortion {
             j.columns_mut(4, 5).fill(0.0);
         }
@@ -222,6 +224,7 @@ impl Intrinsics {
     pub fn moved(&self, d: &SVector<f64, PARAMETERS>) -> Self {
         let mut all = SVector::<f64, LENS_PARAMETERS>::zeros();
         all.rows_mut(0, PARAMETERS).copy_from(d);
+        all[1] += d[0] * (self.fy / self.fx);
         if let Distortion::KannalaBrandt(_) = self.distortion {
             all.rows_mut(4, 5).fill(0.0);
         }

@@ -21,10 +21,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Session, TargetSize};
+use super::{Session, TargetSize, alike};
 use crate::{
-    Error, HandEye, TargetModel,
-    detect::sight::{DEPTH_BIAS, DEPTH_SCALE, TARGET_SCALE},
+    Distortion, Error, HandEye, Intrinsics, TargetModel,
+    detect::sight::{CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, TARGET_SCALE},
     refine::{self, Extra, ExtraKind, JointFit, KnownNoise, Problem},
 };
 
@@ -41,6 +41,37 @@ const PRINTED: [(f64, f64); 3] = [(0.75, 2e-4), (0.20, 5e-3), (0.05, 2.5e-2)];
 /// The same of the depth of scans: probability, standard deviations of its scale (share) and of its bias (m). Most
 /// 3D cameras are within their calibration; some are cold or were calibrated long ago; few are far off.
 const DEPTH: [(f64, f64, f64); 3] = [(0.7, 3e-4, 1e-4), (0.2, 3e-3, 1e-3), (0.1, 2e-2, 5e-3)];
+/// The same of a given lens: well calibrated; its focus was turned, or its zoom, since then; its centre as well, after
+/// a knock or with another crop; all of it, calibrated from few views or from one side; and far off, of a data sheet.
+const GIVEN: [(f64, LensSigma); 5] = [
+    (0.60, LensSigma { focal: 2e-4, aspect: 5e-5, centre: 2e-4, distortion: SURE }),
+    (0.16, LensSigma { focal: 3e-3, aspect: 1e-4, centre: 5e-4, distortion: SURE }),
+    (0.10, LensSigma { focal: 4e-3, aspect: 2e-4, centre: 4e-3, distortion: SURE }),
+    (
+        0.08,
+        LensSigma {
+            focal: 4e-3,
+            aspect: 1e-3,
+            centre: 4e-3,
+            distortion: [0.02, 0.05, 1e-3, 1e-3, 0.05],
+        },
+    ),
+    (
+        0.06,
+        LensSigma {
+            focal: 1.5e-2,
+            aspect: 3e-3,
+            centre: 1.5e-2,
+            distortion: [0.05, 0.1, 2e-3, 2e-3, 0.1],
+        },
+    ),
+];
+/// Distortion of a lens that was calibrated well.
+const SURE: [f64; 5] = [1e-3, 3e-3, 5e-5, 5e-5, 3e-3];
+/// One that these views alone have calibrated: nothing is known beyond what they say.
+const OWN: LensSigma = LensSigma { focal: 0.3, aspect: 0.3, centre: 0.2, distortion: [1.0; 5] };
+/// Combinations of components that are less likely than this beforehand are no part of the prior.
+const LEAST_LIKELY: f64 = 1e-3;
 /// A component of less weight than this changes neither mean nor covariance.
 const NEGLIGIBLE: f64 = 1e-4;
 
@@ -54,11 +85,36 @@ struct Component {
     declared: Declared<bool>,
 }
 
-/// Of the target's size, and of the depth of scans.
+/// Of the target's size, of the depth of scans, and of the lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Declared<T> {
     pub size: T,
     pub depth: T,
+    pub lens: T,
+}
+
+/// Standard deviations of a lens: of its focal length and of the proportion of both (shares), of its principal point
+/// (share of the width), and of its distortion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct LensSigma {
+    focal: f64,
+    aspect: f64,
+    centre: f64,
+    distortion: [f64; 5],
+}
+
+impl LensSigma {
+    /// The unknowns of a camera about where it stands.
+    fn unknowns(&self, camera: &Intrinsics) -> Vec<Extra> {
+        let width = f64::from(camera.width.max(1)).max(camera.cx);
+        let (focal, centre) = (self.focal, self.centre * width);
+        let mut all = vec![focal * camera.fx, self.aspect * camera.fy, centre, centre];
+        if matches!(camera.distortion, Distortion::BrownConrady(_)) {
+            all.extend(self.distortion);
+        }
+        let one = |(i, sigma)| Extra::about_zero(ExtraKind::Camera(LENS + i), sigma);
+        all.into_iter().enumerate().map(one).collect()
+    }
 }
 
 /// The prior of what was declared of the target; without components that of the extras themselves.
@@ -76,7 +132,7 @@ pub(super) struct Averaged {
 }
 
 /// What was declared is not in question.
-const NO_DOUBT: Declared<f64> = Declared { size: 1.0, depth: 1.0 };
+const NO_DOUBT: Declared<f64> = Declared { size: 1.0, depth: 1.0, lens: 1.0 };
 
 /// The unknown size of the session's target, where its views tell sizes by their corners.
 pub(super) fn unknown_size(session: &Session) -> Option<Extra> {
@@ -100,6 +156,29 @@ pub(super) fn unknown_depth(session: &Session) -> Vec<Extra> {
     if scanned { all.to_vec() } else { vec![] }
 }
 
+/// The lens of the session's camera: what calibrations leave open, or all where it was calibrated from these views.
+pub(super) fn unknown_lens(session: &Session) -> Vec<Extra> {
+    let (Some(camera), Some(_)) = (&session.camera, &session.target) else { return vec![] };
+    if !session.observations.iter().any(|o| !o.corners.is_empty()) {
+        return vec![];
+    }
+    if !session.camera_from_views {
+        return GIVEN[0].1.unknowns(camera);
+    }
+    let mut all = OWN.unknowns(camera);
+    if let Distortion::BrownConrady(k) = camera.distortion {
+        // terms that the calibration from the views did not pay for stay out
+        let paid = |e: &Extra| !matches!(e.kind, ExtraKind::Camera(n) if n >= LENS + 4 && k[n - LENS - 4] == 0.0);
+        all.retain(paid);
+    }
+    all
+}
+
+/// Whether an unknown is one that all captures tell together: of the target, of the depth of scans, of the lens.
+fn is_shared(kind: ExtraKind) -> bool {
+    matches!(kind, ExtraKind::Camera(which) if which < CLOCK)
+}
+
 impl Alternatives {
     /// What the user said of the target's size, and what is known of scans.
     pub(super) fn of(session: &Session) -> Self {
@@ -111,26 +190,37 @@ impl Alternatives {
         };
         let scanned = session.observations.iter().any(|o| !o.surface.is_empty());
         let depth = if scanned { &DEPTH[..] } else { &DEPTH[..1] };
+        let lens: Vec<(f64, Vec<Extra>)> = match &session.camera {
+            Some(camera) if !session.camera_from_views && !unknown_lens(session).is_empty() => {
+                GIVEN.iter().map(|(p, sigma)| (*p, sigma.unknowns(camera))).collect()
+            }
+            _ => vec![(1.0, vec![])],
+        };
+        let given = lens.len();
         let mut all = vec![];
         for (i, (of_size, size)) in printed.iter().enumerate() {
             for (j, (of_depth, scale, bias)) in depth.iter().enumerate() {
-                let kinds = [(SCALE, *scale), (BIAS, *bias)];
-                all.push(Component {
-                    log_probability: (of_size * of_depth).ln(),
-                    sigmas: size.iter().map(|s| (SIZE, *s)).chain(kinds).collect(),
-                    declared: Declared { size: i == 0, depth: j == 0 },
-                });
+                for (k, (of_lens, lens)) in lens.iter().enumerate() {
+                    let widest = i + 1 == printed.len() && j + 1 == depth.len() && k + 1 == given;
+                    if of_size * of_depth * of_lens < LEAST_LIKELY && !widest {
+                        continue;
+                    }
+                    let kinds = [(SCALE, *scale), (BIAS, *bias)];
+                    let lens = lens.iter().map(|e| (e.kind, e.prior_sigma));
+                    all.push(Component {
+                        log_probability: (of_size * of_depth * of_lens).ln(),
+                        sigmas: size.iter().map(|s| (SIZE, *s)).chain(kinds).chain(lens).collect(),
+                        declared: Declared { size: i == 0, depth: j == 0, lens: k == 0 },
+                    });
+                }
             }
         }
         Self(all)
     }
 
-    /// The components that concern the problem.
+    /// The components, where the problem has unknowns that they concern.
     fn components(&self, problem: &Problem) -> &[Component] {
-        let concerns = |c: &Component| {
-            c.sigmas.iter().any(|(kind, _)| problem.extras.iter().any(|e| e.kind == *kind))
-        };
-        if self.0.len() > 1 && self.0.iter().any(concerns) { &self.0 } else { &[] }
+        if problem.extras.iter().any(|e| is_shared(e.kind)) { &self.0 } else { &[] }
     }
 
     /// Fits the problem under every component.
@@ -173,11 +263,16 @@ impl Alternatives {
         // different noise do not compare
         let widest = components.last().map_or_else(|| problem.clone(), |c| c.applied(problem));
         let reference = fit(&widest)?;
+        let excess = alike::excess(&widest, &reference, is_shared);
         let mut all = Vec::with_capacity(components.len());
         for component in components {
+            // what is as good as `excess` times less data is, in the unknowns, a prior that much tighter
+            let tight = component.tightened(excess).applied(problem);
+            let mut found = refine::joint::refit_under_noise_of(&tight, &reference);
+            let evidence = found.log_likelihood + for_unknown_noise(&found, &reference, excess);
             let problem = component.applied(problem);
-            let found = refine::joint::refit_under_noise_of(&problem, &reference);
-            let evidence = found.log_likelihood + for_unknown_noise(&found, &reference);
+            found.extras.clone_from(&problem.extras);
+            widen(&mut found, excess);
             all.push((component.log_probability + evidence, problem, found));
         }
         let declared = |which: fn(&Declared<bool>) -> bool, weights: &[f64]| {
@@ -194,6 +289,7 @@ impl Alternatives {
         let as_declared = Declared {
             size: declared(|d| d.size, &weights),
             depth: declared(|d| d.depth, &weights),
+            lens: declared(|d| d.lens, &weights),
         };
         Ok(Averaged { problem: all[best].1.clone(), fit, as_declared })
     }
@@ -203,14 +299,33 @@ impl Alternatives {
 const OF_ONE_NOISE: f64 = 0.5;
 
 /// What the likelihood of a fit that costs `Δ` more gains where the noise is an estimate, of `ν` equations: integrated
-/// over the noise, `exp(-Δ/2)` is `(1 + Δ/ν)^(-ν/2)`.
-fn for_unknown_noise(fit: &JointFit, reference: &JointFit) -> f64 {
+/// over the noise, `exp(-Δ/2)` is `(1 + Δ/ν)^(-ν/2)`. Of both there is as much less as captures err alike.
+fn for_unknown_noise(fit: &JointFit, reference: &JointFit, excess: f64) -> f64 {
     let more = (fit.cost - reference.cost).max(0.0);
     let equations = (OF_ONE_NOISE * reference.degrees_of_freedom).max(1.0);
-    0.5 * more - 0.5 * equations * (more / equations).ln_1p()
+    0.5 * more - 0.5 * equations * (more / excess / equations).ln_1p()
+}
+
+/// Widens the covariance of what all captures tell together, and of what depends on it:
+/// `C + (λ-1) C_u C_uu⁻¹ C_uᵀ`.
+fn widen(fit: &mut JointFit, excess: f64) {
+    let which: Vec<usize> =
+        (0..fit.extras.len()).filter(|k| is_shared(fit.extras[*k].kind)).map(|k| 12 + k).collect();
+    let Some(covariance) = &mut fit.covariance else { return };
+    let cross = covariance.select_columns(&which);
+    let own = cross.select_rows(&which);
+    if let Some(cholesky) = own.cholesky() {
+        *covariance += &cross * cholesky.solve(&cross.transpose()) * (excess - 1.0);
+    }
 }
 
 impl Component {
+    fn tightened(&self, excess: f64) -> Self {
+        let mut tight = self.clone();
+        tight.sigmas.iter_mut().for_each(|(_, sigma)| *sigma /= excess.sqrt());
+        tight
+    }
+
     fn applied(&self, problem: &Problem) -> Problem {
         let mut problem = problem.clone();
         for extra in &mut problem.extras {

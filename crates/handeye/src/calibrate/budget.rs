@@ -38,8 +38,9 @@ pub(super) fn budget(
     if !problem.extras.is_empty() {
         all.push(BudgetEntry {
             source: "beliefs".into(),
-            sigma: "tool tip, lens, depth and systematic differences, as believed beforehand"
-                .into(),
+            sigma:
+                "tool tip, lens, size, depth and errors that captures share, as believed beforehand"
+                    .into(),
             sigma_mm: None,
             sigma_deg: None,
             sigma_uncertainty: None,
@@ -108,13 +109,13 @@ pub(super) fn advice(
         views: [problem.views.clone(), problem.views.clone()].concat(),
         ..problem.clone()
     };
-    add("twice as many captures", fit.covariance_for(&twice, &fit.noise));
+    add("twice as many captures", fit.covariance_for(problem, &twice, &fit.noise));
     if !problem.boards.is_empty() {
         let boards = [problem.boards.clone(), problem.boards.clone()].concat();
         let more = Problem { boards, ..problem.clone() };
         add(
             "twice as many touches, half of them on boards lying elsewhere",
-            fit.covariance_for(&more, &fit.noise),
+            fit.covariance_for(problem, &more, &fit.noise),
         );
     }
     for (words, sources) in CHANGES {
@@ -125,7 +126,7 @@ pub(super) fn advice(
                 .iter()
                 .any(|s| sources.contains(&s.source) && is_scan(s, has_board));
             let words = if of_scans { SCANS_CHANGE } else { words };
-            add(words, fit.covariance_for(problem, &halved(&fit.noise, sources)));
+            add(words, fit.covariance_for(problem, problem, &halved(&fit.noise, sources)));
         }
     }
     all.sort_by(|a, b| a.predicted_tre_mm.total_cmp(&b.predicted_tre_mm));

@@ -13,7 +13,7 @@ use super::{
     budget, captures,
     joint::{self, Joint, held_out_views},
     known_position, named,
-    optics::{self, Optics},
+    optics::{self, MeasuredBy, Optics},
     reach::Reach,
     verdict,
     workpiece::{Workpiece, inflation, volume},
@@ -71,7 +71,8 @@ pub(super) fn estimate<'a>(
         (Some(arm), Some(_)) => (&arm.fit, &arm.problem),
         _ => (best, whole),
     };
-    let workpiece = Workpiece::new(&views, &volume, best, config.unknown.scale, reach.as_ref());
+    let measured = MeasuredBy { unit_is_free: config.unknown.scale, as_declared };
+    let workpiece = Workpiece::new(&views, &volume, best, measured, reach.as_ref());
     optics.report(views.session, best, as_declared, result);
     if let Some(arm) = &arm {
         arm.report(&views, workpiece.rms_of_best_mm().filter(|_| reach.is_some()), result);

@@ -11,6 +11,7 @@
 //! through `points`, captures of a ball through `balls`.
 
 mod agreement;
+mod alike;
 mod alternatives;
 mod arm;
 mod balls;

@@ -10,20 +10,19 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, SVector, Vector2, Vector3, Vector6};
 use super::{
     Config, Session,
     agreement::Views,
-    alternatives::{Alternatives, Declared, SIZE, unknown_depth, unknown_size},
+    alternatives::{Alternatives, Declared, SIZE, unknown_depth, unknown_lens, unknown_size},
     captures,
-    joint::{held_out_views, views_problem},
+    joint::views_problem,
 };
 use crate::{
-    Camera, Distortion, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel, Warning,
+    Camera, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel, Warning,
     calibration::{Calibration, CameraResult, DepthResult},
     camera::PARAMETERS,
     detect::{
         self,
         sight::{CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, Sight, TARGET_SCALE, corrected},
     },
-    evaluate,
-    refine::{self, Extra, ExtraKind, JointFit, View},
+    refine::{Extra, ExtraKind, JointFit, View},
     register::rigid_fit::point_jacobian,
 };
 
@@ -32,63 +31,23 @@ use crate::{
 pub(super) struct Optics {
     /// The unknowns; beliefs are relative to where camera and depth stand now.
     pub extras: Vec<Extra>,
-    /// Whether it is decided which of lens and depth are free.
-    decided: bool,
     /// The target is larger than declared by this share.
     pub size: f64,
     lens: SVector<f64, PARAMETERS>,
+    focal: f64,
     depth_scale: f64,
     depth_bias_m: f64,
 }
 
-/// Gain of the logarithm of the likelihood that moves a camera, or a depth, that was given. The beliefs
-/// have their price in it: with them this is about a likelihood ratio test at 99.9 %.
-const GAIN: f64 = 2.0;
-/// Captures left out may be missed by this factor more, no more: noise.
-const HELD_OUT_SLACK: f64 = 1.02;
 /// A move below this part of its standard deviation needs no further look.
 const SETTLED: f64 = 0.1;
 /// Sizes that differ by less than this share need no further look: poses are as good as linear in them.
 const LINEAR_SIZE: f64 = 1e-2;
 /// The same of a bias of depth, m.
 const LINEAR_BIAS: f64 = 5e-4;
-/// Fewest views that say anything about a lens beside the poses.
-const FEWEST_VIEWS: usize = 6;
-
-/// How many of the lens' unknowns are focal lengths, and how many the principal point.
-const FOCAL_LENGTHS: usize = 2;
-const CENTRE: usize = 2;
-
-/// Beliefs about a camera that was given: focal length (share), principal point (share of the
-/// width), and the distortion terms.
-const GIVEN_FOCAL: f64 = 0.01;
-const GIVEN_CENTRE: f64 = 0.01;
-const GIVEN_DISTORTION: [f64; 5] = [0.05, 0.1, 2e-3, 2e-3, 0.1];
-/// The same for one that these views alone have calibrated: nothing beyond what they say.
-const OWN_FOCAL: f64 = 0.3;
-const OWN_CENTRE: f64 = 0.2;
-const OWN_DISTORTION: f64 = 1.0;
-
-/// The lens' unknowns about the camera as it was given.
-fn lens(camera: &Intrinsics, own: bool) -> Vec<Extra> {
-    let width = f64::from(camera.width.max(1)).max(camera.cx);
-    let (focal, centre) = if own { (OWN_FOCAL, OWN_CENTRE) } else { (GIVEN_FOCAL, GIVEN_CENTRE) };
-    let mut all = vec![focal * camera.fx, focal * camera.fy, centre * width, centre * width];
-    if let Distortion::BrownConrady(k) = camera.distortion {
-        for (i, given) in GIVEN_DISTORTION.iter().enumerate() {
-            // terms that the calibration from the views did not pay for stay out
-            all.push(if !own {
-                *given
-            } else if k[i] == 0.0 {
-                0.0
-            } else {
-                OWN_DISTORTION
-            });
-        }
-    }
-    let unknown = |(i, sigma): (usize, f64)| Extra::about_zero(ExtraKind::Camera(LENS + i), sigma);
-    all.into_iter().enumerate().filter(|(_, sigma)| *sigma > 0.0).map(unknown).collect()
-}
+/// The same of focal lengths and principal point (share of the focal length), and of the distortion.
+const LINEAR_LENS: f64 = 1e-3;
+const LINEAR_DISTORTION: f64 = 5e-3;
 
 /// Looks whether camera or depth must move; the session as it is then, or `None` where all stays.
 pub(super) fn look(
@@ -98,27 +57,11 @@ pub(super) fn look(
     optics: &Optics,
     config: &Config,
 ) -> Option<(Session, Optics)> {
-    let (camera, _) = (views.session.camera.as_ref()?, views.session.target.as_ref()?);
-    if views.views.len() < FEWEST_VIEWS {
+    if optics.extras.is_empty() || views.session.camera.is_none() {
         return None;
     }
-    let sighted = with_sights(views);
-    let mut next = optics.clone();
-    if !optics.decided {
-        let more = what_to_free(given, &sighted, camera, start, config);
-        next.extras.extend(more.unwrap_or_default());
-        next.decided = true;
-    }
-    if next.extras.is_empty() {
-        return None;
-    }
-    let fit = fitted(views, &sighted, &next.extras, start, config)?;
-    if next.is_settled(&fit) && (optics.decided || next.extras == optics.extras) {
-        return None;
-    }
-    next.take(&fit);
-    let session = next.applied(given)?;
-    Some((session, next))
+    let fit = fitted(views, &with_sights(views), &optics.extras, start, config)?;
+    optics.moved_by(given, &fit)
 }
 
 fn fitted(
@@ -131,52 +74,6 @@ fn fitted(
     let problem = views_problem(views.session, sighted, extras);
     let fitted = Alternatives::of(views.session).fit(&problem, start, &config.known).ok()?;
     Some(fitted.fit)
-}
-
-/// Which unknowns of lens and depth the data ask for.
-fn what_to_free(
-    given: &Session,
-    sighted: &[View],
-    camera: &Intrinsics,
-    start: &crate::HandEye,
-    config: &Config,
-) -> Option<Vec<Extra>> {
-    let own = given.camera_from_views;
-    let always = if own { lens(camera, true) } else { vec![] };
-    let mut sets = vec![always.clone()];
-    if !own {
-        // every unknown has its price: a wrong focal length alone must not pay for all of the lens
-        let all = lens(camera, false);
-        let first = [FOCAL_LENGTHS, FOCAL_LENGTHS + CENTRE, all.len()];
-        sets.extend(first.map(|n| all[..n].to_vec()));
-    }
-    let alternatives = Alternatives::of(given);
-    let declared: Vec<Extra> =
-        unknown_size(given).into_iter().chain(unknown_depth(given)).collect();
-    let fit = |extras: &[Extra]| {
-        let extras = [extras, &declared].concat();
-        let problem = views_problem(given, sighted, &extras);
-        let fit = alternatives.fit(&problem, start, &config.known).ok()?;
-        Some((fit.problem, fit.fit))
-    };
-    let (first_problem, first) = fit(&always)?;
-    let mut best = (first.log_likelihood + GAIN, None);
-    for set in &sets[1..] {
-        let Some((problem, found)) = fit(set) else { continue };
-        // each unknown group must pay for itself: fewer are tried first
-        if found.log_likelihood > best.0 {
-            best = (found.log_likelihood + GAIN, Some((set, problem, found)));
-        }
-    }
-    let Some((set, problem, found)) = best.1 else {
-        return (!always.is_empty()).then_some(always);
-    };
-    let missed = |p: &refine::Problem, f: &JointFit| {
-        evaluate::rms(&held_out_views(p, f, &config.known)).translation_rms_mm
-    };
-    let (before, after) = (missed(&first_problem, &first), missed(&problem, &found));
-    let worse = after.zip(before).is_some_and(|(a, b)| a > HELD_OUT_SLACK * b);
-    if worse { (!always.is_empty()).then_some(always) } else { Some(set.clone()) }
 }
 
 impl Optics {
@@ -192,10 +89,12 @@ impl Optics {
         Some((session, next))
     }
 
-    /// What is free at first: the size of a target whose views tell it, and the depth of its scans.
+    /// What is free: the size of a target whose views tell it, the depth of its scans, and the lens.
     pub(super) fn of(session: &Session) -> Self {
-        let extras = unknown_size(session).into_iter().chain(unknown_depth(session)).collect();
-        Self { extras, ..Self::default() }
+        let of_target = unknown_size(session).into_iter().chain(unknown_depth(session));
+        let extras = of_target.chain(unknown_lens(session)).collect();
+        let focal = session.camera.map_or(1.0, |c| c.fx);
+        Self { extras, focal, ..Self::default() }
     }
 
     fn is_settled(&self, fit: &JointFit) -> bool {
@@ -204,6 +103,10 @@ impl Optics {
                 let linear = match e.kind {
                     SIZE | ExtraKind::Camera(DEPTH_SCALE) => LINEAR_SIZE,
                     ExtraKind::Camera(DEPTH_BIAS) => LINEAR_BIAS,
+                    ExtraKind::Camera(n) if (LENS..LENS + 4).contains(&n) => {
+                        LINEAR_LENS * self.focal
+                    }
+                    ExtraKind::Camera(n) if (LENS + 4..CLOCK).contains(&n) => LINEAR_DISTORTION,
                     _ => 0.0,
                 };
                 x.abs() < SETTLED * s || x.abs() < linear
@@ -266,21 +169,26 @@ impl Optics {
         result: &mut Calibration,
     ) {
         let at = |which: usize| fit.extra(ExtraKind::Camera(which));
-        if self.is_free(LENS)
+        let refined = session.camera_from_views || as_declared.lens < 0.5;
+        if refined
+            && self.is_free(LENS)
             && let Some(camera) = session.camera
         {
             let rest = SVector::from_fn(|i, _| at(LENS + i).map_or(0.0, |x| x.0));
             let intrinsics = camera.moved(&rest);
             let sigma = |i: usize| at(LENS + i).map_or(0.0, |x| x.1);
+            let share = camera.fy / camera.fx;
+            let both = covariance(fit, LENS, LENS + 1);
+            let fy = (share * sigma(0)).powi(2) + sigma(1).powi(2) + 2.0 * share * both;
             result.camera = Some(CameraResult {
                 intrinsics,
                 sigma_fx: sigma(0),
-                sigma_fy: sigma(1),
+                sigma_fy: fy.max(0.0).sqrt(),
                 sigma_cx: sigma(2),
                 sigma_cy: sigma(3),
             });
             if !session.camera_from_views {
-                result.warnings.push(camera_warning(&intrinsics, &self.lens, sigma(0)));
+                result.warnings.push(camera_warning(&intrinsics, &(self.lens + rest), sigma(0)));
             }
         }
         if as_declared.depth < 0.5
@@ -302,6 +210,16 @@ impl Optics {
     fn is_free(&self, which: usize) -> bool {
         self.extras.iter().any(|e| e.kind == ExtraKind::Camera(which))
     }
+}
+
+/// Covariance of two parameters; zero where one of them is not free.
+fn covariance(fit: &JointFit, a: usize, b: usize) -> f64 {
+    let row = |which| {
+        let k = fit.extras.iter().position(|e| e.kind == ExtraKind::Camera(which))?;
+        Some(12 + k)
+    };
+    let both = fit.covariance.as_ref().zip(row(a).zip(row(b)));
+    both.map_or(0.0, |(c, at)| c[at])
 }
 
 fn camera_warning(now: &Intrinsics, moved: &SVector<f64, PARAMETERS>, sigma: f64) -> Warning {
@@ -388,6 +306,23 @@ pub(super) fn sight_of_placement(
 /// Step of the numerical derivative by a lens parameter, as part of its standard deviation.
 const DERIVATIVE_STEP: f64 = 1e-2;
 
+/// Share of the points that are measured by another lens, or depth, than the answer was found with, for the
+/// probability that these are as declared: none where they surely are; all where that is open, and what is declared is
+/// used on; half where another one is found, and stands in the result to be used.
+fn elsewhere(as_declared: f64) -> f64 {
+    const OPEN: f64 = 0.1;
+    if as_declared < 0.5 { 0.5 + as_declared } else { ((1.0 - as_declared) / OPEN).min(1.0) }
+}
+
+/// By what the points are measured that the answer is for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MeasuredBy {
+    /// All distances are in one unknown unit, which points in the camera then share.
+    pub unit_is_free: bool,
+    /// Probabilities that lens and depth are as declared, and the points will be measured by just these.
+    pub as_declared: Declared<f64>,
+}
+
 /// Covariance (m²), in camera axes, of where a point of the camera lands, for a covariance of `X`,
 /// `Y` and the extras. What pictures locate moves with the lens: a point keeps its pixel, and its
 /// distance follows its size in the picture. What scans locate moves with their depth, and all with
@@ -395,20 +330,20 @@ const DERIVATIVE_STEP: f64 = 1e-2;
 /// what is measured later). These errors go along with that of `X`, as do `more`:
 /// numbers of unknowns, and how the point moves with them.
 pub(super) fn spread(
-    (views, unit_is_free): (&Views, bool),
+    (views, measured): (&Views, MeasuredBy),
     extras: &[Extra],
     covariance: &DMatrix<f64>,
     p: &Vector3<f64>,
-    more: Vec<(usize, Vector3<f64>)>,
+    mut more: Vec<(usize, Vector3<f64>)>,
 ) -> Option<Matrix3<f64>> {
     let scanned = views.session.observations.iter().any(|o| !o.surface.is_empty());
     let camera = views.session.camera.as_ref();
     let moves = |which: usize| match which {
-        TARGET_SCALE => unit_is_free,
+        TARGET_SCALE => measured.unit_is_free,
         CLOCK => false,
         other => scanned == (other < LENS),
     };
-    let mut free = more;
+    let mut of_camera = vec![];
     for (k, extra) in extras.iter().enumerate() {
         let ExtraKind::Camera(which) = extra.kind else { continue };
         if !moves(which) {
@@ -421,19 +356,28 @@ pub(super) fn spread(
             DEPTH_BIAS => -p / p.z,
             lens => camera.and_then(|c| by_lens(c, p, lens - LENS, sigma)).unwrap_or_default(),
         };
-        free.push((12 + k, column));
+        if which == TARGET_SCALE { &mut more } else { &mut of_camera }.push((12 + k, column));
     }
     let own: Matrix6<f64> = covariance.fixed_view::<6, 6>(0, 0).into_owned();
     let j = point_jacobian(p);
-    let mut s = j * own * j.transpose();
-    for (k, by_k) in &free {
-        let cross: Vector6<f64> = covariance.fixed_view::<6, 1>(0, *k).into_owned();
-        let mixed = j * cross * by_k.transpose();
-        s += mixed + mixed.transpose();
-        for (l, by_l) in &free {
-            s += by_k * by_l.transpose() * covariance[(*k, *l)];
+    let with = |free: &[(usize, Vector3<f64>)]| {
+        let mut s = j * own * j.transpose();
+        for (k, by_k) in free {
+            let cross: Vector6<f64> = covariance.fixed_view::<6, 1>(0, *k).into_owned();
+            let mixed = j * cross * by_k.transpose();
+            s += mixed + mixed.transpose();
+            for (l, by_l) in free {
+                s += by_k * by_l.transpose() * covariance[(*k, *l)];
+            }
         }
-    }
+        s
+    };
+    // a point that does not come from this very camera has no error in common with the answer
+    let (located, known) = (with(&[&more[..], &of_camera[..]].concat()), with(&more));
+    let far = if known.trace() > located.trace() { known } else { located };
+    let own = if scanned { measured.as_declared.depth } else { measured.as_declared.lens };
+    let doubt = elsewhere(own);
+    let s = located * (1.0 - doubt) + far * doubt;
     s.iter().all(|x| x.is_finite()).then_some(s)
 }
 

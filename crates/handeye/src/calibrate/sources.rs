@@ -70,10 +70,18 @@ pub(super) fn in_one_frame(
         }
         Found::Offset(offset) => offset,
     };
-    let session = &offset.taken_out(session);
-    let image = fused_or_one(session, (target, camera), frame, &run);
+    let without = &offset.taken_out(session);
+    let image = fused_or_one(without, (target, camera), frame, &run);
     match (frame, image.hand_eye.mount_from_camera) {
-        (AnswerFrame::Scan, _) => offset.in_scan_frame(&image),
+        (AnswerFrame::Scan, _) => {
+            let moved = offset.in_scan_frame(&image);
+            let scans = run(&restricted(session, Source::Scan, target, camera));
+            // a wrong lens looks much like an offset, and is then taken out as one: scans alone know of neither
+            if contradicts(&scans, &moved) {
+                return fused_or_one(session, (target, camera), frame, &run);
+            }
+            moved
+        }
         (AnswerFrame::Image, Some(x)) => {
             let mut image = image;
             image.warnings.insert(0, offset.warning(&x, frame));
@@ -81,6 +89,21 @@ pub(super) fn in_one_frame(
         }
         (AnswerFrame::Image, None) => image,
     }
+}
+
+/// Whether an answer lies farther from that of the scans alone than the latter may err.
+fn contradicts(scans: &Calibration, answer: &Calibration) -> bool {
+    let (Some(own), Some(other), Some(tre)) = (
+        scans.hand_eye.mount_from_camera,
+        answer.hand_eye.mount_from_camera,
+        &scans.predicted_tre_mm,
+    ) else {
+        return false;
+    };
+    let off = predict::difference(&own, &other);
+    let seen = scans.captures.iter().filter_map(|c| c.camera_from_target);
+    let distances = seen.map(|p| off(&p.translation()).norm() * 1e3);
+    distances.fold(0.0, f64::max) > tre.p95
 }
 
 /// Images and scans together where they agree, one of them where they do not.

@@ -2,7 +2,12 @@
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
 
-use super::{agreement::Views, candidates::pairs_of, optics, reach::Reach};
+use super::{
+    agreement::Views,
+    candidates::pairs_of,
+    optics::{self, MeasuredBy},
+    reach::Reach,
+};
 use crate::{
     Camera, Mount, Pose, Setup, Target, Workspace, diagnose,
     predict::{self, PredictedTre, Volume},
@@ -59,8 +64,7 @@ pub(super) struct Workpiece<'a> {
     views: &'a Views<'a>,
     volume: &'a Volume,
     best: &'a JointFit,
-    /// Whether all distances are in one unknown unit, which points in the camera then share.
-    unit_is_free: bool,
+    measured: MeasuredBy,
     /// How a robot reaches it that does not know of its arm's deviations.
     reach: Option<&'a Reach>,
     /// Covariance of each point of the volume under the best answer, m².
@@ -74,11 +78,11 @@ impl<'a> Workpiece<'a> {
         views: &'a Views<'a>,
         volume: &'a Volume,
         best: &'a JointFit,
-        unit_is_free: bool,
+        measured: MeasuredBy,
         reach: Option<&'a Reach>,
     ) -> Self {
         let (spread, rigid) = (None, None);
-        let mut workpiece = Self { views, volume, best, unit_is_free, reach, spread, rigid };
+        let mut workpiece = Self { views, volume, best, measured, reach, spread, rigid };
         workpiece.rigid = workpiece.find_rigid();
         workpiece.spread = best.covariance.as_ref().and_then(|c| workpiece.spread_of(c));
         workpiece
@@ -88,7 +92,7 @@ impl<'a> Workpiece<'a> {
     fn spread_at(&self, covariance: &DMatrix<f64>, p: &Vector3<f64>) -> Option<Matrix3<f64>> {
         let more = self.reach.map_or_else(Vec::new, |r| r.by_arm(p));
         let covariance = covariance * inflation(self.best)?;
-        optics::spread((self.views, self.unit_is_free), &self.best.extras, &covariance, p, more)
+        optics::spread((self.views, self.measured), &self.best.extras, &covariance, p, more)
     }
 
     fn spread_of(&self, covariance: &DMatrix<f64>) -> Option<Vec<Matrix3<f64>>> {

@@ -319,18 +319,43 @@ impl JointFit {
     }
 
     /// The covariance of `(X, Y, extras)` as a sum over the sources of noise; `None` stands for what
-    /// was believed of the extras beforehand.
+    /// was believed of the extras beforehand, and for all else that is in it.
     pub fn covariance_shares(&self, problem: &Problem) -> Vec<(Option<Source>, DMatrix<f64>)> {
         let Some(covariance) = &self.covariance else { return vec![] };
-        let shares = System::at(problem, &self.state(problem, &self.noise)).shares(&self.noise);
-        let carried = |m: DMatrix<f64>| covariance * m * covariance;
-        shares.into_iter().map(|(source, m)| (source, carried(m))).collect()
+        let system = System::at(problem, &self.state(problem, &self.noise));
+        let Some(by_noise) = system.stated_covariance(&self.noise) else { return vec![] };
+        let carried =
+            |(source, m): (Option<Source>, DMatrix<f64>)| (source, &by_noise * m * &by_noise);
+        let mut shares: Vec<_> = system.shares(&self.noise).into_iter().map(carried).collect();
+        let of_noise = shares.iter().filter(|s| s.0.is_some());
+        let rest = of_noise.fold(covariance.clone(), |rest, (_, share)| rest - share);
+        shares.iter_mut().filter(|s| s.0.is_none()).for_each(|s| s.1.copy_from(&rest));
+        shares
     }
 
     /// The covariance of `(X, Y, extras)` as it were with other data of the same kind, or with
-    /// other noise.
-    pub fn covariance_for(&self, problem: &Problem, noise: &NoiseModel) -> Option<DMatrix<f64>> {
-        linalg::inverse_spd(&System::at(problem, &self.state(problem, noise)).h)
+    /// other noise: what does not come from noise stays.
+    pub fn covariance_for(
+        &self,
+        own: &Problem,
+        problem: &Problem,
+        noise: &NoiseModel,
+    ) -> Option<DMatrix<f64>> {
+        let of = |problem: &Problem, noise: &NoiseModel| {
+            System::at(problem, &self.state(problem, noise)).stated_covariance(noise)
+        };
+        let other = self.covariance.as_ref()? - of(own, &self.noise)?;
+        Some(of(problem, noise)? + other)
+    }
+
+    /// How far `(X, Y, extras)` move, to first order, where each group of views is left out in turn.
+    pub(crate) fn steps_without(
+        &self,
+        problem: &Problem,
+        groups: &[Vec<usize>],
+    ) -> Option<Vec<DVector<f64>>> {
+        let state = self.state(problem, &self.noise);
+        System::at(problem, &state).steps_without(problem, &state, groups)
     }
 
     fn state(&self, problem: &Problem, noise: &NoiseModel) -> State {

@@ -2,8 +2,9 @@
 //!
 //! The method is told in [`super::joint`]; `views` has the equations of a view, `sights` what the
 //! corners say about the camera, `reml` the noise that the misfits show, `regressors` what noise passes
-//! off as information.
+//! off as information, `groups` what the answer is without some of the views.
 
+mod groups;
 mod regressors;
 mod reml;
 mod sights;
@@ -136,6 +137,11 @@ impl System {
         linalg::inverse_spd(&self.h).or_else(|| linalg::inverse_with_free(&self.h, FREE_SIGMA))
     }
 
+    /// The same, believed only as far as it is not the robot's own noise that passes for information.
+    pub fn stated_covariance(&self, noise: &NoiseModel) -> Option<DMatrix<f64>> {
+        self.covariance().map(|c| self.believed(c, noise))
+    }
+
     fn add_sights(&mut self, state: &State) {
         let sights = &self.sights;
         let moved = &sights.information * &state.values;
@@ -248,7 +254,7 @@ impl System {
     }
 
     pub fn finish(self, problem: &Problem, state: State) -> JointFit {
-        let covariance = self.covariance().map(|c| self.believed(c, &state.noise));
+        let covariance = self.stated_covariance(&state.noise);
         let rows = self.boards.iter().map(|b| b.rows.residual.len()).sum::<usize>();
         let equations = 6 * self.views.len() + rows;
         let log_h = Cholesky::new(self.h.clone()).map_or(f64::INFINITY, |c| {

@@ -17,6 +17,11 @@ pub(super) struct Sights {
 /// would leave nothing to divide by.
 const LEAST_PICTURE: f64 = 1e-6;
 
+/// By how much corners err more than they state (variance).
+pub(super) fn variance(variances: &Variances) -> f64 {
+    variances[Source::Picture.index()].max(LEAST_PICTURE)
+}
+
 impl Sights {
     pub fn of(problem: &Problem, variances: &Variances) -> Self {
         let p = problem.extras.len();
@@ -29,7 +34,7 @@ impl Sights {
         if free.is_empty() {
             return sum;
         }
-        let scale = 1.0 / variances[Source::Picture.index()].max(LEAST_PICTURE);
+        let scale = 1.0 / variance(variances);
         let placed = problem.boards.iter().filter_map(|b| b.seen.as_ref());
         for sight in problem.views.iter().chain(placed).filter_map(|v| v.sight.as_ref()) {
             for &(k, a) in &free {

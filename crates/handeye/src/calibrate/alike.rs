@@ -1,0 +1,94 @@
+//! Errors that captures share, and what they do to an unknown that all captures tell together.
+//!
+//! An arm errs by place: captures that lie near one another err alike, and a lens, or a size, that is found from
+//! them is less sure than white noise has it. How much less is seen where captures of one place are left out in
+//! turn: with `δ_g` the step without group `g` of `G`, the jackknife's variance of the unknown along `d` is
+//!
+//! ```text
+//! v = (G-1)/G Σ_g (dᵀ δ_g - mean)²          λ = v / dᵀ C d
+//! ```
+//!
+//! Along the direction in which the unknowns leave what was declared, so that it is the finding itself which must
+//! hold without each place. Few groups tell little of a variance: [`BEFOREHAND`] stands beside them.
+//!
+//! B. Efron and C. Stein, *The jackknife estimate of variance*, Annals of Statistics 9(3), 1981;
+//! R. Holmes and S. Walker, *Assigning a value to a power likelihood in a general Bayesian model*, Biometrika
+//! 104(2), 2017.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::{
+    PosePair,
+    refine::{ExtraKind, JointFit, Problem},
+};
+
+/// What arms do to such a variance before anything is seen of one, and how many groups that is worth.
+const BEFOREHAND: (f64, f64) = (2.0, 3.0);
+/// Captures in a group, and the most groups.
+const IN_A_GROUP: usize = 3;
+const MOST_GROUPS: usize = 8;
+/// A turn (rad) as far as this way (m): arms err with both.
+const WAY_OF_A_TURN: f64 = 0.5;
+
+/// Of unknowns of a fit: by which factor their variance exceeds what white noise says.
+pub(super) fn excess(problem: &Problem, fit: &JointFit, of: impl Fn(ExtraKind) -> bool) -> f64 {
+    let (before, worth) = BEFOREHAND;
+    let Some((seen, freedom)) = jackknife(problem, fit, of) else { return before };
+    ((worth * before + freedom * seen) / (worth + freedom)).max(1.0)
+}
+
+/// The factor as the groups have it, and their degrees of freedom.
+fn jackknife(
+    problem: &Problem,
+    fit: &JointFit,
+    of: impl Fn(ExtraKind) -> bool,
+) -> Option<(f64, f64)> {
+    let which: Vec<usize> =
+        (0..problem.extras.len()).filter(|k| of(problem.extras[*k].kind)).collect();
+    let n = which.len();
+    let all = fit.covariance.as_ref()?;
+    let own = DMatrix::from_fn(n, n, |a, b| all[(12 + which[a], 12 + which[b])]);
+    let away = |k: usize| fit.values[which[k]] - problem.extras[which[k]].prior_mean;
+    let along = own.clone().cholesky()?.solve(&DVector::from_fn(n, |k, _| away(k)));
+    let expected = along.dot(&(&own * &along));
+    let places: Vec<PosePair> = problem.views.iter().map(|v| v.pair).collect();
+    let groups = by_place(&places);
+    if groups.len() < 2 || !(expected > 0.0) {
+        return None;
+    }
+    let moved = |step: &DVector<f64>| (0..n).map(|k| along[k] * step[12 + which[k]]).sum::<f64>();
+    let steps: Vec<f64> = fit.steps_without(problem, &groups)?.iter().map(moved).collect();
+    let count = steps.len() as f64;
+    let mean = steps.iter().sum::<f64>() / count;
+    let squares: f64 = steps.iter().map(|s| (s - mean).powi(2)).sum();
+    Some(((count - 1.0) / count * squares / expected, count - 1.0))
+}
+
+/// Captures in groups of those that lie near one another: about centres that are as far from each other as can be.
+fn by_place(places: &[PosePair]) -> Vec<Vec<usize>> {
+    let count = (places.len() / IN_A_GROUP).min(MOST_GROUPS);
+    if count < 2 {
+        return vec![];
+    }
+    let way = |a: usize, b: usize| {
+        let d = places[a].anchor_from_mount.local(&places[b].anchor_from_mount);
+        let (turn, step) = (d.fixed_rows::<3>(0).norm(), d.fixed_rows::<3>(3).norm());
+        step.hypot(WAY_OF_A_TURN * turn)
+    };
+    let mut centres = vec![0];
+    let mut nearest: Vec<(f64, usize)> = (0..places.len()).map(|i| (way(0, i), 0)).collect();
+    while centres.len() < count {
+        let farthest =
+            |best: usize, i: usize| if nearest[i].0 > nearest[best].0 { i } else { best };
+        let next = (0..places.len()).fold(0, farthest);
+        for (i, (least, group)) in nearest.iter_mut().enumerate() {
+            let d = way(next, i);
+            if d < *least {
+                (*least, *group) = (d, centres.len());
+            }
+        }
+        centres.push(next);
+    }
+    let of = |g: usize| (0..places.len()).filter(|i| nearest[*i].1 == g).collect();
+    (0..count).map(of).filter(|g: &Vec<usize>| !g.is_empty()).collect()
+}
