@@ -401,6 +401,7 @@ fn session(
         target: dataset.target.clone(),
         target_size: dataset.target_size,
         camera,
+        lens_sigma: dataset.lens_sigma,
         observations,
         placements,
         touches: dataset.touches.clone(),

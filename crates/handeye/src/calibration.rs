@@ -213,7 +213,8 @@ pub struct Movement {
     pub last: String,
     /// Whether the captures run to the end of the session.
     pub at_end: bool,
-    /// Whether the robot poses of a block lie at a place of their own, where the robot may err.
+    /// Whether the robot poses of a block lie at a place of their own, or the robot went from place to place, and may err
+    /// there.
     pub at_a_place: bool,
     /// How far, at the target (mm).
     pub displacement_mm: f64,

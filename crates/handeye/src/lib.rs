@@ -41,7 +41,9 @@ pub mod triangle_mesh;
 pub mod unscaled;
 pub mod verify;
 
-pub use calibrate::{AnswerFrame, Config, Session, TargetSize, Unknown, calibrate, unjudged};
+pub use calibrate::{
+    AnswerFrame, Config, LensSigma, Session, TargetSize, Unknown, calibrate, unjudged,
+};
 pub use calibration::{Calibration, Verdict};
 pub use camera::{Distortion, Intrinsics};
 pub use error::{Error, Warning};

@@ -7,7 +7,7 @@ mod visp;
 
 use std::path::Path;
 
-use handeye::{Distortion, Intrinsics, intrinsics::LensModel};
+use handeye::{Distortion, Intrinsics, LensSigma, intrinsics::LensModel};
 use serde::Deserialize;
 
 use crate::{
@@ -32,6 +32,9 @@ pub(crate) struct CameraSpec {
     pub(crate) distortion_model: Option<String>,
     pub(crate) distortion: Option<Vec<f64>>,
     pub(crate) resized: Option<f64>,
+    /// Standard deviations of given intrinsics.
+    pub(crate) focal_sigma_px: Option<f64>,
+    pub(crate) center_sigma_px: Option<f64>,
     /// The model of the lens to be calibrated from the views.
     pub(crate) calibrate: Option<LensModel>,
 }
@@ -43,8 +46,27 @@ impl CameraSpec {
         let nothing = Self { width, height, calibrate, ..Self::default() };
         self.calibrate.is_some() && *self == nothing
     }
+
+    /// How well the intrinsics are known, in pixels of the pictures.
+    pub(crate) fn sigma(&self) -> Result<Option<LensSigma>, String> {
+        let all =
+            [("focal_sigma_px", self.focal_sigma_px), ("center_sigma_px", self.center_sigma_px)];
+        for (key, px) in all.iter().filter_map(|(key, px)| Some((key, (*px)?))) {
+            if !(px > 0.0 && px < MOST_SIGMA_PX) {
+                return Err(format!(
+                    "{key} = {px} is no standard deviation of an intrinsic parameter"
+                ));
+            }
+        }
+        let scale = self.resized.unwrap_or(1.0);
+        let [focal_px, center_px] = all.map(|(_, px)| px.map(|px| px * scale));
+        let stated = focal_px.is_some() || center_px.is_some();
+        Ok(stated.then_some(LensSigma { focal_px, center_px }))
+    }
 }
 
+/// A lens that is known no better is not calibrated, px.
+const MOST_SIGMA_PX: f64 = 1000.0;
 /// Pictures may differ from the calibrated size by the rounding of a resize, px.
 const ROUNDING_PX: u32 = 1;
 

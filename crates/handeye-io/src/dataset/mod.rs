@@ -14,9 +14,9 @@ mod touches;
 use std::path::{Path, PathBuf};
 
 use handeye::{
-    AnswerFrame, Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics, Pose,
-    Scan, Setup, Target, TargetModel, TargetSize, Touch, Warning, Workspace, intrinsics::LensModel,
-    kinematics::Arm, refine::KnownPosition,
+    AnswerFrame, Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics,
+    LensSigma, Pose, Scan, Setup, Target, TargetModel, TargetSize, Touch, Warning, Workspace,
+    intrinsics::LensModel, kinematics::Arm, refine::KnownPosition,
 };
 use serde::Deserialize;
 
@@ -58,6 +58,8 @@ pub struct Dataset {
     pub other_targets: Vec<TargetModel>,
     /// The camera's intrinsics; `None` when they are to be calibrated from the views.
     pub intrinsics: Option<Intrinsics>,
+    /// How well they are known, where that was stated.
+    pub lens_sigma: Option<LensSigma>,
     /// The model of the lens to be calibrated from the views; beside given intrinsics, to check them.
     pub lens: Option<LensModel>,
     /// Width and height of the pictures (px) as the manifest has them.

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use handeye::{
-    AnswerFrame, Base, Camera, Flange, Intrinsics, Pose, Setup, Target, TargetModel, TargetSize,
-    Touch, Warning, Workspace, refine::KnownPosition,
+    AnswerFrame, Base, Camera, Flange, Intrinsics, LensSigma, Pose, Setup, Target, TargetModel,
+    TargetSize, Touch, Warning, Workspace, refine::KnownPosition,
 };
 use nalgebra::Vector3;
 
@@ -76,6 +76,7 @@ impl Opening {
             shape,
             other_targets: self.other_targets()?,
             intrinsics,
+            lens_sigma: self.lens_sigma()?,
             lens: m.camera.as_ref().and_then(|spec| spec.calibrate),
             picture: m.camera.as_ref().and_then(|spec| spec.width.zip(spec.height)),
             pixel_origin: m.corners.as_ref().and_then(|spec| spec.pixel_origin),
@@ -117,6 +118,18 @@ impl Opening {
                 .map_or(Ok(()), Targets::check)
                 .map_err(|source| Error::Values { place: self.source.place("target"), source }),
         }
+    }
+
+    /// How well the manifest says that the lens is known.
+    fn lens_sigma(&self) -> Result<Option<LensSigma>, Error> {
+        let Some(spec) = &self.manifest.camera else { return Ok(None) };
+        spec.sigma().map_err(|what| {
+            malformed(
+                self.source.place("camera"),
+                what,
+                "give the standard deviation that the calibration of the camera states, in pixels",
+            )
+        })
     }
 
     fn boards(&self) -> Option<&Targets> {

@@ -92,3 +92,99 @@ fn by_place(places: &[PosePair]) -> Vec<Vec<usize>> {
     let of = |g: usize| (0..places.len()).filter(|i| nearest[*i].1 == g).collect();
     (0..count).map(of).filter(|g: &Vec<usize>| !g.is_empty()).collect()
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use std::sync::Arc;
+
+    use nalgebra::{Isometry3, SMatrix, Vector3};
+
+    use super::*;
+    use crate::{
+        Anchor, Camera, HandEye, Mount, Pose, Setup, Target,
+        calibrate::alternatives::SIZE,
+        detect::sight::{CAMERA, Sight, TARGET_SCALE},
+        refine::{self, Extra, KnownNoise, View},
+        simulate::Random,
+    };
+
+    const ROBOT: f64 = 3e-4;
+
+    /// Captures at five places, the robot's errors partly alike where captures are near.
+    fn problem(alike: f64, seed: u64) -> (Problem, HandEye) {
+        let mut random = Random::new(seed);
+        let x = Pose::<Mount, Camera>::claim(Isometry3::new(
+            Vector3::new(0.05, 0.02, 0.1),
+            Vector3::new(0.1, 0.2, 0.3),
+        ));
+        let y = Pose::<Anchor, Target>::claim(Isometry3::new(
+            Vector3::new(0.6, 0.0, 0.1),
+            Vector3::zeros(),
+        ));
+        let mut views = vec![];
+        for _ in 0..5 {
+            let middle = Vector3::from_fn(|_, _| 0.3 * random.normal());
+            let common = random.normal3() * ROBOT * alike;
+            for _ in 0..5 {
+                let turn = middle + 0.1 * random.normal3();
+                let at = Vector3::new(0.5, 0.0, 0.8) + 0.5 * middle + 0.02 * random.normal3();
+                let a = Isometry3::new(at, turn);
+                let b = x.iso().inverse() * a.inverse() * y.iso();
+                let off = Isometry3::new(common + random.normal3() * ROBOT, Vector3::zeros());
+                let camera_from_target = Pose::claim(b);
+                let mut moves = SMatrix::<f64, 6, CAMERA>::zeros();
+                moves.set_column(TARGET_SCALE, &Sight::by_size(&camera_from_target));
+                let pair = PosePair { anchor_from_mount: Pose::claim(off * a), camera_from_target };
+                views
+                    .push(View { sight: Some(Arc::new(Sight::moving(moves))), ..View::bare(pair) });
+            }
+        }
+        let problem = Problem {
+            setup: Setup::EyeInHand,
+            views,
+            boards: vec![],
+            extras: vec![Extra::about_zero(SIZE, 0.1)],
+            known_position: None,
+        };
+        (problem, HandEye { mount_from_camera: x, anchor_from_target: y })
+    }
+
+    fn mean_excess(alike: f64) -> f64 {
+        let of = |seed| {
+            let (problem, start) = problem(alike, seed);
+            let fit = refine::fit_joint(&problem, &start, &KnownNoise::default()).unwrap();
+            excess(&problem, &fit, |kind| kind == SIZE)
+        };
+        (0..30).map(of).sum::<f64>() / 30.0
+    }
+
+    #[test]
+    fn errors_that_captures_share_make_an_unknown_less_sure() {
+        let (white, alike) = (mean_excess(0.0), mean_excess(2.0));
+        println!("{white:.2} of white noise, {alike:.2} of errors by place");
+        assert!((1.0..2.0).contains(&white), "{white}");
+        assert!(alike > 1.5 * white, "{alike} after {white}");
+    }
+
+    #[test]
+    fn groups_hold_what_lies_together() {
+        let (problem, _) = problem(0.0, 1);
+        let places: Vec<PosePair> = problem.views.iter().map(|v| v.pair).collect();
+        let groups = by_place(&places);
+        assert_eq!(groups.iter().map(Vec::len).sum::<usize>(), places.len());
+        // eight groups of five places: none has captures of two
+        for group in &groups {
+            let of: Vec<usize> = group.iter().map(|i| i / 5).collect();
+            assert!(of.iter().all(|p| *p == of[0]), "{groups:?}");
+        }
+    }
+
+    #[test]
+    fn few_captures_say_nothing_of_it() {
+        let (mut problem, start) = problem(0.0, 2);
+        problem.views.truncate(5);
+        let fit = refine::fit_joint(&problem, &start, &KnownNoise::default()).unwrap();
+        assert_eq!(excess(&problem, &fit, |kind| kind == SIZE), BEFOREHAND.0);
+    }
+}

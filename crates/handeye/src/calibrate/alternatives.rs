@@ -21,7 +21,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Session, TargetSize, alike};
+use super::{LensSigma, Session, TargetSize, alike};
 use crate::{
     Distortion, Error, HandEye, Intrinsics, TargetModel,
     detect::sight::{CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, TARGET_SCALE},
@@ -43,13 +43,13 @@ const PRINTED: [(f64, f64); 3] = [(0.75, 2e-4), (0.20, 5e-3), (0.05, 2.5e-2)];
 const DEPTH: [(f64, f64, f64); 3] = [(0.7, 3e-4, 1e-4), (0.2, 3e-3, 1e-3), (0.1, 2e-2, 5e-3)];
 /// The same of a given lens: well calibrated; its focus was turned, or its zoom, since then; its centre as well, after
 /// a knock or with another crop; all of it, calibrated from few views or from one side; and far off, of a data sheet.
-const GIVEN: [(f64, LensSigma); 5] = [
-    (0.60, LensSigma { focal: 2e-4, aspect: 5e-5, centre: 2e-4, distortion: SURE }),
-    (0.16, LensSigma { focal: 3e-3, aspect: 1e-4, centre: 5e-4, distortion: SURE }),
-    (0.10, LensSigma { focal: 4e-3, aspect: 2e-4, centre: 4e-3, distortion: SURE }),
+const GIVEN: [(f64, LensPrior); 5] = [
+    (0.50, LensPrior { focal: 2e-4, aspect: 5e-5, centre: 2e-4, distortion: SURE }),
+    (0.25, LensPrior { focal: 2.5e-3, aspect: 1e-4, centre: 5e-4, distortion: SURE }),
+    (0.12, LensPrior { focal: 4e-3, aspect: 2e-4, centre: 4e-3, distortion: SURE }),
     (
         0.08,
-        LensSigma {
+        LensPrior {
             focal: 4e-3,
             aspect: 1e-3,
             centre: 4e-3,
@@ -58,7 +58,7 @@ const GIVEN: [(f64, LensSigma); 5] = [
     ),
     (
         0.06,
-        LensSigma {
+        LensPrior {
             focal: 1.5e-2,
             aspect: 3e-3,
             centre: 1.5e-2,
@@ -69,7 +69,7 @@ const GIVEN: [(f64, LensSigma); 5] = [
 /// Distortion of a lens that was calibrated well.
 const SURE: [f64; 5] = [1e-3, 3e-3, 5e-5, 5e-5, 3e-3];
 /// One that these views alone have calibrated: nothing is known beyond what they say.
-const OWN: LensSigma = LensSigma { focal: 0.3, aspect: 0.3, centre: 0.2, distortion: [1.0; 5] };
+const OWN: LensPrior = LensPrior { focal: 0.3, aspect: 0.3, centre: 0.2, distortion: [1.0; 5] };
 /// Combinations of components that are less likely than this beforehand are no part of the prior.
 const LEAST_LIKELY: f64 = 1e-3;
 /// A component of less weight than this changes neither mean nor covariance.
@@ -96,18 +96,25 @@ pub(super) struct Declared<T> {
 /// Standard deviations of a lens: of its focal length and of the proportion of both (shares), of its principal point
 /// (share of the width), and of its distortion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct LensSigma {
+struct LensPrior {
     focal: f64,
     aspect: f64,
     centre: f64,
     distortion: [f64; 5],
 }
 
-impl LensSigma {
+impl LensPrior {
+    /// As the user states it: what is not stated is that of a lens that was calibrated well.
+    fn stated(sigma: LensSigma, camera: &Intrinsics) -> Self {
+        let well = GIVEN[0].1;
+        let focal = sigma.focal_px.map_or(well.focal, |px| px / camera.fx);
+        let centre = sigma.center_px.map_or(well.centre, |px| px / width(camera));
+        Self { focal, centre, ..well }
+    }
+
     /// The unknowns of a camera about where it stands.
     fn unknowns(&self, camera: &Intrinsics) -> Vec<Extra> {
-        let width = f64::from(camera.width.max(1)).max(camera.cx);
-        let (focal, centre) = (self.focal, self.centre * width);
+        let (focal, centre) = (self.focal, self.centre * width(camera));
         let mut all = vec![focal * camera.fx, self.aspect * camera.fy, centre, centre];
         if matches!(camera.distortion, Distortion::BrownConrady(_)) {
             all.extend(self.distortion);
@@ -120,6 +127,11 @@ impl LensSigma {
 /// The prior of what was declared of the target; without components that of the extras themselves.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Alternatives(Vec<Component>);
+
+/// Width of the pictures, px.
+fn width(camera: &Intrinsics) -> f64 {
+    f64::from(camera.width.max(1)).max(camera.cx)
+}
 
 /// A fit under all components.
 pub(super) struct Averaged {
@@ -163,7 +175,9 @@ pub(super) fn unknown_lens(session: &Session) -> Vec<Extra> {
         return vec![];
     }
     if !session.camera_from_views {
-        return GIVEN[0].1.unknowns(camera);
+        let declared =
+            session.lens_sigma.map_or(GIVEN[0].1, |sigma| LensPrior::stated(sigma, camera));
+        return declared.unknowns(camera);
     }
     let mut all = OWN.unknowns(camera);
     if let Distortion::BrownConrady(k) = camera.distortion {
@@ -191,7 +205,11 @@ impl Alternatives {
         let scanned = session.observations.iter().any(|o| !o.surface.is_empty());
         let depth = if scanned { &DEPTH[..] } else { &DEPTH[..1] };
         let lens: Vec<(f64, Vec<Extra>)> = match &session.camera {
-            Some(camera) if !session.camera_from_views && !unknown_lens(session).is_empty() => {
+            Some(camera)
+                if !session.camera_from_views
+                    && session.lens_sigma.is_none()
+                    && !unknown_lens(session).is_empty() =>
+            {
                 GIVEN.iter().map(|(p, sigma)| (*p, sigma.unknowns(camera))).collect()
             }
             _ => vec![(1.0, vec![])],

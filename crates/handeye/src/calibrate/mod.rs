@@ -67,6 +67,8 @@ pub struct Session {
     pub target_size: TargetSize,
     /// The camera, where pictures were used.
     pub camera: Option<Intrinsics>,
+    /// How well the camera's lens is known, where that was stated.
+    pub lens_sigma: Option<LensSigma>,
     /// Whether the camera was calibrated from these very views.
     pub camera_from_views: bool,
     /// Captures, in any order.
@@ -95,6 +97,15 @@ pub enum TargetSize {
     Measured(f64),
 }
 
+/// Standard deviations of a given lens, as its calibration states them: data that say otherwise are wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LensSigma {
+    /// Of the focal length, px.
+    pub focal_px: Option<f64>,
+    /// Of the principal point, px per axis.
+    pub center_px: Option<f64>,
+}
+
 impl Session {
     /// What the poses of the target were read from, in a word for people.
     pub(crate) fn read_from(&self) -> &'static str {
@@ -108,6 +119,7 @@ impl Session {
             target: None,
             target_size: TargetSize::default(),
             camera: None,
+            lens_sigma: None,
             camera_from_views: false,
             observations,
             placements: vec![],

@@ -52,6 +52,10 @@ const NAMED: f64 = 0.95;
 const LEVER: f64 = 0.3;
 /// A block whose captures have their nearest neighbour in the block this often lies at a place of its own.
 const OF_ITS_OWN: f64 = 0.8;
+/// Captures that follow one another by at most this part of all are taken shortly after one another.
+const SHORTLY: usize = 12;
+/// A session in which the nearest capture was taken shortly before or after this often went from place to place.
+const IN_ORDER: f64 = 0.5;
 
 /// The 95 % point over its root mean square, of how far an answer is off that was moved by a twist.
 const WIDE: f64 = 1.6;
@@ -207,17 +211,31 @@ fn common(rows: &[Row], side: Side, degrees_of_freedom: f64) -> Option<Vector6<f
 
 /// Whether robot poses of a block lie among themselves, and not between the others.
 fn is_at_a_place(captures: &Captures, block: &[usize], seen: &[usize]) -> bool {
+    let own = |i: &&usize| nearest(captures, **i, seen).is_some_and(|j| block.contains(&j));
+    block.iter().filter(own).count() as f64 >= OF_ITS_OWN * block.len() as f64
+}
+
+/// Whether the robot went from place to place, so that what changes with time changes with place as well: the capture
+/// that lies nearest was taken shortly before or after.
+fn is_in_order_of_place(captures: &Captures, seen: &[usize]) -> bool {
+    let shortly = (seen.len() / SHORTLY).max(1);
+    let soon = |(k, i): &(usize, &usize)| {
+        nearest(captures, **i, seen)
+            .and_then(|near| seen.iter().position(|j| *j == near))
+            .is_some_and(|other| other.abs_diff(*k) <= shortly)
+    };
+    seen.iter().enumerate().filter(soon).count() as f64 >= IN_ORDER * seen.len() as f64
+}
+
+/// The capture whose robot pose lies nearest.
+fn nearest(captures: &Captures, i: usize, seen: &[usize]) -> Option<usize> {
     let pose = |i: usize| &captures.readings[i].anchor_from_mount;
-    let apart = |i: usize, j: usize| {
+    let apart = |j: usize| {
         let (a, b) = (pose(i), pose(j));
         a.distance_to(b).hypot(LEVER * a.angle_to(b))
     };
-    let own = |i: &&usize| {
-        let others = seen.iter().filter(|j| j != i);
-        let nearest = others.min_by(|a, b| apart(**i, **a).total_cmp(&apart(**i, **b)));
-        nearest.is_some_and(|j| block.contains(j))
-    };
-    block.iter().filter(own).count() as f64 >= OF_ITS_OWN * block.len() as f64
+    let others = seen.iter().copied().filter(|j| *j != i);
+    others.min_by(|a, b| apart(*a).total_cmp(&apart(*b)))
 }
 
 /// How far a displacement of the camera moves where it saw the target, m.
@@ -309,6 +327,7 @@ fn gradual(captures: &Captures, rows: &[Row]) -> Option<(Movement, Matrix6<f64>)
         Side::Target => lie::nu(&delta).norm(),
     };
     let name = |k: usize| captures.session.observations[rows[k].capture].capture.clone();
+    let seen: Vec<usize> = rows.iter().map(|row| row.capture).collect();
     let movement = Movement {
         kind: if best.step.is_some() { MovementKind::Step } else { MovementKind::Slip },
         camera: side(Side::Camera),
@@ -316,7 +335,7 @@ fn gradual(captures: &Captures, rows: &[Row]) -> Option<(Movement, Matrix6<f64>)
         first: name(best.step.unwrap_or(0)),
         last: name(n - 1),
         at_end: true,
-        at_a_place: false,
+        at_a_place: is_in_order_of_place(captures, &seen),
         displacement_mm: distance * 1e3,
         rotation_deg: lie::omega(&delta).norm().to_degrees(),
         probability,
@@ -492,8 +511,11 @@ fn in_words(m: &Movement, setup: Setup) -> String {
     if m.target {
         causes.push(target);
     }
-    if m.kind == MovementKind::Block && m.at_a_place {
-        causes.push("the robot errs where these were taken");
+    if m.at_a_place {
+        causes.push(match m.kind {
+            MovementKind::Block => "the robot errs where these were taken",
+            _ => "the robot errs by place, as it went from place to place",
+        });
     }
     let causes = causes.join(", or ");
     let covers = if m.widened_mm > 0.0 { "; the stated error covers it" } else { "" };
@@ -508,7 +530,7 @@ fn in_words(m: &Movement, setup: Setup) -> String {
             m.first
         ),
         MovementKind::Slip => format!(
-            "errors grow evenly by {how_far} from capture {} to {}: {causes}, slowly{covers}. Warm up, tighten what \
+            "errors grow evenly by {how_far} from capture {} to {}: {causes}{covers}. Warm up, tighten what \
              gives way, and take the captures again",
             m.first, m.last
         ),

@@ -310,7 +310,7 @@ const DERIVATIVE_STEP: f64 = 1e-2;
 /// probability that these are as declared: none where they surely are; all where that is open, and what is declared is
 /// used on; half where another one is found, and stands in the result to be used.
 fn elsewhere(as_declared: f64) -> f64 {
-    const OPEN: f64 = 0.1;
+    const OPEN: f64 = 0.15;
     if as_declared < 0.5 { 0.5 + as_declared } else { ((1.0 - as_declared) / OPEN).min(1.0) }
 }
 

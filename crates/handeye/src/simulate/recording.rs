@@ -132,6 +132,7 @@ impl Recording<'_> {
             camera_from_views: false,
             known_position: None,
             target_size: Default::default(),
+            lens_sigma: None,
             arm: cell.built_arm().map(|a| a.model),
             setup: cell.setup,
             target: Some(cell.target.clone()),
