@@ -14,6 +14,10 @@ pub enum Fault {
     None,
     /// The board is larger than declared by this share.
     Size(f64),
+    /// The board is longer than declared along its y by this share.
+    Aspect(f64),
+    /// The ends of the board lie behind its middle by this (m).
+    Bow(f64),
     /// The focal length is longer than declared by this share.
     Focal(f64),
     /// The principal point lies elsewhere than declared (px, both axes).
@@ -36,7 +40,7 @@ pub enum Fault {
 const ROTATION: f64 = 1.0;
 
 /// Names of all groups.
-pub const GROUPS: [&str; 6] = ["clean", "size", "few-sizes", "lens", "scans", "moves"];
+pub const GROUPS: [&str; 7] = ["clean", "size", "few-sizes", "print", "lens", "scans", "moves"];
 
 /// The faults of a group, none first.
 pub fn group(name: &str) -> Option<Vec<Fault>> {
@@ -49,6 +53,10 @@ pub fn group(name: &str) -> Option<Vec<Fault>> {
             all.extend(sizes.map(Fault::Size));
         }
         "few-sizes" => all.extend([-0.02, 0.001, 0.003, 0.005, 0.01].map(Fault::Size)),
+        "print" => {
+            all.extend([-0.01, -0.005, -0.002, 0.002, 0.005, 0.01].map(Fault::Aspect));
+            all.extend([-2e-3, -1e-3, -0.5e-3, 0.5e-3, 1e-3, 2e-3].map(Fault::Bow));
+        }
         "lens" => {
             all.extend([-0.01, -0.005, -0.002, 0.002, 0.005, 0.01].map(Fault::Focal));
             all.extend([-20.0, -5.0, 5.0, 20.0].map(Fault::Centre));
@@ -77,6 +85,8 @@ impl Fault {
         match self {
             Self::None => "clean".into(),
             Self::Size(s) => format!("size {:+.1} %", s * 100.0),
+            Self::Aspect(s) => format!("board {:+.1} % in y", s * 100.0),
+            Self::Bow(m) => format!("board bent by {:+.1} mm", m * 1e3),
             Self::Focal(s) => format!("focal {:+.1} %", s * 100.0),
             Self::Centre(px) => format!("centre {px:+.0} px"),
             Self::ScanShift(m) => format!("scans shifted {:.1} mm", m * 1e3),
@@ -96,6 +106,8 @@ impl Fault {
             *square_mm *= 1.0 + share;
         }
         match self {
+            Self::Aspect(share) => cell.print_scale[1] = *share,
+            Self::Bow(m) => cell.bow_mm = m * 1e3,
             Self::Focal(share) => {
                 cell.intrinsics.fx *= 1.0 + share;
                 cell.intrinsics.fy *= 1.0 + share;

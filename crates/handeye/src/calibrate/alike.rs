@@ -110,6 +110,9 @@ mod tests {
     };
 
     const ROBOT: f64 = 3e-4;
+    /// Turns (rad) of the five places.
+    const PLACES: [[f64; 3]; 5] =
+        [[0.5, 0.0, 0.0], [-0.5, 0.1, 0.0], [0.0, 0.5, 0.4], [0.1, -0.5, 0.3], [0.0, 0.1, -0.6]];
 
     /// Captures at five places, the robot's errors partly alike where captures are near.
     fn problem(alike: f64, seed: u64) -> (Problem, HandEye) {
@@ -123,11 +126,11 @@ mod tests {
             Vector3::zeros(),
         ));
         let mut views = vec![];
-        for _ in 0..5 {
-            let middle = Vector3::from_fn(|_, _| 0.3 * random.normal());
+        for middle in PLACES {
+            let middle = Vector3::from(middle);
             let common = random.normal3() * ROBOT * alike;
             for _ in 0..5 {
-                let turn = middle + 0.1 * random.normal3();
+                let turn = middle + 0.06 * random.normal3();
                 let at = Vector3::new(0.5, 0.0, 0.8) + 0.5 * middle + 0.02 * random.normal3();
                 let a = Isometry3::new(at, turn);
                 let b = x.iso().inverse() * a.inverse() * y.iso();

@@ -110,6 +110,8 @@ pub struct Cell {
     pub scan_scale: f64,
     /// How far the ends of the board's x lie behind its middle, mm.
     pub bow_mm: f64,
+    /// By which share it was printed too large, along x and along y.
+    pub print_scale: [f64; 2],
     /// What lens and sensor do to pictures.
     pub optics: Optics,
     /// Robot poses with a picture.
@@ -164,6 +166,7 @@ impl Cell {
             depth: None,
             scan_scale: 1.0,
             bow_mm: 0.0,
+            print_scale: [0.0; 2],
             optics: Optics::default(),
             captures: 15,
             placements: if setup == Setup::EyeToHand { 3 } else { 0 },

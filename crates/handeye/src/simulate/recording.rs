@@ -64,7 +64,8 @@ impl Recording<'_> {
 
     /// What is wrong with the board.
     fn conditions(&self) -> Conditions {
-        let print = PrintErrors { bend_mm: self.cell.bow_mm, ..PrintErrors::default() };
+        let Cell { bow_mm: bend_mm, print_scale: scale, .. } = *self.cell;
+        let print = PrintErrors { bend_mm, scale, ..PrintErrors::default() };
         Conditions { print, ..Conditions::default() }
     }
 
