@@ -114,6 +114,12 @@ pub struct SimulateArgs {
     /// The ends of the board lie this far behind its middle: it is bent.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub bow_mm: f64,
+    /// The board was printed too long by this, along its x.
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub print_x_percent: f64,
+    /// The same along its y.
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    pub print_y_percent: f64,
     /// Distances in scans are too large by this.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub scan_scale_percent: f64,
@@ -239,6 +245,7 @@ fn cell(args: &SimulateArgs) -> Result<Cell, Failure> {
         depth: (args.scans || args.sphere.is_some()).then_some(depth),
         scan_scale: args.scan_scale,
         bow_mm: args.bow_mm,
+        print_scale: [args.print_x_percent / 100.0, args.print_y_percent / 100.0],
         optics: Optics { noise: zero_if(args.exact, args.image_noise), ..usual.optics },
         captures: args.captures,
         placements,
@@ -283,6 +290,8 @@ fn check(args: &SimulateArgs, placements: usize, touches: usize) -> Result<(), F
     let faults = [
         ("black-step-mm", args.black_step_mm, MOST_FAULT_MM),
         ("bow-mm", args.bow_mm, MOST_FAULT_MM),
+        ("print-x-percent", args.print_x_percent, 50.0),
+        ("print-y-percent", args.print_y_percent, 50.0),
         ("scan-scale-percent", args.scan_scale_percent, 50.0),
         ("scan-tilt-deg", args.scan_tilt_deg, 45.0),
         ("scan-shift-mm", args.scan_shift_mm, MOST_FAULT_MM),

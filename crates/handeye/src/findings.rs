@@ -88,6 +88,16 @@ const TABLE: &[Row] = &[
         "measure the target and declare its size",
     ),
     changes(
+        "board-uneven",
+        "the answer uses a board that is longer or shorter along y, not the declared one",
+        "measure the print along both sides, and print it again or have a plate made",
+    ),
+    changes(
+        "board-bent",
+        "the answer uses a bent board, not a flat one",
+        "glue the board to a flat plate",
+    ),
+    changes(
         "touch-rejected",
         "a touch was rejected as an outlier",
         "check the corner id of that touch, and touch it again",

@@ -276,6 +276,13 @@ impl TargetModel {
         if matches!(self, Self::Tag { .. }) { origin } else { self.corner(0).unwrap_or(origin) }
     }
 
+    /// The middle of all corners.
+    pub fn middle(&self) -> Point<Target> {
+        let all = self.corners();
+        let sum = all.iter().map(Point::vector).sum::<nalgebra::Vector3<f64>>();
+        Point::from_vector(sum / all.len().max(1) as f64)
+    }
+
     /// All corners in the order of their ids, in metres.
     pub fn corners(&self) -> Vec<Point<Target>> {
         (0..self.len() as u32).filter_map(|id| self.corner(id)).collect()

@@ -283,6 +283,7 @@ fn truth(recording: &Recording, folder: &Folder) -> Value {
             "scan_tilt_deg": cell.depth.map(|d| d.turn_rad.map(f64::to_degrees)),
             "scan_shift_mm": cell.depth.map(|d| d.shift_m * 1e3),
             "bow_mm": cell.bow_mm,
+            "print_scale": cell.print_scale,
             "picture_grey_values": cell.optics.noise,
             "picture_blur_px": cell.optics.blur_px,
         },

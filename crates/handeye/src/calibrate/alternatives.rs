@@ -24,7 +24,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{LensSigma, Session, TargetSize, alike};
 use crate::{
     Distortion, Error, HandEye, Intrinsics, TargetModel,
-    detect::sight::{CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, TARGET_SCALE},
+    detect::sight::{CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, PRINT, TARGET_SCALE},
     refine::{self, Extra, ExtraKind, JointFit, KnownNoise, Problem},
 };
 
@@ -34,10 +34,28 @@ pub(super) const SIZE: ExtraKind = ExtraKind::Camera(TARGET_SCALE);
 const SCALE: ExtraKind = ExtraKind::Camera(DEPTH_SCALE);
 const BIAS: ExtraKind = ExtraKind::Camera(DEPTH_BIAS);
 
-/// Components of the prior of a printed target's size: probability and standard deviation (share of the size).
-/// A plate that was manufactured or measured is right to 0.02 %; printers and paper are off by some 0.5 %; "fit to
-/// page" and sizes that nobody measured by more.
-const PRINTED: [(f64, f64); 3] = [(0.75, 2e-4), (0.20, 5e-3), (0.05, 2.5e-2)];
+/// Components of the prior of a printed target. A plate that was manufactured or measured is right to 0.02 %; printers
+/// and paper are off by some 0.5 %; "fit to page" and sizes that nobody measured by more. The feed of a printer may be
+/// off by another share than its carriage, and paper that is not glued to a plate is bent.
+const PRINTED: [(f64, Print); 6] = [
+    (0.70, Print { size: 2e-4, aspect: EVEN, bend: FLAT }),
+    (0.17, Print { size: 5e-3, aspect: EVEN, bend: FLAT }),
+    (0.04, Print { size: 2.5e-2, aspect: EVEN, bend: FLAT }),
+    (0.04, Print { size: 5e-3, aspect: UNEVEN, bend: FLAT }),
+    (0.04, Print { size: 2e-4, aspect: EVEN, bend: BENT }),
+    (0.01, Print { size: 2.5e-2, aspect: UNEVEN, bend: BENT }),
+];
+/// The same of one whose size was measured: nobody measures whether it is flat.
+const MEASURED: [(f64, Print); 2] = [
+    (0.95, Print { size: 0.0, aspect: EVEN, bend: FLAT }),
+    (0.05, Print { size: 0.0, aspect: EVEN, bend: BENT }),
+];
+/// Standard deviations of y against x (share) of a print.
+const EVEN: f64 = 1e-4;
+const UNEVEN: f64 = 7e-3;
+/// Standard deviations of the height at the ends of a target, as share of half its length.
+const FLAT: f64 = 4e-4;
+const BENT: f64 = 1.2e-2;
 /// The same of the depth of scans: probability, standard deviations of its scale (share) and of its bias (m). Most
 /// 3D cameras are within their calibration; some are cold or were calibrated long ago; few are far off.
 const DEPTH: [(f64, f64, f64); 3] = [(0.7, 3e-4, 1e-4), (0.2, 3e-3, 1e-3), (0.1, 2e-2, 5e-3)];
@@ -71,7 +89,9 @@ const SURE: [f64; 5] = [1e-3, 3e-3, 5e-5, 5e-5, 3e-3];
 /// One that these views alone have calibrated: nothing is known beyond what they say.
 const OWN: LensPrior = LensPrior { focal: 0.3, aspect: 0.3, centre: 0.2, distortion: [1.0; 5] };
 /// Combinations of components that are less likely than this beforehand are no part of the prior.
-const LEAST_LIKELY: f64 = 1e-3;
+const LEAST_LIKELY: f64 = 3e-3;
+/// Fewest corners that tell a board's shape.
+const FEWEST_CORNERS: usize = 9;
 /// A component of less weight than this changes neither mean nor covariance.
 const NEGLIGIBLE: f64 = 1e-4;
 
@@ -85,10 +105,37 @@ struct Component {
     declared: Declared<bool>,
 }
 
-/// Of the target's size, of the depth of scans, and of the lens.
+/// Standard deviations of a print: of its size (share; 0 where the unknown's own counts), of y against x (share), and
+/// of the height of its ends (share of half its length).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Print {
+    size: f64,
+    aspect: f64,
+    bend: f64,
+}
+
+impl Print {
+    fn declared(&self) -> Declared<bool> {
+        let size = self.size <= PRINTED[0].1.size;
+        let shape = self.aspect <= EVEN && self.bend <= FLAT;
+        Declared { size, shape, ..AS_DECLARED }
+    }
+
+    /// Those of the unknowns of a target.
+    fn sigmas(&self, half_length_m: f64) -> Vec<(ExtraKind, f64)> {
+        let bend = 2.0 * self.bend / half_length_m.max(f64::MIN_POSITIVE);
+        let shape = [self.aspect, bend, bend, bend];
+        let of_shape =
+            shape.into_iter().enumerate().map(|(k, s)| (ExtraKind::Camera(PRINT + k), s));
+        Some((SIZE, self.size)).filter(|s| s.1 > 0.0).into_iter().chain(of_shape).collect()
+    }
+}
+
+/// Of the target's size and shape, of the depth of scans, and of the lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Declared<T> {
     pub size: T,
+    pub shape: T,
     pub depth: T,
     pub lens: T,
 }
@@ -143,8 +190,12 @@ pub(super) struct Averaged {
     pub as_declared: Declared<f64>,
 }
 
+/// All is as declared.
+const AS_DECLARED: Declared<bool> = Declared { size: true, shape: true, depth: true, lens: true };
+/// A component for the target: probability, standard deviations, and what it takes to be as declared.
+type Printing = (f64, Vec<(ExtraKind, f64)>, Declared<bool>);
 /// What was declared is not in question.
-const NO_DOUBT: Declared<f64> = Declared { size: 1.0, depth: 1.0, lens: 1.0 };
+const NO_DOUBT: Declared<f64> = Declared { size: 1.0, shape: 1.0, depth: 1.0, lens: 1.0 };
 
 /// The unknown size of the session's target, where its views tell sizes by their corners.
 pub(super) fn unknown_size(session: &Session) -> Option<Extra> {
@@ -153,10 +204,30 @@ pub(super) fn unknown_size(session: &Session) -> Option<Extra> {
     session.camera.as_ref()?;
     let seen = session.observations.iter().any(|o| !o.corners.is_empty());
     let sigma = match session.target_size {
-        TargetSize::Printed => PRINTED[0].1,
+        TargetSize::Printed => PRINTED[0].1.size,
         TargetSize::Measured(sigma) => sigma,
     };
     (seen && sigma > 0.0).then(|| Extra::about_zero(SIZE, sigma))
+}
+
+/// The unknown shape of the session's target: of boards with corners enough to tell it, and that do not look the same
+/// turned by a quarter, which would exchange x and y.
+pub(super) fn unknown_shape(session: &Session) -> Vec<Extra> {
+    let Some(target) = session.target.as_ref().filter(|t| t.len() >= FEWEST_CORNERS) else {
+        return vec![];
+    };
+    if unknown_size(session).is_none() || target.symmetries().len() > 2 {
+        return vec![];
+    }
+    let of_shape = |(kind, sigma)| Extra::about_zero(kind, sigma);
+    let shape = Print { size: 0.0, ..PRINTED[0].1 };
+    shape.sigmas(half_length(target)).into_iter().map(of_shape).collect()
+}
+
+/// From the middle of a target to its farthest corner, m.
+fn half_length(target: &TargetModel) -> f64 {
+    let middle = target.middle().vector();
+    target.corners().iter().map(|c| (c.vector() - middle).norm()).fold(0.0, f64::max)
 }
 
 /// The unknown scale and bias of the depth of the session's scans.
@@ -190,17 +261,25 @@ pub(super) fn unknown_lens(session: &Session) -> Vec<Extra> {
 
 /// Whether an unknown is one that all captures tell together: of the target, of the depth of scans, of the lens.
 fn is_shared(kind: ExtraKind) -> bool {
-    matches!(kind, ExtraKind::Camera(which) if which < CLOCK)
+    matches!(kind, ExtraKind::Camera(which) if which != CLOCK)
 }
 
 impl Alternatives {
     /// What the user said of the target's size, and what is known of scans.
     pub(super) fn of(session: &Session) -> Self {
-        let printed: Vec<(f64, Option<f64>)> = match session.target_size {
+        let printed = match session.target_size {
             // without a target of a declared size a free scale has a prior of its own
-            _ if unknown_size(session).is_none() => vec![(1.0, None)],
-            TargetSize::Measured(_) => vec![(1.0, None)],
-            TargetSize::Printed => PRINTED.iter().map(|(p, sigma)| (*p, Some(*sigma))).collect(),
+            _ if unknown_size(session).is_none() => &[][..],
+            TargetSize::Measured(_) => &MEASURED[..],
+            TargetSize::Printed => &PRINTED[..],
+        };
+        let half_length = session.target.as_ref().map_or(0.0, half_length);
+        let printed: Vec<Printing> = match printed {
+            [] => vec![(1.0, vec![], AS_DECLARED)],
+            all => all
+                .iter()
+                .map(|(p, print)| (*p, print.sigmas(half_length), print.declared()))
+                .collect(),
         };
         let scanned = session.observations.iter().any(|o| !o.surface.is_empty());
         let depth = if scanned { &DEPTH[..] } else { &DEPTH[..1] };
@@ -216,19 +295,19 @@ impl Alternatives {
         };
         let given = lens.len();
         let mut all = vec![];
-        for (i, (of_size, size)) in printed.iter().enumerate() {
+        for (i, (of_print, print, declared)) in printed.iter().enumerate() {
             for (j, (of_depth, scale, bias)) in depth.iter().enumerate() {
                 for (k, (of_lens, lens)) in lens.iter().enumerate() {
                     let widest = i + 1 == printed.len() && j + 1 == depth.len() && k + 1 == given;
-                    if of_size * of_depth * of_lens < LEAST_LIKELY && !widest {
+                    if of_print * of_depth * of_lens < LEAST_LIKELY && !widest {
                         continue;
                     }
                     let kinds = [(SCALE, *scale), (BIAS, *bias)];
                     let lens = lens.iter().map(|e| (e.kind, e.prior_sigma));
                     all.push(Component {
-                        log_probability: (of_size * of_depth * of_lens).ln(),
-                        sigmas: size.iter().map(|s| (SIZE, *s)).chain(kinds).chain(lens).collect(),
-                        declared: Declared { size: i == 0, depth: j == 0, lens: k == 0 },
+                        log_probability: (of_print * of_depth * of_lens).ln(),
+                        sigmas: print.iter().copied().chain(kinds).chain(lens).collect(),
+                        declared: Declared { depth: j == 0, lens: k == 0, ..*declared },
                     });
                 }
             }
@@ -306,6 +385,7 @@ impl Alternatives {
         let fit = mixture(&fits, best);
         let as_declared = Declared {
             size: declared(|d| d.size, &weights),
+            shape: declared(|d| d.shape, &weights),
             depth: declared(|d| d.depth, &weights),
             lens: declared(|d| d.lens, &weights),
         };

@@ -1,14 +1,14 @@
 //! Touches in the form that the joint fit takes.
 
-use nalgebra::Vector3;
-
 use super::{
     agreement::Views,
     captures,
     optics::{self, Optics},
 };
 use crate::{
-    Placement, Pose, PosePair, Setup, Target, TargetModel, Touch, lie,
+    Placement, Pose, PosePair, Setup, Target, TargetModel, Touch,
+    detect::sight::by_shape,
+    lie,
     refine::{JointFit, TouchedBoard, TouchedCorner, View},
 };
 
@@ -55,13 +55,14 @@ impl Boards {
         if known.is_empty() {
             return;
         }
+        let middle = target.middle().vector();
+        let corner_of = |t: &Touch| target.corner(t.corner).unwrap_or(target.reference()).vector();
         let corner = |&k: &usize| TouchedCorner {
             in_base: touches[k].in_base.vector(),
             base_from_flange: touches[k].base_from_flange,
             by_arm: None,
-            in_target: target
-                .corner(touches[k].corner)
-                .map_or(Vector3::zeros(), |c| c.vector() - target.reference().vector()),
+            in_target: corner_of(&touches[k]) - target.reference().vector(),
+            by_shape: by_shape(&corner_of(&touches[k]), &middle),
         };
         self.boards.push(TouchedBoard { seen, corners: known.iter().map(corner).collect() });
         self.touches.push(known);

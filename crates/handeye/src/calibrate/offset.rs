@@ -197,6 +197,22 @@ impl Offset {
         )
     }
 
+    /// Why the answer is that of the scans alone.
+    pub(super) fn not_believed(&self, scans: &Calibration, moved: &Calibration) -> Warning {
+        let own = scans.hand_eye.mount_from_camera;
+        let apart = own.zip(moved.hand_eye.mount_from_camera).map(|(a, b)| a.distance_to(&b) * 1e3);
+        Warning::new(
+            "picture-and-scan-disagree",
+            format!(
+                "the frame of the scans is not that of the images: scans seem {}, but with that taken out the images \
+                 put the camera {:.2} mm from where the scans alone do. The answer is from the scans alone. Check the \
+                 calibration between image and scan, the lens of the images, and in which frame the points are given",
+                self.in_words(),
+                apart.unwrap_or(f64::NAN),
+            ),
+        )
+    }
+
     /// The parts of the difference that the captures prove.
     fn in_words(&self) -> String {
         let largest = |rows: std::ops::Range<usize>| {

@@ -10,7 +10,9 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, SVector, Vector2, Vector3, Vector6};
 use super::{
     Config, Session,
     agreement::Views,
-    alternatives::{Alternatives, Declared, SIZE, unknown_depth, unknown_lens, unknown_size},
+    alternatives::{
+        Alternatives, Declared, SIZE, unknown_depth, unknown_lens, unknown_shape, unknown_size,
+    },
     captures,
     joint::views_problem,
 };
@@ -20,7 +22,10 @@ use crate::{
     camera::PARAMETERS,
     detect::{
         self,
-        sight::{CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, Sight, TARGET_SCALE, corrected},
+        sight::{
+            CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, PRINT, SHAPES, Sight, TARGET_SCALE, by_shape,
+            corrected,
+        },
     },
     refine::{Extra, ExtraKind, JointFit, View},
     register::rigid_fit::point_jacobian,
@@ -92,7 +97,7 @@ impl Optics {
     /// What is free: the size of a target whose views tell it, the depth of its scans, and the lens.
     pub(super) fn of(session: &Session) -> Self {
         let of_target = unknown_size(session).into_iter().chain(unknown_depth(session));
-        let extras = of_target.chain(unknown_lens(session)).collect();
+        let extras = of_target.chain(unknown_lens(session)).chain(unknown_shape(session)).collect();
         let focal = session.camera.map_or(1.0, |c| c.fx);
         Self { extras, focal, ..Self::default() }
     }
@@ -107,6 +112,8 @@ impl Optics {
                         LINEAR_LENS * self.focal
                     }
                     ExtraKind::Camera(n) if (LENS + 4..CLOCK).contains(&n) => LINEAR_DISTORTION,
+                    // deviations from a shape are as good as linear
+                    ExtraKind::Camera(n) if n >= PRINT => f64::INFINITY,
                     _ => 0.0,
                 };
                 x.abs() < SETTLED * s || x.abs() < linear
@@ -128,7 +135,7 @@ impl Optics {
                 ExtraKind::Camera(DEPTH_SCALE) => -self.depth_scale,
                 ExtraKind::Camera(DEPTH_BIAS) => -self.depth_bias_m,
                 ExtraKind::Camera(TARGET_SCALE) => 1.0 / (1.0 + self.size) - 1.0,
-                ExtraKind::Camera(which) => -self.lens[which - LENS],
+                ExtraKind::Camera(which) if which < CLOCK => -self.lens[which - LENS],
                 _ => 0.0,
             };
         }
@@ -191,6 +198,9 @@ impl Optics {
                 result.warnings.push(camera_warning(&intrinsics, &(self.lens + rest), sigma(0)));
             }
         }
+        if as_declared.shape < 0.5 {
+            result.warnings.extend(shape_warnings(session, fit));
+        }
         if as_declared.depth < 0.5
             && let (Some((s, sigma)), Some((b, sigma_b))) = (at(DEPTH_SCALE), at(DEPTH_BIAS))
         {
@@ -235,6 +245,50 @@ fn camera_warning(now: &Intrinsics, moved: &SVector<f64, PARAMETERS>, sigma: f64
             now.cx - moved[2],
         ),
     )
+}
+
+/// Deviations of a shape that are this many standard deviations long are told.
+const CLEARLY: f64 = 3.0;
+
+/// In which way the target is not as its description has it.
+fn shape_warnings(session: &Session, fit: &JointFit) -> Vec<Warning> {
+    let Some(target) = &session.target else { return vec![] };
+    let at = |k: usize| fit.extra(ExtraKind::Camera(PRINT + k));
+    let mut all = vec![];
+    if let Some((share, sigma)) = at(0).filter(|(x, s)| x.abs() > CLEARLY * s) {
+        let which = if share > 0.0 { "longer" } else { "shorter" };
+        all.push(Warning::new(
+            "board-uneven",
+            format!(
+                "the board is {:.2} +- {:.2} % {which} along its y than its x makes it: the answer uses that shape; \
+                 measure the print along both sides, and use one whose squares are square",
+                share.abs() * 100.0,
+                sigma * 100.0
+            ),
+        ));
+    }
+    let values: Vec<(f64, f64)> = (1..SHAPES).filter_map(at).collect();
+    let scanned = session.observations.iter().any(|o| !o.surface.is_empty());
+    // scans tell it directly, and have a word of their own for it
+    if values.iter().any(|(x, s)| x.abs() > CLEARLY * s) && values.len() + 1 == SHAPES && !scanned {
+        let middle = target.middle().vector();
+        let height = |c: &crate::Point<Target>| {
+            let by = by_shape(&c.vector(), &middle);
+            (1..SHAPES).map(|k| by[(2, k)] * values[k - 1].0).sum::<f64>() * 1e3
+        };
+        let heights: Vec<f64> = target.corners().iter().map(height).collect();
+        let most = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let least = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        all.push(Warning::new(
+            "board-bent",
+            format!(
+                "the corners in the pictures say that the board is bent, by {:.2} mm from its highest to its lowest \
+                 corner: the answer uses that shape; lay it on a flat plate and check it with a straight edge",
+                most - least
+            ),
+        ));
+    }
+    all
 }
 
 fn depth_warning(depth: &DepthResult) -> Warning {
@@ -340,7 +394,7 @@ pub(super) fn spread(
     let camera = views.session.camera.as_ref();
     let moves = |which: usize| match which {
         TARGET_SCALE => measured.unit_is_free,
-        CLOCK => false,
+        which if which >= CLOCK => false,
         other => scanned == (other < LENS),
     };
     let mut of_camera = vec![];

@@ -76,9 +76,18 @@ pub(super) fn in_one_frame(
         (AnswerFrame::Scan, _) => {
             let moved = offset.in_scan_frame(&image);
             let scans = run(&restricted(session, Source::Scan, target, camera));
+            if !contradicts(&scans, &moved) {
+                return moved;
+            }
             // a wrong lens looks much like an offset, and is then taken out as one: scans alone know of neither
-            if contradicts(&scans, &moved) {
-                return fused_or_one(session, (target, camera), frame, &run);
+            let fused = fused_or_one(session, (target, camera), frame, &run);
+            if fused.verdict == Verdict::Accepted && !contradicts(&scans, &fused) {
+                return fused;
+            }
+            if moved.verdict == Verdict::Accepted && scans.verdict == Verdict::Accepted {
+                let mut scans = scans;
+                scans.warnings.insert(0, offset.not_believed(&scans, &moved));
+                return scans;
             }
             moved
         }

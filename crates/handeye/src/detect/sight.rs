@@ -17,7 +17,7 @@ use super::planar_pose::{Fit, PosedTarget, moved};
 use crate::{Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel};
 
 /// Number of parameters of camera and target that a target pose may depend on.
-pub const CAMERA: usize = 13;
+pub const CAMERA: usize = PRINT + SHAPES;
 /// The target is larger by this share.
 pub const TARGET_SCALE: usize = 0;
 /// Depths in scans are too large by this share.
@@ -28,6 +28,20 @@ pub const DEPTH_BIAS: usize = 2;
 pub const LENS: usize = 3;
 /// The camera's clock is farther ahead of the robot's by this (s).
 pub const CLOCK: usize = 12;
+/// The first of the target's deviations from its shape: its y is longer than its x by this share, and the second
+/// derivatives of its height by x x, x y and y y (1/m), about its middle.
+pub const PRINT: usize = 13;
+/// How many there are.
+pub const SHAPES: usize = 4;
+
+/// How a point of a target moves with the deviations of its shape.
+pub fn by_shape(in_target: &Vector3<f64>, middle: &Vector3<f64>) -> SMatrix<f64, 3, SHAPES> {
+    let (x, y) = (in_target.x - middle.x, in_target.y - middle.y);
+    let mut j = SMatrix::zeros();
+    j[(1, 0)] = y;
+    (j[(2, 1)], j[(2, 2)], j[(2, 3)]) = (0.5 * x * x, x * y, 0.5 * y * y);
+    j
+}
 
 /// What one view knows beyond its best pose.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,25 +85,39 @@ pub fn sighted(
     let mut fit = Fit::new(corners, surface, target, intrinsics).ok()?;
     fit.typical_excess = typical_excess_px.map(|px| px * px);
     let posed = fit.polish(*start.iso())?;
-    let sight = sight(&fit, posed.pose.camera_from_target.iso(), &target.reference().vector())?;
+    let about = About { reference: target.reference().vector(), middle: target.middle().vector() };
+    let sight = sight(&fit, posed.pose.camera_from_target.iso(), &about)?;
     Some((posed, sight))
 }
 
 const ALL: usize = 6 + CAMERA;
 
+/// The points of a target about which its size and its shape deviate.
+struct About {
+    reference: Vector3<f64>,
+    middle: Vector3<f64>,
+}
+
+impl About {
+    /// How a point in the camera moves with size and shape, in the target's axes.
+    fn by_target(&self, in_target: &Vector3<f64>) -> (Vector3<f64>, SMatrix<f64, 3, SHAPES>) {
+        (in_target - self.reference, by_shape(in_target, &self.middle))
+    }
+}
+
 /// Eliminates the pose from the equations of one view.
-fn sight(fit: &Fit, pose: &Isometry3<f64>, reference: &Vector3<f64>) -> Option<Sight> {
+fn sight(fit: &Fit, pose: &Isometry3<f64>, about: &About) -> Option<Sight> {
     let mut h = SMatrix::<f64, ALL, ALL>::zeros();
     let mut g = SVector::<f64, ALL>::zeros();
     for corner in fit.seen.iter().filter(|c| c.weight > 0.0) {
-        let (r, j) = by_picture(fit, pose, &corner.in_target, reference)?;
+        let (r, j) = by_picture(fit, pose, &corner.in_target, about)?;
         let w = fit.information(corner) * corner.weight;
         let weighted = j.transpose() * w;
         h += weighted * j;
         g += weighted * (r - corner.pixel);
     }
     for corner in fit.felt.iter().filter(|c| c.weight > 0.0) {
-        let (point, j) = by_scan(pose, &corner.in_target, &corner.in_camera, reference);
+        let (point, j) = by_scan(pose, &corner.in_target, &corner.in_camera, about);
         let weighted = j.transpose() * (corner.information * (corner.weight / fit.felt_scale));
         h += weighted * j;
         g += weighted * (point - corner.in_camera);
@@ -111,14 +139,16 @@ fn by_picture(
     fit: &Fit,
     pose: &Isometry3<f64>,
     in_target: &Vector3<f64>,
-    reference: &Vector3<f64>,
+    about: &About,
 ) -> Option<Rows<2>> {
     let (point, by_pose) = moved(pose, in_target);
     let (pixel, by_point) = fit.intrinsics.project_with_jacobian(&point)?;
     let mut j = SMatrix::<f64, 2, ALL>::zeros();
     j.fixed_view_mut::<2, 6>(0, 0).copy_from(&(by_point * by_pose));
-    let by_scale = by_point * (pose.rotation * (in_target - reference));
-    j.fixed_view_mut::<2, 1>(0, 6 + TARGET_SCALE).copy_from(&by_scale);
+    let by_point_of_target = by_point * pose.rotation.to_rotation_matrix();
+    let (by_scale, by_shape) = about.by_target(in_target);
+    j.fixed_view_mut::<2, 1>(0, 6 + TARGET_SCALE).copy_from(&(by_point_of_target * by_scale));
+    j.fixed_view_mut::<2, SHAPES>(0, 6 + PRINT).copy_from(&(by_point_of_target * by_shape));
     j.fixed_view_mut::<2, 9>(0, 6 + LENS).copy_from(&fit.intrinsics.by_parameters(&point));
     Some((pixel, j))
 }
@@ -128,7 +158,7 @@ fn by_scan(
     pose: &Isometry3<f64>,
     in_target: &Vector3<f64>,
     measured: &Vector3<f64>,
-    reference: &Vector3<f64>,
+    about: &About,
 ) -> Rows<3> {
     let (point, by_pose) = moved(pose, in_target);
     let mut j = SMatrix::<f64, 3, ALL>::zeros();
@@ -136,7 +166,10 @@ fn by_scan(
     let column = |k: usize, j: &mut SMatrix<f64, 3, ALL>, by: Vector3<f64>| {
         j.fixed_view_mut::<3, 1>(0, 6 + k).copy_from(&by);
     };
-    column(TARGET_SCALE, &mut j, pose.rotation * (in_target - reference));
+    let (by_scale, by_shape) = about.by_target(in_target);
+    column(TARGET_SCALE, &mut j, pose.rotation * by_scale);
+    let rotation = pose.rotation.to_rotation_matrix();
+    j.fixed_view_mut::<3, SHAPES>(0, 6 + PRINT).copy_from(&(rotation * by_shape));
     column(DEPTH_SCALE, &mut j, *measured);
     column(DEPTH_BIAS, &mut j, measured / measured.z.max(f64::MIN_POSITIVE));
     (point, j)

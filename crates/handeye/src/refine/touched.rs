@@ -17,7 +17,8 @@
 use std::sync::Arc;
 
 use nalgebra::{
-    DMatrix, DVector, Isometry3, Matrix3, Matrix3x6, Matrix3xX, Matrix6, Vector3, Vector6,
+    DMatrix, DVector, Isometry3, Matrix3, Matrix3x6, Matrix3xX, Matrix6, SMatrix, SVector, Vector3,
+    Vector6,
 };
 
 use super::{
@@ -25,7 +26,11 @@ use super::{
     extra::{Extra, ExtraKind, SYSTEMATIC},
     noise::{self, LEAST_POSITION, Source},
 };
-use crate::{Base, Flange, HandEye, Pose, Setup, detect::sight::TARGET_SCALE, lie};
+use crate::{
+    Base, Flange, HandEye, Pose, Setup,
+    detect::sight::{PRINT, SHAPES, TARGET_SCALE},
+    lie,
+};
 
 /// A touched corner.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,9 +44,18 @@ pub struct TouchedCorner {
     pub by_arm: Option<Arc<DMatrix<f64>>>,
     /// The corner, about the point at which views state their misfit (m).
     pub in_target: Vector3<f64>,
+    /// How it moves with the deviations of the target's shape.
+    pub by_shape: SMatrix<f64, 3, SHAPES>,
 }
 
 impl TouchedCorner {
+    /// Where it is on a target of another size and shape.
+    fn deviating(&self, extras: &[Extra], values: &DVector<f64>) -> Vector3<f64> {
+        let value = |kind| super::extra::value(extras, values, kind);
+        let shape = SVector::from_fn(|k, _| value(ExtraKind::Camera(PRINT + k)));
+        self.in_target * (1.0 + value(SIZE)) + self.by_shape * shape
+    }
+
     /// Rotation of the flange and place of the tip (in the base) where the arm deviates, and how
     /// that place moves with each deviation.
     fn by_arm_at(
@@ -183,8 +197,7 @@ fn fill(
     let tip = Vector3::from_fn(|k, _| super::extra::value(extras, values, ExtraKind::Tip(k)));
     let (flange, touched, by_arm) = corner.by_arm_at(&tip, extras, values);
     let r = carrier.base_from_board.rotation.to_rotation_matrix().into_inner();
-    let larger = 1.0 + super::extra::value(extras, values, SIZE);
-    let in_target = corner.in_target * larger;
+    let in_target = corner.deviating(extras, values);
     let in_base = r * in_target + carrier.base_from_board.translation.vector;
     let mut e = touched + flange * tip - in_base;
     let by_board = carried(&r, &in_target);
@@ -216,7 +229,11 @@ fn fill(
                     _ => Vector3::zeros(),
                 };
                 // the corner itself lies farther out on a larger board
-                if extra.kind == SIZE { by_view - r * corner.in_target } else { by_view }
+                match which {
+                    TARGET_SCALE => by_view - r * corner.in_target,
+                    n if n >= PRINT => by_view - r * corner.by_shape.column(n - PRINT),
+                    _ => by_view,
+                }
             }
         };
         jacobian.view_mut((row, 12 + k), (3, 1)).copy_from(&column);

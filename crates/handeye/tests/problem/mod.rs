@@ -28,6 +28,7 @@ fn board(session: &Session, name: &str, placement: Option<&Placement>) -> Touche
         base_from_flange: t.base_from_flange,
         by_arm: None,
         in_target: target.corner(t.corner).unwrap().vector(),
+        by_shape: Default::default(),
     };
     TouchedBoard {
         seen: placement.map(|p| view(Pose::identity(), &p.candidates)),
