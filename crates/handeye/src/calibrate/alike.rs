@@ -2,18 +2,20 @@
 //!
 //! An arm errs by place: captures that lie near one another err alike, and a lens, or a size, that is found from
 //! them is less sure than white noise has it. How much less is seen where captures of one place are left out in
-//! turn: with `δ_g` the step without group `g` of `G`, the jackknife's variance of the unknown along `d` is
+//! turn. With `δ_g` the step that follows for the others, and `ε_g` the same with the information of all captures, the
+//! variance of the unknown along `d` is
 //!
 //! ```text
-//! v = (G-1)/G Σ_g (dᵀ δ_g - mean)²          λ = v / dᵀ C d
+//! v = Σ_g (dᵀ ε_g)(dᵀ δ_g)          λ = v / dᵀ C d
 //! ```
 //!
-//! Along the direction in which the unknowns leave what was declared, so that it is the finding itself which must
-//! hold without each place. Few groups tell little of a variance: [`BEFOREHAND`] stands beside them.
+//! which is that of white noise where the noise is white, however much of the information one place has. Along the
+//! direction in which the unknowns leave what was declared, so that it is the finding itself which must hold without
+//! each place. Few groups tell little of a variance: [`BEFOREHAND`] stands beside them.
 //!
-//! B. Efron and C. Stein, *The jackknife estimate of variance*, Annals of Statistics 9(3), 1981;
-//! R. Holmes and S. Walker, *Assigning a value to a power likelihood in a general Bayesian model*, Biometrika
-//! 104(2), 2017.
+//! R. Bell and D. McCaffrey, *Bias reduction in standard errors for linear regression with multi-stage samples*,
+//! Survey Methodology 28(2), 2002; R. Holmes and S. Walker, *Assigning a value to a power likelihood in a general
+//! Bayesian model*, Biometrika 104(2), 2017.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -33,12 +35,12 @@ const WAY_OF_A_TURN: f64 = 0.5;
 /// Of unknowns of a fit: by which factor their variance exceeds what white noise says.
 pub(super) fn excess(problem: &Problem, fit: &JointFit, of: impl Fn(ExtraKind) -> bool) -> f64 {
     let (before, worth) = BEFOREHAND;
-    let Some((seen, freedom)) = jackknife(problem, fit, of) else { return before };
+    let Some((seen, freedom)) = seen_by_groups(problem, fit, of) else { return before };
     ((worth * before + freedom * seen) / (worth + freedom)).max(1.0)
 }
 
 /// The factor as the groups have it, and their degrees of freedom.
-fn jackknife(
+fn seen_by_groups(
     problem: &Problem,
     fit: &JointFit,
     of: impl Fn(ExtraKind) -> bool,
@@ -57,11 +59,9 @@ fn jackknife(
         return None;
     }
     let moved = |step: &DVector<f64>| (0..n).map(|k| along[k] * step[12 + which[k]]).sum::<f64>();
-    let steps: Vec<f64> = fit.steps_without(problem, &groups)?.iter().map(moved).collect();
-    let count = steps.len() as f64;
-    let mean = steps.iter().sum::<f64>() / count;
-    let squares: f64 = steps.iter().map(|s| (s - mean).powi(2)).sum();
-    Some(((count - 1.0) / count * squares / expected, count - 1.0))
+    let steps = fit.steps_without(problem, &groups)?;
+    let variance: f64 = steps.iter().map(|s| moved(&s.by_all) * moved(&s.by_others)).sum();
+    Some((variance.max(0.0) / expected, steps.len() as f64 - 1.0))
 }
 
 /// Captures in groups of those that lie near one another: about centres that are as far from each other as can be.

@@ -34,7 +34,7 @@ use super::{
     extra::{Extra, ExtraKind},
     noise::{KnownNoise, NoiseModel, Source},
     pose_fit::{self, Matrix12, View},
-    system::{State, System},
+    system::{State, Steps, System},
     touched::{self, TouchRows, TouchedBoard},
 };
 use crate::{Camera, Error, HandEye, Mount, Pose, Setup, lie, linalg};
@@ -353,7 +353,7 @@ impl JointFit {
         &self,
         problem: &Problem,
         groups: &[Vec<usize>],
-    ) -> Option<Vec<DVector<f64>>> {
+    ) -> Option<Vec<Steps>> {
         let state = self.state(problem, &self.noise);
         System::at(problem, &state).steps_without(problem, &state, groups)
     }

@@ -8,23 +8,27 @@ use super::{
 };
 use crate::linalg;
 
+/// What leaving out a group of views does.
+pub(crate) struct Steps {
+    /// Its pull, with the information of all views.
+    pub by_all: DVector<f64>,
+    /// The step to the answer of the others.
+    pub by_others: DVector<f64>,
+}
+
 impl System {
-    /// The step that follows, to first order, where each group of views is left out in turn.
+    /// The step that follows where each group of views is left out in turn: with the information of all views, and
+    /// with that of the others.
     pub fn steps_without(
         &self,
         problem: &Problem,
         state: &State,
         groups: &[Vec<usize>],
-    ) -> Option<Vec<DVector<f64>>> {
+    ) -> Option<Vec<Steps>> {
         groups.iter().map(|group| self.step_without(problem, state, group)).collect()
     }
 
-    fn step_without(
-        &self,
-        problem: &Problem,
-        state: &State,
-        group: &[usize],
-    ) -> Option<DVector<f64>> {
+    fn step_without(&self, problem: &Problem, state: &State, group: &[usize]) -> Option<Steps> {
         let mut h = self.h.clone();
         let mut g = self.g.clone();
         for &i in group {
@@ -38,9 +42,12 @@ impl System {
             let mut own = g.rows_mut(12, p);
             own -= gradient;
         }
-        let (scaled, scale) = linalg::scaled(&h)?;
-        let cholesky = Cholesky::new(scaled)?;
-        Some(-cholesky.solve(&g.component_mul(&scale)).component_mul(&scale))
+        let solved = |h: &DMatrix<f64>| {
+            let (scaled, scale) = linalg::scaled(h)?;
+            let cholesky = Cholesky::new(scaled)?;
+            Some(-cholesky.solve(&g.component_mul(&scale)).component_mul(&scale))
+        };
+        Some(Steps { by_all: solved(&self.h)?, by_others: solved(&h)? })
     }
 
     /// What the corners of one view say of the camera, and how it pulls here.

@@ -22,6 +22,7 @@ use super::{
     touched::{self, TouchRows, TouchedBoard},
 };
 use crate::{HandEye, linalg};
+pub(crate) use groups::Steps;
 use sights::Sights;
 use views::{SeenMount, ViewNoise, divide};
 
