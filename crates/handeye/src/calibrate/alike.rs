@@ -103,7 +103,7 @@ mod tests {
     use super::*;
     use crate::{
         Anchor, Camera, HandEye, Mount, Pose, Setup, Target,
-        calibrate::alternatives::SIZE,
+        calibrate::prior::SIZE,
         detect::sight::{CAMERA, Sight, TARGET_SCALE},
         refine::{self, Extra, KnownNoise, View},
         simulate::Random,

@@ -6,8 +6,9 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use super::{
     Session,
     agreement::Views,
-    alternatives::{Alternatives, Averaged, Declared},
+    alternatives::{Alternatives, Averaged},
     boards::Boards,
+    prior::Declared,
 };
 use crate::{
     TargetModel, Warning,

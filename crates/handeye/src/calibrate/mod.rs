@@ -29,6 +29,7 @@ mod named;
 mod offset;
 mod optics;
 mod points;
+mod prior;
 mod reach;
 mod refined;
 mod rejected;

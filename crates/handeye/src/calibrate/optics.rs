@@ -10,11 +10,10 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, SVector, Vector2, Vector3, Vector6};
 use super::{
     Config, Session,
     agreement::Views,
-    alternatives::{
-        Alternatives, Declared, SIZE, unknown_depth, unknown_lens, unknown_shape, unknown_size,
-    },
+    alternatives::Alternatives,
     captures,
     joint::views_problem,
+    prior::{Declared, SIZE, unknown_depth, unknown_lens, unknown_shape, unknown_size},
 };
 use crate::{
     Camera, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel, Warning,

@@ -1,6 +1,6 @@
 //! Whether the answer can be used.
 
-use super::{Config, Session, agreement::Views, alternatives::SIZE};
+use super::{Config, Session, agreement::Views, prior::SIZE};
 use crate::{
     Camera, Mount, Pose, TargetSize, Warning,
     calibration::{Answer, Calibration, Determined, Scale, Verdict},
