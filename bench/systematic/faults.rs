@@ -1,9 +1,9 @@
 //! What is wrong with a cell, and does not show in any single capture.
 
 use handeye::{
-    Anchor, Base, Flange, HandEye, Mount, Observation, Placement, Pose, Session, TargetModel,
-    detect,
-    nalgebra::Isometry3,
+    Anchor, Base, Flange, HandEye, ImageCorner, Intrinsics, Mount, Observation, Placement, Point,
+    Pose, Session, SurfaceCorner, TargetModel, detect,
+    nalgebra::{Isometry3, Matrix3, Vector3},
     simulate::{Cell, Random, Recording, Truth},
 };
 
@@ -192,6 +192,25 @@ impl Fault {
     }
 }
 
+/// Corners of scans where the declared rays of their pixels meet the scanned board, as the program lifts them.
+fn lift_anew(corners: &[ImageCorner], surface: &mut [SurfaceCorner], camera: &Intrinsics) {
+    let points: Vec<Vector3<f64>> = surface.iter().map(|c| c.in_camera.vector()).collect();
+    let middle = points.iter().sum::<Vector3<f64>>() / points.len().max(1) as f64;
+    let scatter: Matrix3<f64> =
+        points.iter().map(|p| (p - middle) * (p - middle).transpose()).sum();
+    let eigen = scatter.symmetric_eigen();
+    let normal: Vector3<f64> = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into();
+    for corner in surface {
+        let pixel = corners.iter().find(|c| c.id == corner.id).map(|c| c.pixel);
+        let Some(ray) = pixel.and_then(|p| camera.ray(&p)) else { continue };
+        // what the scan says beside the plane stays: its noise, and the board's shape
+        let p = corner.in_camera.vector();
+        let beside = (p - middle).dot(&normal);
+        let depth = (middle.dot(&normal) + beside) / ray.dot(&normal);
+        corner.in_camera = Point::from_vector(ray * depth);
+    }
+}
+
 /// Poses of the target as the declared board and lens give them.
 fn pose_anew(session: &mut Session) {
     let (Some(target), Some(camera)) = (session.target.clone(), session.camera) else { return };
@@ -199,6 +218,10 @@ fn pose_anew(session: &mut Session) {
         detect::target_poses(corners, surface, &target, &camera)
             .map_or(vec![], |poses| detect::with_symmetries(&poses, &target))
     };
+    let scans = session.observations.iter_mut().map(|o| (&o.corners, &mut o.surface));
+    for (corners, surface) in scans.filter(|(_, surface)| surface.len() >= 4) {
+        lift_anew(corners, surface, &camera);
+    }
     for Observation { corners, surface, candidates, .. } in &mut session.observations {
         *candidates = posed(corners, surface);
     }

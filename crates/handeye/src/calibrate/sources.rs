@@ -19,7 +19,9 @@ use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
     TargetPose, Verdict, Warning, chance,
     detect::{self, sight::corrected},
-    lie, predict, register,
+    lie,
+    linalg::median,
+    predict, register,
 };
 
 /// Fewest corners in a scan that make a pose.
@@ -75,6 +77,9 @@ pub(super) fn in_one_frame(
     match (frame, image.hand_eye.mount_from_camera) {
         (AnswerFrame::Scan, _) => {
             let moved = offset.in_scan_frame(&image);
+            if on_rays(session, camera) {
+                return moved;
+            }
             let scans = run(&restricted(session, Source::Scan, target, camera));
             if !contradicts(&scans, &moved) {
                 return moved;
@@ -98,6 +103,22 @@ pub(super) fn in_one_frame(
         }
         (AnswerFrame::Image, None) => image,
     }
+}
+
+/// Corners of scans that lie as near to the rays of their pixels were lifted along these, px.
+const ON_RAY: f64 = 0.5;
+
+/// Whether the corners in the scans were lifted along the rays of their pixels: sideways they are then where the images
+/// put them, and do not know the frame of the scans by themselves.
+fn on_rays(session: &Session, camera: &Intrinsics) -> bool {
+    let off = |o: &crate::Observation| -> Vec<f64> {
+        let pixel = |c: &SurfaceCorner| o.corners.iter().find(|p| p.id == c.id).map(|p| p.pixel);
+        let one =
+            |c: &SurfaceCorner| Some((camera.project(&c.in_camera.vector())? - pixel(c)?).norm());
+        o.surface.iter().filter_map(one).collect()
+    };
+    let all: Vec<f64> = session.observations.iter().flat_map(off).collect();
+    all.is_empty() || median(all) < ON_RAY
 }
 
 /// Whether an answer lies farther from that of the scans alone than the latter may err.
