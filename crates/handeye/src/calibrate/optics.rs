@@ -16,14 +16,15 @@ use super::{
     prior::{Declared, SIZE, unknown_depth, unknown_lens, unknown_shape, unknown_size},
 };
 use crate::{
-    Camera, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel, Warning,
+    Camera, ImageCorner, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel,
+    Warning,
     calibration::{Calibration, CameraResult, DepthResult},
     camera::PARAMETERS,
     detect::{
         self,
         sight::{
             CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, PRINT, SHAPES, Sight, TARGET_SCALE, by_shape,
-            corrected,
+            corrected, lifted_again,
         },
     },
     refine::{Extra, ExtraKind, JointFit, View},
@@ -148,9 +149,13 @@ impl Optics {
         camera.check().ok()?;
         session.camera = Some(camera);
         session.target = Some(target.clone());
-        let correct = |s: &[SurfaceCorner]| corrected(s, self.depth_scale, self.depth_bias_m);
-        session.observations.iter_mut().for_each(|o| o.surface = correct(&o.surface));
-        session.placements.iter_mut().for_each(|p| p.surface = correct(&p.surface));
+        let from = given.camera?;
+        let correct = |s: &[SurfaceCorner], corners: &[ImageCorner]| {
+            let lifted = lifted_again(s, corners, &from, &camera);
+            corrected(&lifted, self.depth_scale, self.depth_bias_m)
+        };
+        session.observations.iter_mut().for_each(|o| o.surface = correct(&o.surface, &o.corners));
+        session.placements.iter_mut().for_each(|p| p.surface = correct(&p.surface, &p.corners));
         let excess = excess(&session, target, &camera);
         let posed = |corners: &[_], surface: &[_]| {
             let poses =

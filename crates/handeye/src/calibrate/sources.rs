@@ -18,10 +18,11 @@ use super::{
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
     TargetPose, Verdict, Warning, chance,
-    detect::{self, sight::corrected},
-    lie,
-    linalg::median,
-    predict, register,
+    detect::{
+        self,
+        sight::{corrected, lifted_again, on_ray},
+    },
+    lie, predict, register,
 };
 
 /// Fewest corners in a scan that make a pose.
@@ -105,20 +106,16 @@ pub(super) fn in_one_frame(
     }
 }
 
-/// Corners of scans that lie as near to the rays of their pixels were lifted along these, px.
-const ON_RAY: f64 = 0.5;
-
 /// Whether the corners in the scans were lifted along the rays of their pixels: sideways they are then where the images
 /// put them, and do not know the frame of the scans by themselves.
 fn on_rays(session: &Session, camera: &Intrinsics) -> bool {
-    let off = |o: &crate::Observation| -> Vec<f64> {
+    let on = |o: &crate::Observation| -> Vec<bool> {
         let pixel = |c: &SurfaceCorner| o.corners.iter().find(|p| p.id == c.id).map(|p| p.pixel);
-        let one =
-            |c: &SurfaceCorner| Some((camera.project(&c.in_camera.vector())? - pixel(c)?).norm());
+        let one = |c: &SurfaceCorner| Some(on_ray(camera, &c.in_camera.vector(), &pixel(c)?));
         o.surface.iter().filter_map(one).collect()
     };
-    let all: Vec<f64> = session.observations.iter().flat_map(off).collect();
-    all.is_empty() || median(all) < ON_RAY
+    let all: Vec<bool> = session.observations.iter().flat_map(on).collect();
+    2 * all.iter().filter(|on| **on).count() >= all.len()
 }
 
 /// Whether an answer lies farther from that of the scans alone than the latter may err.
@@ -192,7 +189,8 @@ fn gap(
 ) -> Option<Gap> {
     let size = fused.target_scale.filter(|s| s.used).map_or(1.0, |s| s.value);
     let target = &target.resized(size);
-    let camera = fused.camera.map_or(*camera, |c| c.intrinsics);
+    let given = camera;
+    let camera = fused.camera.map_or(*given, |c| c.intrinsics);
     let middle =
         target.corners().iter().map(|c| c.vector()).sum::<Vector3<f64>>() / target.len() as f64;
     let depth = fused.depth.map_or((0.0, 0.0), |d| (d.scale - 1.0, d.bias_mm * 1e-3));
@@ -202,7 +200,8 @@ fn gap(
         if o.surface.len() < FEWEST || o.corners.is_empty() || counts && !report.used {
             return None;
         }
-        let surface = corrected(&o.surface, depth.0, depth.1);
+        let lifted = lifted_again(&o.surface, &o.corners, given, &camera);
+        let surface = corrected(&lifted, depth.0, depth.1);
         let scan = scan_pose(&surface, target)?.camera_from_target;
         let near = |p: &TargetPose| {
             let start = &p.camera_from_target;

@@ -11,10 +11,12 @@
 //! So a fit over many views keeps one pose a view, and yet knows all corners. The model of a scan:
 //! it reads `z' = (1 + scale) z + bias` along the ray.
 
-use nalgebra::{Isometry3, Matrix6, SMatrix, SVector, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix, SVector, Vector2, Vector3, Vector6};
 
 use super::planar_pose::{Fit, PosedTarget, moved};
-use crate::{Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel};
+use crate::{
+    Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel, camera::PARAMETERS,
+};
 
 /// Number of parameters of camera and target that a target pose may depend on.
 pub const CAMERA: usize = PRINT + SHAPES;
@@ -117,7 +119,14 @@ fn sight(fit: &Fit, pose: &Isometry3<f64>, about: &About) -> Option<Sight> {
         g += weighted * (r - corner.pixel);
     }
     for corner in fit.felt.iter().filter(|c| c.weight > 0.0) {
-        let (point, j) = by_scan(pose, &corner.in_target, &corner.in_camera, about);
+        let (point, mut j) = by_scan(pose, &corner.in_target, &corner.in_camera, about);
+        let pixel = fit.seen.iter().find(|s| s.in_target == corner.in_target).map(|s| s.pixel);
+        let normal = pose.rotation * Vector3::z();
+        if let Some(moved) =
+            pixel.and_then(|p| by_ray(fit.intrinsics, &corner.in_camera, &p, &normal))
+        {
+            j.fixed_view_mut::<3, PARAMETERS>(0, 6 + LENS).copy_from(&-moved);
+        }
         let weighted = j.transpose() * (corner.information * (corner.weight / fit.felt_scale));
         h += weighted * j;
         g += weighted * (point - corner.in_camera);
@@ -173,6 +182,59 @@ fn by_scan(
     column(DEPTH_SCALE, &mut j, *measured);
     column(DEPTH_BIAS, &mut j, measured / measured.z.max(f64::MIN_POSITIVE));
     (point, j)
+}
+
+/// Corners of scans that lie as near to the rays of their pixels were lifted along these, px.
+const ON_RAY: f64 = 0.5;
+
+/// Whether a corner in a scan was lifted along the ray of its pixel.
+pub fn on_ray(camera: &Intrinsics, in_camera: &Vector3<f64>, pixel: &Vector2<f64>) -> bool {
+    camera.project(in_camera).is_some_and(|p| (p - pixel).norm() < ON_RAY)
+}
+
+/// How a corner that was lifted along the ray of its pixel moves over the scanned plane with the lens.
+fn by_ray(
+    camera: &Intrinsics,
+    in_camera: &Vector3<f64>,
+    pixel: &Vector2<f64>,
+    normal: &Vector3<f64>,
+) -> Option<SMatrix<f64, 3, PARAMETERS>> {
+    if !on_ray(camera, in_camera, pixel) {
+        return None;
+    }
+    let (_, by_point) = camera.project_with_jacobian(in_camera)?;
+    let mut both = Matrix3::zeros();
+    both.fixed_rows_mut::<2>(0).copy_from(&by_point);
+    both.fixed_rows_mut::<1>(2).copy_from(&normal.transpose());
+    let mut still = SMatrix::<f64, 3, PARAMETERS>::zeros();
+    still.fixed_rows_mut::<2>(0).copy_from(&-camera.by_parameters(in_camera));
+    both.lu().solve(&still)
+}
+
+/// A scan's corners where another lens lifts them onto the scanned plane; those that were not lifted along the rays of
+/// their pixels stay.
+pub fn lifted_again(
+    surface: &[SurfaceCorner],
+    corners: &[ImageCorner],
+    from: &Intrinsics,
+    to: &Intrinsics,
+) -> Vec<SurfaceCorner> {
+    let count = surface.len().max(1) as f64;
+    let middle = surface.iter().map(|c| c.in_camera.vector()).sum::<Vector3<f64>>() / count;
+    let scatter: Matrix3<f64> = surface
+        .iter()
+        .map(|c| (c.in_camera.vector() - middle) * (c.in_camera.vector() - middle).transpose())
+        .sum();
+    let eigen = scatter.symmetric_eigen();
+    let normal: Vector3<f64> = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into();
+    let again = |c: &SurfaceCorner| {
+        let pixel = corners.iter().find(|p| p.id == c.id)?.pixel;
+        let here = c.in_camera.vector();
+        let ray = Some(to.ray(&pixel)?).filter(|_| on_ray(from, &here, &pixel))?;
+        let depth = here.dot(&normal) / Some(ray.dot(&normal)).filter(|d| d.abs() > 1e-3)?;
+        Some(SurfaceCorner { in_camera: crate::Point::from_vector(ray * depth), ..*c })
+    };
+    surface.iter().map(|c| again(c).unwrap_or(*c)).collect()
 }
 
 /// A scan's corners with the depth that a scan of this scale and bias should have read.
