@@ -35,6 +35,8 @@ const IMPROBABLE: f64 = 1e-3;
 const NEGLIGIBLE: f64 = 0.5;
 /// Half of a usual workpiece, m: a rotation between the frames moves its ends by so much times the angle.
 const HALF_EXTENT: f64 = 0.15;
+/// A difference of depth up to this is one that the fit of both finds, m.
+const OF_DEPTH: f64 = 2e-3;
 /// Disagreement of few captures that needs no test: 0.5 degrees, 2 mm.
 const LARGE: (f64, f64) = (0.0087, 0.002);
 
@@ -79,7 +81,7 @@ pub(super) fn in_one_frame(
         (AnswerFrame::Scan, _) => {
             let moved = offset.in_scan_frame(&image);
             if on_rays(session, camera) {
-                return moved;
+                return offset_or_lens((session, moved), (without, &image), (target, camera), &run);
             }
             let scans = run(&restricted(session, Source::Scan, target, camera));
             if !contradicts(&scans, &moved) {
@@ -106,6 +108,58 @@ pub(super) fn in_one_frame(
     }
 }
 
+/// Gain of the logarithm of the likelihood that tells an offset from a lens that is off.
+const CLEAR: f64 = 3.0;
+
+/// A wrong lens looks much like an offset, and either can be taken out as the other. Which of both it is, images and
+/// scans say that agree better, capture by capture, where it is taken out; where they do not tell, the stated error
+/// covers the distance of both answers.
+fn offset_or_lens(
+    (session, mut moved): (&Session, Calibration),
+    (without, image): (&Session, &Calibration),
+    (target, camera): (&TargetModel, &Intrinsics),
+    run: impl Fn(&Session) -> Calibration,
+) -> Calibration {
+    let mut fused = run(session);
+    if fused.verdict != Verdict::Accepted || fused.camera.is_none() || session.camera_from_views {
+        return moved;
+    }
+    let of_lens = agreement(&differences(session, target, camera, &fused));
+    let of_offset = agreement(&differences(without, target, camera, image));
+    let (Some(of_lens), Some(of_offset)) = (of_lens, of_offset) else { return moved };
+    let apart = farthest_mm(&fused, &moved).unwrap_or(0.0);
+    let gain = of_lens - of_offset;
+    for answer in [&mut fused, &mut moved] {
+        if gain.abs() < CLEAR
+            && let Some(tre) = &mut answer.predicted_tre_mm
+        {
+            (tre.rms, tre.p95) = (tre.rms.hypot(0.5 * apart), tre.p95.hypot(apart));
+        }
+    }
+    if gain > 0.0 { fused } else { moved }
+}
+
+/// Logarithm of the likelihood of differences that should be zero, but for noise of their own size.
+fn agreement(all: &[Vector6<f64>]) -> Option<f64> {
+    let n = all.len() as f64;
+    if all.len() < FEWEST_CAPTURES {
+        return None;
+    }
+    let scatter = all.iter().map(|x| x * x.transpose()).sum::<Matrix6<f64>>() / n;
+    let determinant = scatter.cholesky()?.l().diagonal().iter().map(|d| 2.0 * d.ln()).sum::<f64>();
+    Some(-0.5 * n * determinant)
+}
+
+/// Largest distance (mm) of two answers where the target was seen.
+fn farthest_mm(a: &Calibration, b: &Calibration) -> Option<f64> {
+    let off = predict::difference(
+        a.hand_eye.mount_from_camera.as_ref()?,
+        b.hand_eye.mount_from_camera.as_ref()?,
+    );
+    let seen = a.captures.iter().filter_map(|c| c.camera_from_target);
+    Some(seen.map(|p| off(&p.translation()).norm() * 1e3).fold(0.0, f64::max))
+}
+
 /// Whether the corners in the scans were lifted along the rays of their pixels: sideways they are then where the images
 /// put them, and do not know the frame of the scans by themselves.
 fn on_rays(session: &Session, camera: &Intrinsics) -> bool {
@@ -120,17 +174,8 @@ fn on_rays(session: &Session, camera: &Intrinsics) -> bool {
 
 /// Whether an answer lies farther from that of the scans alone than the latter may err.
 fn contradicts(scans: &Calibration, answer: &Calibration) -> bool {
-    let (Some(own), Some(other), Some(tre)) = (
-        scans.hand_eye.mount_from_camera,
-        answer.hand_eye.mount_from_camera,
-        &scans.predicted_tre_mm,
-    ) else {
-        return false;
-    };
-    let off = predict::difference(&own, &other);
-    let seen = scans.captures.iter().filter_map(|c| c.camera_from_target);
-    let distances = seen.map(|p| off(&p.translation()).norm() * 1e3);
-    distances.fold(0.0, f64::max) > tre.p95
+    let apart = farthest_mm(scans, answer).zip(scans.predicted_tre_mm.as_ref());
+    apart.is_some_and(|(mm, tre)| mm > tre.p95)
 }
 
 /// Images and scans together where they agree, one of them where they do not.
@@ -174,19 +219,32 @@ impl Gap {
     }
 
     fn counts(&self, stated_m: f64) -> bool {
-        let (angle, distance) = self.size();
-        let effect = distance.hypot(angle * HALF_EXTENT);
+        let (angle, _) = self.size();
+        let mut shift = lie::nu(&self.mean).into_owned();
+        // small errors of depth are among the unknowns of the fit
+        shift.z -= shift.z.clamp(-OF_DEPTH, OF_DEPTH);
+        let effect = shift.norm().hypot(angle * HALF_EXTENT);
         self.chance < IMPROBABLE && effect > NEGLIGIBLE * stated_m
     }
 }
 
-/// The mean difference over the captures that the fused answer rests on, under its lens, depth and size.
+/// The mean difference over the captures that the fused answer rests on.
 fn gap(
     session: &Session,
     target: &TargetModel,
     camera: &Intrinsics,
     fused: &Calibration,
 ) -> Option<Gap> {
+    mean_of(&differences(session, target, camera, fused))
+}
+
+/// How far images and scans put the target apart, capture by capture, under the lens, depth and size that were found.
+fn differences(
+    session: &Session,
+    target: &TargetModel,
+    camera: &Intrinsics,
+    fused: &Calibration,
+) -> Vec<Vector6<f64>> {
     let size = fused.target_scale.filter(|s| s.used).map_or(1.0, |s| s.value);
     let target = &target.resized(size);
     let given = camera;
@@ -212,8 +270,7 @@ fn gap(
             .map(|image| apart(&image.pose.camera_from_target, &scan, &middle))
             .min_by(|a, b| lie::omega(a).norm().total_cmp(&lie::omega(b).norm()))
     };
-    let all: Vec<Vector6<f64>> = (0..session.observations.len()).filter_map(difference).collect();
-    mean_of(&all)
+    (0..session.observations.len()).filter_map(difference).collect()
 }
 
 /// Rotation (rad) and shift of the middle (m) from one pose of the target to another, in the camera frame.
