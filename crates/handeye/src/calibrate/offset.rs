@@ -15,8 +15,9 @@ use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3};
 
 use super::{AnswerFrame, Session, scans::seen_planes};
 use crate::{
-    Calibration, Camera, Intrinsics, Mount, Pose, SurfaceCorner, Warning,
+    Calibration, Camera, ImageCorner, Intrinsics, Mount, Pose, SurfaceCorner, TargetPose, Warning,
     calibration::{matrix, rows},
+    detect,
     diagnose::frames::{Frames, Part, frames},
     lie,
     linalg::median,
@@ -97,14 +98,25 @@ impl Offset {
     /// The session with its scans in the frame of its images.
     pub(super) fn taken_out(&self, session: &Session) -> Session {
         let mut session = session.clone();
-        let Some(camera) = session.camera else { return session };
-        for o in &mut session.observations {
-            let seen: Vec<_> = o.corners.iter().map(|c| (c.id, c.pixel)).collect();
-            o.surface = self.in_image(&o.surface, &seen, &camera);
+        let (Some(camera), Some(target)) = (session.camera, session.target.clone()) else {
+            return session;
+        };
+        let moved = |corners: &[ImageCorner], surface: &[SurfaceCorner]| {
+            let seen: Vec<_> = corners.iter().map(|c| (c.id, c.pixel)).collect();
+            self.in_image(surface, &seen, &camera)
+        };
+        // what was posed from images and scans together rests on a mixture of both frames
+        let posed = |corners: &[ImageCorner], surface: &[SurfaceCorner], before: &[TargetPose]| {
+            let poses = detect::target_poses(corners, surface, &target, &camera);
+            poses.map_or(before.to_vec(), |poses| detect::with_symmetries(&poses, &target))
+        };
+        for o in session.observations.iter_mut().filter(|o| !o.corners.is_empty()) {
+            o.surface = moved(&o.corners, &o.surface);
+            o.candidates = posed(&o.corners, &o.surface, &o.candidates);
         }
-        for p in &mut session.placements {
-            let seen: Vec<_> = p.corners.iter().map(|c| (c.id, c.pixel)).collect();
-            p.surface = self.in_image(&p.surface, &seen, &camera);
+        for p in session.placements.iter_mut().filter(|p| !p.corners.is_empty()) {
+            p.surface = moved(&p.corners, &p.surface);
+            p.candidates = posed(&p.corners, &p.surface, &p.candidates);
         }
         session
     }
