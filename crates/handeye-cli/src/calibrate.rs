@@ -70,7 +70,7 @@ fn export_accepted(
         return export::exports(calibration, formats, out);
     }
     if !manners.quiet {
-        eprintln!("nothing exported: the verdict is not `accepted`");
+        crate::output::note!("nothing exported: the verdict is not `accepted`");
     }
     Ok(vec![])
 }
@@ -120,14 +120,14 @@ pub fn write(
     let written = write_run(out, folder, calibration, page, exports)?;
     if !manners.quiet {
         if written.replaced_another_run {
-            eprintln!(
+            crate::output::note!(
                 "note: another run wrote its result into {} while this one was working; the files \
                  there are now those of this run ({})",
                 out.display(),
                 calibration.run_id.as_deref().unwrap_or("without a name")
             );
         }
-        eprintln!("report: {}", written.page.display());
+        crate::output::note!("report: {}", written.page.display());
     }
     Ok(written.page)
 }

@@ -109,7 +109,7 @@ fn check_verdict(
     if calibration.is_unjudged() {
         let what = "nothing here tells how good it is; `handeye verify` tests it on touched points";
         if !manners.quiet {
-            eprintln!("warning [not-judged]: {}: {what}", path.display());
+            crate::output::note!("warning [not-judged]: {}: {what}", path.display());
         }
         return Ok(());
     }
@@ -123,7 +123,10 @@ fn check_verdict(
         return Err(Failure::input(path, what + "; to export it all the same: --force"));
     }
     if !manners.quiet {
-        eprintln!("warning [not-accepted]: {}: {what}; do not move a robot by it", path.display());
+        crate::output::note!(
+            "warning [not-accepted]: {}: {what}; do not move a robot by it",
+            path.display()
+        );
     }
     Ok(())
 }

@@ -90,7 +90,7 @@ impl Failure {
 
     /// Tells a person, and with `--json` a program.
     pub fn tell(&self, json: bool) {
-        eprintln!("error: {self}");
+        crate::output::note!("error: {self}");
         if json {
             output::json(&json!({ "error": self.json() }));
         }

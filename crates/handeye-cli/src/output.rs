@@ -20,12 +20,25 @@ use crate::args::{Manners, Program};
 /// Whether something could not be written to standard output.
 static LOST: AtomicBool = AtomicBool::new(false);
 
+/// Writes to standard error; a reader that went away (`2>&1 | head`) is no error.
+pub fn to_stderr(text: std::fmt::Arguments) {
+    io::stderr().lock().write_fmt(text).ok();
+}
+
+/// Writes a line to standard error.
+macro_rules! note {
+    ($($text:tt)*) => {
+        $crate::output::to_stderr(format_args!("{}\n", format_args!($($text)*)))
+    };
+}
+pub(crate) use note;
+
 /// Writes to standard output; a reader that went away (`| head`) is no error.
 pub fn print(text: &str) {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            eprintln!("error: standard output: {error}; the output is not complete");
+            note!("error: standard output: {error}; the output is not complete");
             LOST.store(true, Ordering::Relaxed);
         }
         _ => {}
@@ -71,7 +84,7 @@ pub fn lost() -> bool {
 pub fn json(value: &impl Serialize) {
     match serde_json::to_string_pretty(value) {
         Ok(text) => print(&(text + "\n")),
-        Err(error) => eprintln!("error: {error}"),
+        Err(error) => note!("error: {error}"),
     }
 }
 
@@ -93,7 +106,8 @@ pub fn warn(warnings: &[Warning], manners: &Manners) {
         return;
     }
     for warning in warnings {
-        eprint!("{}", wrapped_to(&format!("warning [{}]: ", warning.code), 2, &warning.message));
+        let text = wrapped_to(&format!("warning [{}]: ", warning.code), 2, &warning.message);
+        to_stderr(format_args!("{text}"));
     }
 }
 

@@ -36,7 +36,8 @@ impl Progress {
         let full = WIDTH * done / all.max(1);
         let Ok(mut shown) = self.shown.lock() else { return };
         *shown = true;
-        eprint!("\r{} [{}{}] {done}/{all} ", self.what, "#".repeat(full), "-".repeat(WIDTH - full));
+        let (bar, rest) = ("#".repeat(full), "-".repeat(WIDTH - full));
+        crate::output::to_stderr(format_args!("\r{} [{bar}{rest}] {done}/{all} ", self.what));
         let _ = io::stderr().flush();
     }
 }
@@ -44,7 +45,7 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         if self.shown.lock().is_ok_and(|s| *s) {
-            eprintln!();
+            crate::output::to_stderr(format_args!("\n"));
         }
     }
 }

@@ -129,7 +129,7 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
         output::print(&text(&answer));
     }
     if let Some(page) = args.report.as_ref().filter(|_| !manners.quiet) {
-        eprintln!("report: {}", page.display());
+        crate::output::note!("report: {}", page.display());
     }
     Ok(if answer.found.verdict == Verdict::Accepted { 0 } else { 3 })
 }

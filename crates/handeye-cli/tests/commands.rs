@@ -538,3 +538,20 @@ fn a_full_disk_behind_standard_output_is_an_error_and_no_panic() {
         assert!(!stderr.contains("panicked"), "{args:?}: {stderr}");
     }
 }
+
+/// `handeye calibrate cell 2>&1 | head -1`: a reader that goes away early is no crash.
+#[test]
+#[cfg(unix)]
+fn a_reader_of_the_messages_may_go_away() {
+    let missing = std::env::temp_dir().join("handeye-there-is-no-such-folder");
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_handeye"))
+        .arg("calibrate")
+        .arg(missing)
+        .stdout(std::process::Stdio::null())
+        .stderr(writer)
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(1), "{status}");
+}

@@ -261,7 +261,7 @@ fn write(
     let path = out.join("verify.html");
     write_atomically(&path, page.as_bytes())?;
     if !manners.quiet {
-        eprintln!("report: {}", path.display());
+        crate::output::note!("report: {}", path.display());
     }
     Ok(())
 }
