@@ -40,7 +40,8 @@ pub enum Fault {
 const ROTATION: f64 = 1.0;
 
 /// Names of all groups.
-pub const GROUPS: [&str; 7] = ["clean", "size", "few-sizes", "print", "lens", "scans", "moves"];
+pub const GROUPS: [&str; 8] =
+    ["clean", "size", "few-sizes", "print", "lens", "few-lenses", "scans", "moves"];
 
 /// The faults of a group, none first.
 pub fn group(name: &str) -> Option<Vec<Fault>> {
@@ -61,6 +62,7 @@ pub fn group(name: &str) -> Option<Vec<Fault>> {
             all.extend([-0.01, -0.005, -0.002, 0.002, 0.005, 0.01].map(Fault::Focal));
             all.extend([-20.0, -5.0, 5.0, 20.0].map(Fault::Centre));
         }
+        "few-lenses" => all.extend([0.002, 0.005].map(Fault::Focal)),
         "scans" => {
             all.extend([0.5e-3, 1e-3, 2e-3, 6e-3].map(Fault::ScanShift));
             all.extend([0.001, 0.003, 0.01].map(Fault::ScanTilt));

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use handeye::{
-    Base, Flange, HandEye, Pose, Session, Setup, TargetSize, calibrate,
+    Base, Flange, HandEye, LensSigma, Pose, Session, Setup, TargetSize, calibrate,
     plan::{self, ExpectedNoise, Setting},
     predict::{Volume, difference},
     refine::KnownNoise,
@@ -135,9 +135,10 @@ fn the_promise_is_what_the_calibration_states() {
     let t = trial(1);
     let chosen = t.chosen();
     let observations = chosen.iter().map(|&k| t.session.observations[k].clone()).collect();
-    // the promise is for a target of known size
+    // the promise is for a target of known size, and a lens that is known
     let target_size = TargetSize::Measured(1e-5);
-    let session = Session { observations, target_size, ..t.session.clone() };
+    let lens_sigma = Some(LensSigma { focal_px: Some(0.05), center_px: Some(0.05) });
+    let session = Session { observations, target_size, lens_sigma, ..t.session.clone() };
     let known = KnownNoise {
         robot_rotation_rad: Some(t.setting.noise.robot_rotation_rad),
         robot_position_m: Some(t.setting.noise.robot_position_m),

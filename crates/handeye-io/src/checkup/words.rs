@@ -1,9 +1,9 @@
 //! Mistakes in words.
 
 use handeye::{
-    Setup, TargetModel,
+    Setup,
     diagnose::{
-        TargetScale,
+        self, TargetScale,
         explain::{Fault, Order},
     },
 };
@@ -64,19 +64,18 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
             "the pictures of these captures are exchanged: {names}; exchange the files, or leave \
              them out"
         ),
-        Fault::Scale(s) if unit(s.value).is_some() => format!(
-            "the target's poses count in another unit than the robot's: they are {:.4} times as large as they would be \
-             in its unit ({})",
-            1.0 / s.value,
-            unit(s.value).unwrap_or_default(),
-        ),
-        Fault::Scale(s) => format!(
-            "the target is {:.4} +- {:.4} times as large as declared{}: measure it",
-            s.value,
-            s.sigma,
-            declared_size(case)
-                .map_or(String::new(), |mm| format!(" ({:.3} mm, not {mm} mm)", mm * s.value)),
-        ),
+        Fault::Scale(s) => match (&case.target, unit(s.value)) {
+            (Some(target), _) => diagnose::size_in_words(s, target),
+            (None, Some(units)) => format!(
+                "the target's poses count in another unit than the robot's: they are {:.4} times as large as they \
+                 would be in its unit ({units})",
+                1.0 / s.value,
+            ),
+            (None, None) => format!(
+                "the target is {:.4} +- {:.4} times as large as declared: measure it",
+                s.value, s.sigma
+            ),
+        },
         Fault::TargetMoved(i, j) => format!(
             "the target lay elsewhere during {}: it was moved in the session; leave them out",
             run(*i, *j)
@@ -196,10 +195,6 @@ pub(super) fn besides(robot: &Rereading) -> String {
         "" => String::new(),
         words => format!("; but {words}"),
     }
-}
-
-fn declared_size(case: &Case) -> Option<f64> {
-    case.target.as_ref().map(TargetModel::pitch_m).map(|m| (m * 1e6).round() / 1e3)
 }
 
 #[cfg(test)]

@@ -132,14 +132,9 @@ pub(super) fn suspect_size(
         }
         _ => None,
     });
-    let Some(TargetScale { value, sigma, .. }) = size else { return false };
-    let declared = target.pitch_m() * 1e3;
-    let cause = diagnose::cause_of_size(value, target).map_or(String::new(), |c| format!(": {c}"));
-    let message = format!(
-        "the target is {value:.4} +- {sigma:.4} times as large as declared ({:.3} mm instead of {declared} \
-         mm){cause}; measure it, and correct [target]",
-        declared * value
-    );
+    let Some(size) = size else { return false };
+    let message = diagnose::size_in_words(&size, target);
+    let TargetScale { value, sigma, .. } = size;
     result.target_scale = Some(Scale { value, sigma, used: false });
     result.reasons.insert(0, message.clone());
     result.warnings.insert(0, Warning::new("target-scale", message));

@@ -7,7 +7,7 @@ pub mod frames;
 mod size;
 mod strays;
 
-pub use size::cause_of_size;
+pub use size::{cause_of_size, size_in_words};
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 

@@ -121,9 +121,17 @@ pub fn cause_of_size(value: f64, target: &TargetModel) -> Option<String> {
     let is = |factor: f64| (value / factor - 1.0).abs() < LIKE_FACTOR;
     let units = [
         (10.0, "the length was given in centimetres and counts as millimetres"),
-        (0.1, "the declared length is ten times too large"),
+        (0.1, "the declared length is ten times too large: millimetres were taken for centimetres"),
         (1e3, "the length was given in metres and counts as millimetres"),
+        (
+            1e-3,
+            "the declared length is a thousand times too large: micrometres, or millimetres taken for metres",
+        ),
         (25.4, "the length was given in inches and counts as millimetres"),
+        (
+            1.0 / 25.4,
+            "the declared length is 25.4 times too large: millimetres were taken for inches",
+        ),
         (2.0, "half of the length was given"),
         (0.5, "twice the length was given: that of two squares, or of a circle grid's other pitch"),
     ];
@@ -141,6 +149,18 @@ pub fn cause_of_size(value: f64, target: &TargetModel) -> Option<String> {
             )
         })
     })
+}
+
+/// A wrong size in words, with the usual mistake that makes it, and what to do.
+pub fn size_in_words(size: &TargetScale, target: &TargetModel) -> String {
+    let TargetScale { value, sigma, .. } = *size;
+    let cause = cause_of_size(value, target).map_or(String::new(), |c| format!(": {c}"));
+    let declared = (target.pitch_m() * 1e6).round() / 1e3;
+    format!(
+        "the target is {value:.4} +- {sigma:.4} times as large as declared ({:.3} mm instead of {declared} mm){cause}; \
+         measure it, and correct it",
+        declared * value
+    )
 }
 
 fn size_of(pairs: &[PosePair], at: &HandEye) -> Option<TargetScale> {
@@ -174,6 +194,11 @@ mod tests {
         assert!(cause(0.5).contains("two squares"));
         assert!(cause(9.0 / 8.0).contains("8 squares was divided by 9"));
         assert!(cause(6.0 / 7.0).contains("7 squares was divided by 6"));
+        assert!(cause(0.0394).contains("taken for inches"));
+        assert!(cause(1e-3).contains("thousand times"));
         assert_eq!(cause_of_size(1.05, &board), None);
+        let size = TargetScale { value: 2.0, sigma: 0.001, p_value: 0.0 };
+        let words = size_in_words(&size, &board);
+        assert!(words.contains("(60.000 mm instead of 30 mm): half of the length"), "{words}");
     }
 }
