@@ -2,7 +2,7 @@
 
 use handeye::{
     Anchor, Base, Flange, HandEye, ImageCorner, Intrinsics, Mount, Observation, Placement, Point,
-    Pose, Session, SurfaceCorner, TargetModel, detect,
+    Pose, Session, Setup, SurfaceCorner, TargetModel, TargetSize, detect,
     nalgebra::{Isometry3, Matrix3, Vector3},
     simulate::{Cell, Random, Recording, Truth},
 };
@@ -34,14 +34,30 @@ pub enum Fault {
     Bump(f64),
     /// The target is bumped (m, and rad per m) halfway.
     TargetBump(f64),
+    /// The target was measured, and the robot moves farther than it says by this share.
+    RobotScale(f64),
+    /// Images are late, always in the same direction of travel: by this way (m).
+    Late(f64),
 }
 
+/// How well a caliper measures a board, as a share of its size.
+const CALIPER: f64 = 1e-4;
 /// Rotation that goes with a slip or a bump, rad per m.
 const ROTATION: f64 = 1.0;
 
 /// Names of all groups.
-pub const GROUPS: [&str; 8] =
-    ["clean", "size", "few-sizes", "print", "lens", "few-lenses", "scans", "moves"];
+pub const GROUPS: [&str; 10] = [
+    "clean",
+    "size",
+    "few-sizes",
+    "measured",
+    "print",
+    "lens",
+    "few-lenses",
+    "scans",
+    "moves",
+    "late",
+];
 
 /// The faults of a group, none first.
 pub fn group(name: &str) -> Option<Vec<Fault>> {
@@ -54,6 +70,8 @@ pub fn group(name: &str) -> Option<Vec<Fault>> {
             all.extend(sizes.map(Fault::Size));
         }
         "few-sizes" => all.extend([-0.02, 0.001, 0.003, 0.005, 0.01].map(Fault::Size)),
+        "measured" => all = [-0.001, 0.0, 0.001].map(Fault::RobotScale).to_vec(),
+        "late" => all.extend([1e-3, 3e-3].map(Fault::Late)),
         "print" => {
             all.extend([-0.01, -0.005, -0.002, 0.002, 0.005, 0.01].map(Fault::Aspect));
             all.extend([-2e-3, -1e-3, -0.5e-3, 0.5e-3, 1e-3, 2e-3].map(Fault::Bow));
@@ -97,6 +115,8 @@ impl Fault {
             Self::Slip(m) => format!("camera slips {:.1} mm", m * 1e3),
             Self::Bump(m) => format!("camera bumped {:.1} mm", m * 1e3),
             Self::TargetBump(m) => format!("target bumped {:.1} mm", m * 1e3),
+            Self::RobotScale(s) => format!("measured, robot {:+.1} %", s * 100.0),
+            Self::Late(m) => format!("images late by {:.0} mm", m * 1e3),
         }
     }
 
@@ -145,8 +165,32 @@ impl Fault {
         }
         let usual = Cell::new(recording.cell.setup, recording.cell.seed);
         session.target = Some(usual.target);
+        self.change_robot(session);
         session.camera = Some(usual.intrinsics);
         pose_anew(session);
+    }
+
+    /// What the robot says of all captures and touches alike.
+    fn change_robot(&self, session: &mut Session) {
+        match *self {
+            Self::RobotScale(share) => {
+                session.target_size = TargetSize::Measured(CALIPER);
+                for o in &mut session.observations {
+                    o.base_from_flange = scaled(&o.base_from_flange, share);
+                }
+                for touch in &mut session.touches {
+                    touch.in_base = Point::from_vector(touch.in_base.vector() / (1.0 + share));
+                    touch.base_from_flange = touch.base_from_flange.map(|f| scaled(&f, share));
+                }
+            }
+            Self::Late(m) => {
+                let way = moved_by(Vector3::new(0.0, m, 0.0));
+                for o in &mut session.observations {
+                    o.base_from_flange = Pose::claim(way * o.base_from_flange.iso());
+                }
+            }
+            _ => {}
+        }
     }
 
     /// How far capture `k` of `n` is from where camera or target end up.
@@ -182,9 +226,18 @@ impl Fault {
         setup.anchor_from_mount(claimed.rename()).rename()
     }
 
-    /// What is true of the answer: for the frame of the scans where there are any.
+    /// What is true of the answer: for the frame of the scans where there are any, and in the base as the robot has it.
     pub fn truth(&self, truth: &Truth, cell: &Cell) -> Truth {
         let mut truth = truth.clone();
+        if let (Self::RobotScale(share), Setup::EyeToHand) = (self, cell.setup) {
+            let x = truth.hand_eye.mount_from_camera;
+            let views = &truth.camera_from_target[..cell.captures];
+            let middle =
+                views.iter().map(Pose::translation).sum::<Vector3<f64>>() / views.len() as f64;
+            let says = x.iso().rotation * middle + x.translation();
+            let shift = says * (1.0 / (1.0 + share) - 1.0);
+            truth.hand_eye.mount_from_camera = Pose::claim(moved_by(shift) * x.iso());
+        }
         if let Some(depth) = &cell.depth {
             let scan_from_image = Isometry3::new(depth.shift_m, depth.turn_rad);
             let x = truth.hand_eye.mount_from_camera;
@@ -192,6 +245,16 @@ impl Fault {
         }
         truth
     }
+}
+
+/// The pose that a robot says which moves farther than it says by this share.
+fn scaled(pose: &Pose<Base, Flange>, share: f64) -> Pose<Base, Flange> {
+    let shift = pose.translation() * (1.0 / (1.0 + share) - 1.0);
+    Pose::claim(moved_by(shift) * pose.iso())
+}
+
+fn moved_by(shift: Vector3<f64>) -> Isometry3<f64> {
+    Isometry3::new(shift, Vector3::zeros())
 }
 
 /// Corners of scans where the declared rays of their pixels meet the scanned board, as the program lifts them.

@@ -2,9 +2,14 @@
 //!
 //! The target's frame of a ball is at its centre and has the axes of the anchor.
 
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
-use super::{Config, Session, agreement, verdict, workpiece::workspace_volume};
+use super::{
+    Config, Session, agreement,
+    movement::{self, Recorded, Row},
+    verdict,
+    workpiece::workspace_volume,
+};
 use crate::{
     Camera, Mount, Observation, Pose, PosePair, Warning,
     calibration::{
@@ -40,7 +45,12 @@ pub(super) fn from_balls(session: &Session, config: &Config, result: &mut Calibr
         result.warnings.push(Warning::new("method-not-for-balls", what));
     }
     match points::fit_points(&views) {
-        Ok(fit) => conclude(session, &seen, &views, &fit, result),
+        Ok(fit) => {
+            conclude(session, &seen, &views, &fit, result);
+            if let Some(moved) = movement::look_in(&recorded(session, (&seen, &views), &fit)) {
+                movement::apply(moved, result);
+            }
+        }
         Err(error) => {
             result.reasons.push(error.to_string());
             let what = format!("the pose of the camera on the {}", session.setup.mount());
@@ -58,6 +68,42 @@ fn view(session: &Session, i: usize) -> Option<PointView> {
         in_camera: ball.in_camera,
         covariance: ball.covariance,
     })
+}
+
+/// The captures in their order. The target's frame has the axes of the anchor: its rotation is held.
+fn recorded<'a>(
+    session: &'a Session,
+    (seen, views): (&[usize], &[PointView]),
+    fit: &PointFit,
+) -> Recorded<'a> {
+    let of = |i: usize| seen.iter().position(|k| *k == i);
+    let count = session.observations.len();
+    Recorded {
+        names: session.observations.iter().map(|o| o.capture.as_str()).collect(),
+        poses: session
+            .observations
+            .iter()
+            .map(|o| session.setup.anchor_from_mount(o.base_from_flange))
+            .collect(),
+        agrees: (0..count).map(|i| of(i).is_some_and(|k| fit.agrees[k])).collect(),
+        rows: (0..count).map(|i| row(&views[of(i)?], fit)).collect(),
+        equations: 3,
+        degrees_of_freedom: fit.degrees_of_freedom,
+    }
+}
+
+/// One capture as a pose whose rotation misses nothing and holds that of the target.
+fn row(view: &PointView, fit: &PointFit) -> Option<Row> {
+    let (e, j, noise) = points::equations_of(view, fit);
+    let root = noise.cholesky()?.l();
+    let (e, j) = (root.solve_lower_triangular(&e)?, root.solve_lower_triangular(&j)?);
+    let mut residual = Vector6::zeros();
+    residual.fixed_rows_mut::<3>(3).copy_from(&e);
+    let mut jacobian = SMatrix::<f64, 6, 12>::zeros();
+    jacobian.fixed_view_mut::<3, 3>(0, 6).fill_with_identity();
+    jacobian.fixed_view_mut::<3, 6>(3, 0).copy_from(&j.fixed_columns::<6>(0));
+    jacobian.fixed_view_mut::<3, 3>(3, 9).copy_from(&j.fixed_columns::<3>(6));
+    Some(Row { residual, jacobian, seen: view.in_camera.vector() })
 }
 
 fn conclude(
@@ -197,6 +243,109 @@ fn volume(session: &Session, views: &[PointView], x: &Pose<Mount, Camera>) -> Op
         None => {
             let centres = views.iter().map(|v| v.in_camera.vector());
             Volume::around(centres, "the box in which the camera saw the ball")
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use nalgebra::{Matrix3, Rotation3};
+
+    use super::*;
+    use crate::{Point, Setup, SurfaceCorner, TargetModel, calibrate, simulate::Random};
+
+    const COUNT: usize = 64;
+    /// Scatter of the robot's positions, m.
+    const ROBOT: f64 = 2e-4;
+
+    /// Captures of a block.
+    const BLOCK: std::ops::Range<usize> = 20..28;
+
+    /// A ball seen from many places, the robot displaced by `off` (m) in a block of captures, all of them from places
+    /// `apart` (rad, per axis).
+    fn session(seed: u64, off: f64, apart: f64) -> Session {
+        let mut random = Random::new(seed);
+        let x: Pose<Mount, Camera> =
+            Pose::identity().retract(&Vector6::new(1.9, -0.8, 1.1, 0.06, -0.03, 0.05));
+        let ball = Vector3::new(0.55, 0.05, 0.02);
+        let mut one = |k: usize| {
+            let (inside, c) = (BLOCK.contains(&k), random.normal3());
+            let (c, turn) = match inside {
+                true => (c * (0.16 * apart), Vector3::x() + random.normal3() * apart),
+                false => (c * 0.08, random.normal3() * 0.5),
+            };
+            let c = c + Vector3::new(0.0, 0.0, 0.6);
+            let rotation = *Rotation3::new(turn).matrix();
+            let off = if inside { off } else { 0.0 };
+            let at = ball - rotation * (x * Point::<Camera>::from_vector(c)).vector();
+            let at = at + random.normal3() * ROBOT + Vector3::x() * off;
+            let surface = vec![SurfaceCorner {
+                id: 0,
+                in_camera: Point::from_vector(c + random.normal3() * 1e-4),
+                covariance: Matrix3::identity() * 1e-8,
+            }];
+            let pose = Pose::from_parts(&rotation, at);
+            let bare = Observation::bare(format!("{k:02}"), pose, Pose::identity());
+            Observation { surface, candidates: vec![], ..bare }
+        };
+        let observations = (0..COUNT).map(&mut one).collect();
+        let target = Some(TargetModel::Sphere { diameter_mm: Some(40.0) });
+        Session { target, ..Session::of_captures(Setup::EyeInHand, observations) }
+    }
+
+    fn codes(found: &Calibration) -> Vec<&str> {
+        found.warnings.iter().map(|w| w.code.as_str()).collect()
+    }
+
+    #[test]
+    fn a_ball_that_stands_still_is_not_said_to_move() {
+        for seed in 0..8 {
+            let session = session(seed, 0.0, 0.5);
+            let found = calibrate(&session, &Config::default()).unwrap();
+            assert!(codes(&found).is_empty(), "seed {seed}: {:?}", codes(&found));
+            assert_eq!(found.verdict, Verdict::Accepted);
+        }
+    }
+
+    #[test]
+    fn captures_of_a_ball_that_are_rejected_together_are_named() {
+        for seed in 0..4 {
+            let found = calibrate(&session(seed, 3e-3, 0.5), &Config::default()).unwrap();
+            assert!(codes(&found).contains(&"captures-displaced"), "{:?}", codes(&found));
+            let moved = found.movement.as_ref().unwrap();
+            assert_eq!((moved.first.as_str(), moved.last.as_str()), ("20", "27"));
+            assert!((2.0..4.0).contains(&moved.displacement_mm), "{}", moved.displacement_mm);
+            assert_eq!(found.rejected.len(), BLOCK.len());
+            // from everywhere, displaced in the base alike: the ball moved, and the camera's pose does not depend on it
+            assert!(moved.target && !moved.camera && moved.widened_mm == 0.0, "{moved:?}");
+        }
+    }
+
+    #[test]
+    fn where_the_robot_may_err_at_a_place_the_stated_error_covers_it() {
+        for seed in 0..4 {
+            let found = calibrate(&session(seed, 3e-3, 0.02), &Config::default()).unwrap();
+            let moved = found.movement.as_ref().unwrap();
+            assert!(moved.at_a_place, "{moved:?}");
+            let stated = found.predicted_tre_mm.as_ref().unwrap();
+            assert!(stated.p95 > 3.0, "{}", stated.p95);
+        }
+    }
+
+    #[test]
+    fn a_camera_that_slips_while_it_looks_at_a_ball_is_named() {
+        for seed in 0..4 {
+            let mut session = session(seed, 0.0, 0.5);
+            for (k, o) in session.observations.iter_mut().enumerate() {
+                let along = o.base_from_flange.rotation() * Vector3::x();
+                let slip = along * (2e-3 * k as f64 / COUNT as f64);
+                let at = o.base_from_flange.translation() + slip;
+                o.base_from_flange = Pose::from_parts(&o.base_from_flange.rotation(), at);
+            }
+            let found = calibrate(&session, &Config::default()).unwrap();
+            assert!(codes(&found).contains(&"moved-during-session"), "{:?}", codes(&found));
+            assert!(found.movement.as_ref().unwrap().camera);
         }
     }
 }

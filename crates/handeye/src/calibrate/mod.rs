@@ -186,9 +186,14 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
         return result;
     }
     if let Some(TargetModel::Sphere { .. }) = session.target {
-        let mut result = empty(session.setup);
-        balls::from_balls(&session, config, &mut result);
-        verdict::conclude(config, &mut result);
+        let run = |session: &Session| {
+            let mut result = empty(session.setup);
+            balls::from_balls(session, config, &mut result);
+            verdict::conclude(config, &mut result);
+            result
+        };
+        let mut result = movement::answer_of_the_end(&session, run(&session), run);
+        movement::tell(false, &mut result);
         return result;
     }
     let run = |session: &Session| {

@@ -22,15 +22,11 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
 
-use super::{
-    Session,
-    agreement::Captures,
-    gate::{IMPROBABLE, surprise_limit},
-};
+use super::{Session, agreement::Captures, gate::IMPROBABLE};
 use crate::{
-    Calibration, Setup, Verdict, Warning,
+    Anchor, Calibration, Mount, Pose, Setup, Verdict, Warning,
     calibration::{CaptureResult, Movement, MovementKind, matrix, rows},
-    lie,
+    chance, lie,
     refine::{JointFit, pose_fit},
     register::rigid_fit::point_jacobian,
     solve::consensus::Consensus,
@@ -57,6 +53,9 @@ const SHORTLY: usize = 12;
 /// A session in which the nearest capture was taken shortly before or after this often went from place to place.
 const IN_ORDER: f64 = 0.5;
 
+/// A movement that captures agree on is at most about as large, per axis: rad and m alike.
+const MOST: f64 = 0.1;
+
 /// The 95 % point over its root mean square, of how far an answer is off that was moved by a twist.
 const WIDE: f64 = 1.6;
 
@@ -69,14 +68,25 @@ enum Side {
 
 const SIDES: [Side; 2] = [Side::Camera, Side::Target];
 
+/// The captures of a session in their order, as one answer sees them.
+pub(super) struct Recorded<'a> {
+    pub names: Vec<&'a str>,
+    pub poses: Vec<Pose<Anchor, Mount>>,
+    pub agrees: Vec<bool>,
+    /// Of captures that show the target.
+    pub rows: Vec<Option<Row>>,
+    /// Equations that a capture has: six of a pose, three of a point.
+    pub equations: usize,
+    pub degrees_of_freedom: f64,
+}
+
 /// One capture, linearised at the answer and whitened.
-struct Row {
-    /// Which capture of the session.
-    capture: usize,
-    residual: Vector6<f64>,
-    jacobian: SMatrix<f64, 6, 12>,
+pub(super) struct Row {
+    pub residual: Vector6<f64>,
+    /// By both poses.
+    pub jacobian: SMatrix<f64, 6, 12>,
     /// Where it saw the target, in the camera frame.
-    seen: Vector3<f64>,
+    pub seen: Vector3<f64>,
 }
 
 /// A movement that may have been, and what it does to the camera's pose.
@@ -93,11 +103,36 @@ pub(super) struct Suspected {
 
 /// Looks for movement; `None` where nothing points to it and nothing has to be widened.
 pub(super) fn look(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Suspected> {
-    let inside = (0..found.agrees.len()).filter(|&i| found.agrees[i]);
-    let rows: Vec<Row> = inside.filter_map(|i| row(captures, fit, i, found.reading[i])).collect();
-    let (movement, spread) = block(captures, found, fit).or_else(|| gradual(captures, &rows))?;
+    let nearest = |i: usize| {
+        let all = (0..captures.readings[i].camera_from_target.len())
+            .filter(|k| !found.agrees[i] || *k == found.reading[i])
+            .filter_map(|k| row(captures, fit, i, k));
+        all.min_by(|a, b| a.residual.norm().total_cmp(&b.residual.norm()))
+    };
+    look_in(&Recorded {
+        names: captures.session.observations.iter().map(|o| o.capture.as_str()).collect(),
+        poses: captures.readings.iter().map(|r| r.anchor_from_mount).collect(),
+        agrees: found.agrees.clone(),
+        rows: (0..found.agrees.len()).map(nearest).collect(),
+        equations: 6,
+        degrees_of_freedom: fit.degrees_of_freedom,
+    })
+}
+
+/// The same of captures that are linearised already.
+pub(super) fn look_in(recorded: &Recorded) -> Option<Suspected> {
+    let (movement, spread) = block(recorded).or_else(|| gradual(recorded))?;
+    let rows = recorded.agreeing();
     let information = of_camera(&rows)?;
-    Some(Suspected { movement, spread, information, seen: rows.iter().map(|r| r.seen).collect() })
+    Some(Suspected { movement, spread, information, seen: rows.iter().map(|r| r.1.seen).collect() })
+}
+
+impl Recorded<'_> {
+    /// Captures that agree, and which they are.
+    fn agreeing(&self) -> Vec<Used<'_>> {
+        let seen = self.rows.iter().enumerate().filter(|(i, _)| self.agrees[*i]);
+        seen.filter_map(|(i, row)| Some((i, row.as_ref()?))).collect()
+    }
 }
 
 impl Suspected {
@@ -114,9 +149,9 @@ impl Suspected {
 }
 
 /// What captures say of the camera's pose, whatever the target's is.
-fn of_camera(rows: &[Row]) -> Option<Matrix6<f64>> {
+fn of_camera(rows: &[Used]) -> Option<Matrix6<f64>> {
     let normal: SMatrix<f64, 12, 12> =
-        rows.iter().map(|r| r.jacobian.transpose() * r.jacobian).sum();
+        rows.iter().map(|(_, r)| r.jacobian.transpose() * r.jacobian).sum();
     let part = |i, j| normal.fixed_view::<6, 6>(i, j).into_owned();
     let of_target = Cholesky::new(part(6, 6))?;
     Some(part(0, 0) - part(0, 6) * of_target.solve(&part(6, 0)))
@@ -128,7 +163,6 @@ fn row(captures: &Captures, fit: &JointFit, i: usize, reading: usize) -> Option<
     let covariance = fit.noise.covariance(&view, &fit.hand_eye, captures.session.setup);
     let root = Cholesky::new(covariance)?.l();
     Some(Row {
-        capture: i,
         residual: root.solve_lower_triangular(&r)?,
         jacobian: root.solve_lower_triangular(&j)?,
         seen: view.pair.camera_from_target.translation(),
@@ -143,28 +177,21 @@ impl Row {
 }
 
 /// Captures left out one after the other that agree with one another, and the square of what they are displaced by.
-fn block(
-    captures: &Captures,
-    found: &Consensus,
-    fit: &JointFit,
-) -> Option<(Movement, Matrix6<f64>)> {
-    let seen: Vec<usize> = (0..found.agrees.len())
-        .filter(|&i| !captures.readings[i].camera_from_target.is_empty())
-        .collect();
-    let runs = seen.chunk_by(|&a, &b| found.agrees[a] == found.agrees[b]);
-    let longest = runs.filter(|run| !found.agrees[run[0]]).max_by_key(|run| run.len())?;
+fn block(recorded: &Recorded) -> Option<(Movement, Matrix6<f64>)> {
+    let agrees = &recorded.agrees;
+    let seen: Vec<usize> = (0..agrees.len()).filter(|&i| recorded.rows[i].is_some()).collect();
+    let runs = seen.chunk_by(|&a, &b| agrees[a] == agrees[b]);
+    let longest = runs.filter(|run| !agrees[run[0]]).max_by_key(|run| run.len())?;
     if longest.len() < FEWEST_IN_BLOCK {
         return None;
     }
-    let rows: Vec<Row> = longest.iter().filter_map(|&i| nearest_row(captures, fit, i)).collect();
-    let explained: Vec<(Side, Vector6<f64>)> = SIDES
-        .into_iter()
-        .filter_map(|side| Some((side, common(&rows, side, fit.degrees_of_freedom)?)))
-        .collect();
+    let rows: Vec<&Row> = longest.iter().filter_map(|&i| recorded.rows[i].as_ref()).collect();
+    let explained: Vec<(Side, Vector6<f64>)> =
+        SIDES.into_iter().filter_map(|side| Some((side, common(&rows, side, recorded)?))).collect();
     let &(side, delta) = explained.first()?;
     let at_end = longest.last() == seen.last();
-    let at_a_place = is_at_a_place(captures, longest, &seen);
-    let name = |i: usize| captures.session.observations[i].capture.clone();
+    let at_a_place = is_at_a_place(&recorded.poses, longest, &seen);
+    let name = |i: usize| recorded.names[i].to_owned();
     let distance = match side {
         Side::Camera => root_mean_square(rows.iter().map(|row| moved(&delta, &row.seen))),
         Side::Target => lie::nu(&delta).norm(),
@@ -183,20 +210,26 @@ fn block(
         probability: 1.0,
         widened_mm: 0.0,
     };
-    let by_camera = if other(Side::Camera) { 1.0 } else { 0.0 };
-    Some((movement, delta * delta.transpose() * by_camera))
+    let spread = if other(Side::Camera) {
+        delta * delta.transpose()
+    } else if at_a_place {
+        in_any_direction(&delta)
+    } else {
+        // the target moved: where the camera sits does not depend on it
+        Matrix6::zeros()
+    };
+    Some((movement, spread))
 }
 
-/// The capture in the reading that lies nearest.
-fn nearest_row(captures: &Captures, fit: &JointFit, i: usize) -> Option<Row> {
-    (0..captures.readings[i].camera_from_target.len())
-        .filter_map(|k| row(captures, fit, i, k))
-        .min_by(|a, b| a.residual.norm().total_cmp(&b.residual.norm()))
+/// The square of a displacement as large in whichever direction: what a robot errs by at a place, a tool there misses.
+fn in_any_direction(delta: &Vector6<f64>) -> Matrix6<f64> {
+    let (turn, way) = (lie::omega(delta).norm_squared() / 3.0, lie::nu(delta).norm_squared() / 3.0);
+    Matrix6::from_diagonal(&Vector6::new(turn, turn, turn, way, way, way))
 }
 
 /// The displacement on which captures agree within their noise.
-fn common(rows: &[Row], side: Side, degrees_of_freedom: f64) -> Option<Vector6<f64>> {
-    let mut normal = Matrix6::zeros();
+fn common(rows: &[&Row], side: Side, recorded: &Recorded) -> Option<Vector6<f64>> {
+    let mut normal = Matrix6::identity() * MOST.powi(-2);
     let mut right = Vector6::zeros();
     for row in rows {
         let j = row.by(side);
@@ -205,22 +238,23 @@ fn common(rows: &[Row], side: Side, degrees_of_freedom: f64) -> Option<Vector6<f
     }
     let delta = -(Cholesky::new(normal)?.solve(&right));
     let left: f64 = rows.iter().map(|r| (r.residual + r.by(side) * delta).norm_squared()).sum();
-    let limit = surprise_limit(IMPROBABLE, rows.len() - 1, degrees_of_freedom);
-    (left < limit).then_some(delta)
+    let equations = (recorded.equations * (rows.len() - 1)) as f64;
+    let chance = chance::of_f(left / equations, (equations, recorded.degrees_of_freedom.max(1.0)));
+    (chance > IMPROBABLE).then_some(delta)
 }
 
 /// Whether robot poses of a block lie among themselves, and not between the others.
-fn is_at_a_place(captures: &Captures, block: &[usize], seen: &[usize]) -> bool {
-    let own = |i: &&usize| nearest(captures, **i, seen).is_some_and(|j| block.contains(&j));
+fn is_at_a_place(poses: &[Pose<Anchor, Mount>], block: &[usize], seen: &[usize]) -> bool {
+    let own = |i: &&usize| nearest(poses, **i, seen).is_some_and(|j| block.contains(&j));
     block.iter().filter(own).count() as f64 >= OF_ITS_OWN * block.len() as f64
 }
 
 /// Whether the robot went from place to place, so that what changes with time changes with place as well: the capture
 /// that lies nearest was taken shortly before or after.
-fn is_in_order_of_place(captures: &Captures, seen: &[usize]) -> bool {
+fn is_in_order_of_place(poses: &[Pose<Anchor, Mount>], seen: &[usize]) -> bool {
     let shortly = (seen.len() / SHORTLY).max(1);
     let soon = |(k, i): &(usize, &usize)| {
-        nearest(captures, **i, seen)
+        nearest(poses, **i, seen)
             .and_then(|near| seen.iter().position(|j| *j == near))
             .is_some_and(|other| other.abs_diff(*k) <= shortly)
     };
@@ -228,10 +262,9 @@ fn is_in_order_of_place(captures: &Captures, seen: &[usize]) -> bool {
 }
 
 /// The capture whose robot pose lies nearest.
-fn nearest(captures: &Captures, i: usize, seen: &[usize]) -> Option<usize> {
-    let pose = |i: usize| &captures.readings[i].anchor_from_mount;
+fn nearest(poses: &[Pose<Anchor, Mount>], i: usize, seen: &[usize]) -> Option<usize> {
     let apart = |j: usize| {
-        let (a, b) = (pose(i), pose(j));
+        let (a, b) = (&poses[i], &poses[j]);
         a.distance_to(b).hypot(LEVER * a.angle_to(b))
     };
     let others = seen.iter().copied().filter(|j| *j != i);
@@ -281,11 +314,14 @@ struct Linear {
     left: (f64, f64),
 }
 
+/// A capture that agrees: which of the session, and its equations.
+type Used<'a> = (usize, &'a Row);
+
 /// A way in which something may have moved, its logarithm of the likelihood, and the fit under it.
 type Weighed = (f64, Hypothesis, Linear);
 
 /// Every way of moving, with its likelihood beside that of standing still.
-fn weighed(rows: &[Row], still: &Linear) -> Vec<Weighed> {
+fn weighed(rows: &[Used], still: &Linear) -> Vec<Weighed> {
     let steps = FEWEST_BESIDE..=(rows.len() - FEWEST_BESIDE);
     let count = steps.clone().count();
     let of_size = |size: f64| SIDES.map(|side| (side, size));
@@ -300,7 +336,8 @@ fn weighed(rows: &[Row], still: &Linear) -> Vec<Weighed> {
 }
 
 /// A step or a slip in the captures that agree, and the mean square of what it displaces the camera's pose by.
-fn gradual(captures: &Captures, rows: &[Row]) -> Option<(Movement, Matrix6<f64>)> {
+fn gradual(recorded: &Recorded) -> Option<(Movement, Matrix6<f64>)> {
+    let rows = &recorded.agreeing();
     let n = rows.len();
     if n < FEWEST {
         return None;
@@ -323,11 +360,11 @@ fn gradual(captures: &Captures, rows: &[Row]) -> Option<(Movement, Matrix6<f64>)
     let (_, best, of_best) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
     let delta = Vector6::from_fn(|k, _| of_best.solution[12 + k]);
     let distance = match best.side {
-        Side::Camera => root_mean_square(rows.iter().map(|row| moved(&delta, &row.seen))),
+        Side::Camera => root_mean_square(rows.iter().map(|(_, row)| moved(&delta, &row.seen))),
         Side::Target => lie::nu(&delta).norm(),
     };
-    let name = |k: usize| captures.session.observations[rows[k].capture].capture.clone();
-    let seen: Vec<usize> = rows.iter().map(|row| row.capture).collect();
+    let name = |k: usize| recorded.names[rows[k].0].to_owned();
+    let seen: Vec<usize> = rows.iter().map(|row| row.0).collect();
     let movement = Movement {
         kind: if best.step.is_some() { MovementKind::Step } else { MovementKind::Slip },
         camera: side(Side::Camera),
@@ -335,7 +372,7 @@ fn gradual(captures: &Captures, rows: &[Row]) -> Option<(Movement, Matrix6<f64>)
         first: name(best.step.unwrap_or(0)),
         last: name(n - 1),
         at_end: true,
-        at_a_place: is_in_order_of_place(captures, &seen),
+        at_a_place: is_in_order_of_place(&recorded.poses, &seen),
         displacement_mm: distance * 1e3,
         rotation_deg: lie::omega(&delta).norm().to_degrees(),
         probability,
@@ -351,7 +388,7 @@ const LEAST_NOISE: f64 = 1e-2;
 
 /// Fits both poses, a movement where there is one, and how large the noise of rotations and of positions is then: what
 /// moved in positions alone would otherwise be judged by a noise that it made itself.
-fn linear(rows: &[Row], movement: Option<&Hypothesis>) -> Option<Linear> {
+fn linear(rows: &[Used], movement: Option<&Hypothesis>) -> Option<Linear> {
     let equations = 3.0 * rows.len() as f64;
     let mut variances = (1.0, 1.0);
     let mut fit = weighted(rows, movement, variances)?;
@@ -367,7 +404,7 @@ fn linear(rows: &[Row], movement: Option<&Hypothesis>) -> Option<Linear> {
 }
 
 /// The same under noise of these variances, as shares of those that the rows are whitened by.
-fn weighted(rows: &[Row], movement: Option<&Hypothesis>, variances: (f64, f64)) -> Option<Linear> {
+fn weighted(rows: &[Used], movement: Option<&Hypothesis>, variances: (f64, f64)) -> Option<Linear> {
     let size = if movement.is_some() { 18 } else { 12 };
     let weight = |k: usize| if k < 3 { 1.0 / variances.0 } else { 1.0 / variances.1 };
     let weights = Matrix6::from_diagonal(&Vector6::from_fn(|k, _| weight(k)));
@@ -382,7 +419,7 @@ fn weighted(rows: &[Row], movement: Option<&Hypothesis>, variances: (f64, f64)) 
         }
         j
     };
-    for (k, row) in rows.iter().enumerate() {
+    for (k, (_, row)) in rows.iter().enumerate() {
         let j = jacobian(k, row);
         normal += j.tr_mul(&(weights * &j));
         right -= j.tr_mul(&(weights * row.residual));
@@ -398,7 +435,7 @@ fn weighted(rows: &[Row], movement: Option<&Hypothesis>, variances: (f64, f64)) 
     let solution = cholesky.solve(&right);
     let log_determinant: f64 = cholesky.l().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
     let mut left = (0.0, 0.0);
-    for (k, row) in rows.iter().enumerate() {
+    for (k, (_, row)) in rows.iter().enumerate() {
         let r = jacobian(k, row) * &solution + row.residual;
         left.0 += r.rows(0, 3).norm_squared();
         left.1 += r.rows(3, 3).norm_squared();
@@ -542,7 +579,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
     use super::*;
-    use crate::{Base, Config, Flange, Pose, calibrate, simulate::Cell};
+    use crate::{Base, Config, Flange, calibrate, simulate::Cell};
     use nalgebra::{Isometry3, Vector3};
 
     const SETUP: Setup = Setup::EyeToHand;

@@ -85,6 +85,16 @@ impl State {
         (v.anchor_from_mount * (self.x * v.in_camera)).vector() - self.p
     }
 
+    /// Of the misfit, by a step of both.
+    fn jacobian(&self, v: &PointView) -> SMatrix<f64, 3, 9> {
+        let r = v.anchor_from_mount.rotation() * self.x.rotation();
+        let mut j = SMatrix::<f64, 3, 9>::zeros();
+        j.fixed_view_mut::<3, 3>(0, 0).copy_from(&(-r * lie::hat(&v.in_camera.vector())));
+        j.fixed_view_mut::<3, 3>(0, 3).copy_from(&r);
+        j.fixed_view_mut::<3, 3>(0, 6).copy_from(&-Matrix3::identity());
+        j
+    }
+
     fn moved(&self, step: &SVector<f64, 9>) -> Self {
         let delta: Vector6<f64> = step.fixed_rows::<6>(0).into_owned();
         Self { x: self.x.retract(&delta), p: self.p + step.fixed_rows::<3>(6) }
@@ -95,6 +105,15 @@ impl State {
         let r = v.anchor_from_mount.rotation() * self.x.rotation();
         r * v.covariance * r.transpose() + Matrix3::identity() * (robot + LEAST_SIGMA.powi(2))
     }
+}
+
+/// The misfit (m, in the anchor) of a capture at an answer, its Jacobian by camera and point, and its noise.
+pub(crate) fn equations_of(
+    v: &PointView,
+    fit: &PointFit,
+) -> (Vector3<f64>, SMatrix<f64, 3, 9>, Matrix3<f64>) {
+    let state = State { x: fit.mount_from_camera, p: fit.in_anchor.vector() };
+    (state.misfit(v), state.jacobian(v), state.noise(v, fit.robot_sigma_m.powi(2)))
 }
 
 /// Finds the camera and the point.
@@ -237,12 +256,7 @@ fn with_rotation(views: &[PointView], r: &Matrix3<f64>) -> Option<State> {
 fn equations(views: &[PointView], s: &State, robot: Option<f64>) -> (Nine, SVector<f64, 9>, f64) {
     let (mut h, mut g, mut cost) = (Nine::zeros(), SVector::<f64, 9>::zeros(), 0.0);
     for v in views {
-        let e = s.misfit(v);
-        let r = v.anchor_from_mount.rotation() * s.x.rotation();
-        let mut j = SMatrix::<f64, 3, 9>::zeros();
-        j.fixed_view_mut::<3, 3>(0, 0).copy_from(&(-r * lie::hat(&v.in_camera.vector())));
-        j.fixed_view_mut::<3, 3>(0, 3).copy_from(&r);
-        j.fixed_view_mut::<3, 3>(0, 6).copy_from(&-Matrix3::identity());
+        let (e, j) = (s.misfit(v), s.jacobian(v));
         let noise = robot.map_or_else(Matrix3::identity, |robot| s.noise(v, robot));
         let Some(factor) = noise.cholesky() else { return (h, g, f64::INFINITY) };
         h += j.transpose() * factor.solve(&j);
