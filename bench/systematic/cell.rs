@@ -43,6 +43,8 @@ pub struct Outcome {
     pub true_mm: f64,
     /// The stated one, mm.
     pub stated_mm: f64,
+    /// Share of the points of that box whose true error is within the stated one.
+    pub within: f64,
     /// Size of the target over the declared one, and its standard deviation.
     pub size: (f64, f64),
 }
@@ -63,13 +65,17 @@ pub fn run(fault: &Fault, kind: Kind, seed: u64) -> Option<Outcome> {
 }
 
 fn outcome(cell: &Cell, truth: &Truth, result: &Calibration) -> Outcome {
-    let error = seen(cell, truth)
+    let errors = seen(cell, truth)
         .zip(result.hand_eye.mount_from_camera)
-        .map(|(seen, x)| error95(&seen, &truth.hand_eye.mount_from_camera, &x));
+        .map(|(seen, x)| errors(&seen, &truth.hand_eye.mount_from_camera, &x));
+    let stated_mm = result.predicted_tre_mm.as_ref().map_or(f64::NAN, |t| t.p95);
+    let within =
+        |all: &Vec<f64>| all.iter().filter(|e| **e <= stated_mm).count() as f64 / all.len() as f64;
     Outcome {
         accepted: result.verdict == Verdict::Accepted,
-        true_mm: error.unwrap_or(f64::NAN),
-        stated_mm: result.predicted_tre_mm.as_ref().map_or(f64::NAN, |t| t.p95),
+        true_mm: errors.as_ref().map_or(f64::NAN, |all| all[all.len() * 95 / 100]),
+        stated_mm,
+        within: errors.as_ref().map_or(f64::NAN, within),
         size: result.target_scale.map_or((f64::NAN, f64::NAN), |s| (s.value, s.sigma)),
     }
 }
@@ -82,10 +88,10 @@ fn seen(cell: &Cell, truth: &Truth) -> Option<Volume> {
     Volume::around(points, "what the camera saw")
 }
 
-/// 95 % point of the error over a volume, mm.
-fn error95(seen: &Volume, truth: &Pose<Mount, Camera>, found: &Pose<Mount, Camera>) -> f64 {
+/// The errors over a volume in order of their size, mm.
+fn errors(seen: &Volume, truth: &Pose<Mount, Camera>, found: &Pose<Mount, Camera>) -> Vec<f64> {
     let off = difference(truth, found);
     let mut lengths: Vec<f64> = seen.points.iter().map(|p| off(p).norm() * 1e3).collect();
     lengths.sort_by(f64::total_cmp);
-    lengths[(lengths.len() * 95 / 100).min(lengths.len() - 1)]
+    lengths
 }

@@ -44,7 +44,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-const HEAD: &str = "fault                     cell                    acc  cover silent worst  true/mm stated/mm  size-found";
+const HEAD: &str = "fault                     cell                    acc  within  silent worst  true/mm stated/mm  size-found";
 
 fn kinds() -> Vec<Kind> {
     let only = env::var("KIND").unwrap_or_default();
@@ -77,18 +77,19 @@ impl Row {
     fn text(&self) -> String {
         let accepted: Vec<&Outcome> = self.outcomes.iter().filter(|o| o.accepted).collect();
         let ratio = |o: &&Outcome| o.true_mm / o.stated_mm;
-        let covered = accepted.iter().filter(|o| ratio(o) <= 1.0).count();
+        let within =
+            100.0 * accepted.iter().map(|o| o.within).sum::<f64>() / accepted.len().max(1) as f64;
         let silent = accepted.iter().filter(|o| ratio(o) > SILENT).count();
         let worst = accepted.iter().map(ratio).fold(0.0, f64::max);
         let of = |f: fn(&Outcome) -> f64| median(accepted.iter().map(|o| f(o)).collect());
         let every = |f: fn(&Outcome) -> f64| median(self.outcomes.iter().map(f).collect());
         format!(
-            "{:<25} {:<22} {:>2}/{:<2} {:>5} {:>5} {:>6.2} {:>8.2} {:>8.2}  {:.5} +- {:.5}",
+            "{:<25} {:<22} {:>2}/{:<2} {:>5.1} % {:>5} {:>6.2} {:>8.2} {:>8.2}  {:.5} +- {:.5}",
             self.fault.name(),
             self.kind.name(),
             accepted.len(),
             self.outcomes.len(),
-            covered,
+            within,
             silent,
             worst,
             of(|o| o.true_mm),
@@ -100,19 +101,20 @@ impl Row {
 }
 
 fn summary(rows: &[Row]) -> String {
-    let clean = |o: &&Row| o.fault.is_none();
-    let outcomes = |rows: Vec<&Row>| -> (usize, usize, usize, usize) {
-        let all: Vec<&Outcome> = rows.iter().flat_map(|r| &r.outcomes).collect();
+    let of = |name: &str, clean: bool| {
+        let rows = rows.iter().filter(|r| r.fault.is_none() == clean);
+        let all: Vec<&Outcome> = rows.flat_map(|r| &r.outcomes).collect();
         let accepted: Vec<&&Outcome> = all.iter().filter(|o| o.accepted).collect();
         let silent = accepted.iter().filter(|o| o.true_mm > SILENT * o.stated_mm).count();
-        let covered = accepted.iter().filter(|o| o.true_mm <= o.stated_mm).count();
-        (all.len(), accepted.len(), covered, silent)
+        let within = accepted.iter().map(|o| o.within).sum::<f64>() / accepted.len().max(1) as f64;
+        format!(
+            "{name}: {} cells, {} accepted, {:.1} % of points within, {silent} silent",
+            all.len(),
+            accepted.len(),
+            100.0 * within
+        )
     };
-    let (n, a, c, s) = outcomes(rows.iter().filter(clean).collect());
-    let (wn, wa, wc, ws) = outcomes(rows.iter().filter(|r| !clean(r)).collect());
-    format!(
-        "clean: {n} cells, {a} accepted, {c} covered, {s} silent\nfaulty: {wn} cells, {wa} accepted, {wc} covered, {ws} silent"
-    )
+    format!("{}\n{}", of("clean", true), of("faulty", false))
 }
 
 fn median(mut all: Vec<f64>) -> f64 {
