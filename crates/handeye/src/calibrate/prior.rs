@@ -18,8 +18,8 @@ const BIAS: ExtraKind = ExtraKind::Camera(DEPTH_BIAS);
 /// and paper are off by some 0.5 %; "fit to page" and sizes that nobody measured by more. The feed of a printer may be
 /// off by another share than its carriage, and paper that is not glued to a plate is bent.
 const PRINTED: [(f64, Print); 6] = [
-    (0.70, Print { size: 2e-4, aspect: EVEN, bend: FLAT }),
-    (0.17, Print { size: 5e-3, aspect: EVEN, bend: FLAT }),
+    (0.58, Print { size: 2e-4, aspect: EVEN, bend: FLAT }),
+    (0.29, Print { size: 5e-3, aspect: EVEN, bend: FLAT }),
     (0.04, Print { size: 2.5e-2, aspect: EVEN, bend: FLAT }),
     (0.04, Print { size: 5e-3, aspect: UNEVEN, bend: FLAT }),
     (0.04, Print { size: 2e-4, aspect: EVEN, bend: BENT }),
@@ -42,8 +42,8 @@ const DEPTH: [(f64, f64, f64); 3] = [(0.7, 3e-4, 1e-4), (0.2, 3e-3, 1e-3), (0.1,
 /// The same of a given lens: well calibrated; its focus was turned, or its zoom, since then; its centre as well, after
 /// a knock or with another crop; all of it, calibrated from few views or from one side; and far off, of a data sheet.
 const GIVEN: [(f64, LensPrior); 5] = [
-    (0.50, LensPrior { focal: 2e-4, aspect: 5e-5, centre: 2e-4, distortion: SURE }),
-    (0.25, LensPrior { focal: 2.5e-3, aspect: 1e-4, centre: 5e-4, distortion: SURE }),
+    (0.40, LensPrior { focal: 2e-4, aspect: 5e-5, centre: 2e-4, distortion: SURE }),
+    (0.35, LensPrior { focal: 2.5e-3, aspect: 1e-4, centre: 5e-4, distortion: SURE }),
     (0.12, LensPrior { focal: 4e-3, aspect: 2e-4, centre: 4e-3, distortion: SURE }),
     (
         0.08,
