@@ -88,6 +88,11 @@ const TABLE: &[Row] = &[
         "measure the target and declare its size",
     ),
     changes(
+        "target-size-contradicted",
+        "the captures contradict the measured size of the target, which the answer uses",
+        "measure the target again; if it is right, the focal length or the robot's own scale is wrong",
+    ),
+    changes(
         "board-uneven",
         "the answer uses a board that is longer or shorter along y, not the declared one",
         "measure the print along both sides, and print it again or have a plate made",

@@ -353,7 +353,8 @@ impl Joint {
                 format!(
                     "views and touches disagree, p = {:.1e}, and no tool tip explains it: the robot \
                      is calibrated differently where it was touched and where the views were taken, \
-                     or picture and scan differ; the answer holds near the touched places",
+                     images were taken at other moments than the robot's poses, or images and scans differ; \
+                     the answer holds near the touched places",
                     conflict.p_value
                 ),
             ));
