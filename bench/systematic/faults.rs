@@ -229,13 +229,18 @@ impl Fault {
     /// What is true of the answer: for the frame of the scans where there are any, and in the base as the robot has it.
     pub fn truth(&self, truth: &Truth, cell: &Cell) -> Truth {
         let mut truth = truth.clone();
-        if let (Self::RobotScale(share), Setup::EyeToHand) = (self, cell.setup) {
+        if let Self::RobotScale(share) = self {
+            // what the camera sees, from where the robot reckons: the base, or the tool that it moves there
             let x = truth.hand_eye.mount_from_camera;
             let views = &truth.camera_from_target[..cell.captures];
             let middle =
                 views.iter().map(Pose::translation).sum::<Vector3<f64>>() / views.len() as f64;
-            let says = x.iso().rotation * middle + x.translation();
-            let shift = says * (1.0 / (1.0 + share) - 1.0);
+            let from = match cell.setup {
+                Setup::EyeToHand => Vector3::zeros(),
+                Setup::EyeInHand => cell.tip_in_flange.vector(),
+            };
+            let way = x.iso().rotation * middle + x.translation() - from;
+            let shift = way * (1.0 / (1.0 + share) - 1.0);
             truth.hand_eye.mount_from_camera = Pose::claim(moved_by(shift) * x.iso());
         }
         if let Some(depth) = &cell.depth {

@@ -1,6 +1,6 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
-//! `repeated` (of captures of one place one counts) → `agreement` (which captures agree, and on
+//! `repeated`, `places` (of captures of one place one counts) → `agreement` (which captures agree, and on
 //! which reading: `gate`, and `masked` for those that hide one another; why the others do not:
 //! `rejected`; whether that is a clear majority: `doubt`) →
 //! `candidates` (touches of other corners taken out: `wrong_touches`; closed forms, least squares,
@@ -28,6 +28,7 @@ mod movement;
 mod named;
 mod offset;
 mod optics;
+mod places;
 mod points;
 mod prior;
 mod reach;
@@ -204,10 +205,16 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
             result
         })
     };
-    let mut result = movement::answer_of_the_end(&session, run(&session), run);
+    let mut found = run(&session);
+    let of_one_place = places::take_out(&mut session, &found);
+    if !of_one_place.is_empty() {
+        found = run(&session);
+    }
+    let mut result = movement::answer_of_the_end(&session, found, run);
     refined::tell(&session, &mut result);
     let bent = scans::report(&session, &mut result);
     movement::tell(bent, &mut result);
+    of_one_place.report(&mut result);
     result.warnings.extend(touched_twice);
     result
 }

@@ -12,10 +12,17 @@ const SAME_VIEW: (f64, f64) = (3e-3, 1e-3);
 const NAMED: usize = 6;
 
 /// Captures that do not count, each with the name of the one that does.
-pub(crate) struct Repeated(Vec<(Observation, String)>);
+pub(crate) struct Uncounted {
+    captures: Vec<(Observation, String)>,
+    code: &'static str,
+    /// What the captures do, and why one of each place counts.
+    why: &'static str,
+    /// What one capture does to the one that counts.
+    does: &'static str,
+}
 
 /// Takes out all but the first capture of each place.
-pub(crate) fn take_out(session: &mut Session) -> Repeated {
+pub(crate) fn take_out(session: &mut Session) -> Uncounted {
     let (mut kept, mut all) = (Vec::<Observation>::new(), vec![]);
     for capture in session.observations.drain(..) {
         match kept.iter().find(|first| repeats(first, &capture)) {
@@ -24,7 +31,13 @@ pub(crate) fn take_out(session: &mut Session) -> Repeated {
         }
     }
     session.observations = kept;
-    Repeated(all)
+    Uncounted {
+        captures: all,
+        code: "captures-repeated",
+        why: "repeat others: the same robot pose, and the same view. What the robot misses there is the same in all of \
+              them, so of each place one counts",
+        does: "repeats",
+    }
 }
 
 fn repeats(first: &Observation, other: &Observation) -> bool {
@@ -39,27 +52,45 @@ fn repeats(first: &Observation, other: &Observation) -> bool {
         })
 }
 
-impl Repeated {
+impl Uncounted {
+    /// All captures count.
+    pub(crate) fn none() -> Self {
+        Self::of_one_place(vec![])
+    }
+
+    /// Captures beside which others were taken, with the robot's error at that place.
+    pub(crate) fn of_one_place(captures: Vec<(Observation, String)>) -> Self {
+        Self {
+            captures,
+            code: "captures-of-one-place",
+            why: "were taken within 6 mm and 0.6 degrees of others, and the robot's error there is the same in all of \
+                  them: of each place one counts. Spread the captures over the workspace",
+            does: "was taken beside",
+        }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.captures.is_empty()
+    }
+
     /// Puts them back into the result, as captures that do not count.
     pub(crate) fn report(self, result: &mut Calibration) {
-        if self.0.is_empty() {
+        let Self { captures, code, why, does } = self;
+        if captures.is_empty() {
             return;
         }
-        let names: Vec<&str> = self.0.iter().take(NAMED).map(|(o, _)| o.capture.as_str()).collect();
-        let more = match self.0.len() - names.len() {
+        let names: Vec<&str> =
+            captures.iter().take(NAMED).map(|(o, _)| o.capture.as_str()).collect();
+        let more = match captures.len() - names.len() {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
-        let message = format!(
-            "captures {}{more} repeat others: the same robot pose, and the same view. What the robot misses there is the \
-             same in all of them, so of each place one counts",
-            names.join(", ")
-        );
-        result.warnings.push(Warning::new("captures-repeated", message));
-        for (capture, first) in self.0 {
+        let message = format!("captures {}{more} {why}", names.join(", "));
+        result.warnings.push(Warning::new(code, message));
+        for (capture, first) in captures {
             let mut report = agreement::first_report(&capture);
             report.used = false;
-            report.reason = Some(format!("repeats capture {first}: of each place one counts"));
+            report.reason = Some(format!("{does} capture {first}: of each place one counts"));
             let at = result.captures.iter().position(|c| natural(&c.id, &report.id).is_gt());
             result.captures.insert(at.unwrap_or(result.captures.len()), report);
         }
