@@ -365,11 +365,11 @@ pub(super) fn sight_of_placement(
 const DERIVATIVE_STEP: f64 = 1e-2;
 
 /// Share of the points that are measured by another lens, or depth, than the answer was found with, for the
-/// probability that these are as declared: none where they surely are; all where that is open, and what is declared is
-/// used on; half where another one is found, and stands in the result to be used.
+/// probability that these are as declared: none where they surely are, and all where that is open. Where another one was
+/// found, it stands in the result to be used; but who knows by what the points will be measured?
 fn elsewhere(as_declared: f64) -> f64 {
     const OPEN: f64 = 0.15;
-    if as_declared < 0.5 { 0.5 + as_declared } else { ((1.0 - as_declared) / OPEN).min(1.0) }
+    ((1.0 - as_declared) / OPEN).min(1.0)
 }
 
 /// By what the points are measured that the answer is for.
