@@ -12,9 +12,10 @@ mod field;
 mod pairs;
 mod planes;
 mod shape;
+mod sheets;
 mod visible;
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 
 use self::{
     align::{Scene, explained},
@@ -186,7 +187,35 @@ impl Search {
             let target_from_source = self.target_from_source(at);
             (*score > WORSE * kept[0].0).then_some(Place { target_from_source, evidence })
         };
-        kept.iter().filter_map(place).collect()
+        let mut places: Vec<Place> = kept.iter().filter_map(place).collect();
+        let others = self.other_faces(&places, |at| scene.aligned(&fine, at, &more, &last));
+        places.extend(others.into_iter().map(|at| Place {
+            target_from_source: self.target_from_source(&at),
+            evidence: self.evidence_of(&scene, &fine, &at),
+        }));
+        // the first of equals stays the first
+        places.sort_by(|a, b| b.evidence.score.total_cmp(&a.evidence.score));
+        places
+    }
+
+    /// Where the best place ends that is moved from one face of a sheet to the other, where it is not known which way
+    /// surfaces face. `aligned` improves where the scan lies in the part.
+    fn other_faces(
+        &self,
+        places: &[Place],
+        aligned: impl Fn(&Isometry3<f64>) -> Option<Isometry3<f64>>,
+    ) -> Vec<Isometry3<f64>> {
+        let Some(best) = places.first().filter(|_| !self.oriented) else { return vec![] };
+        let best = self.target_from_source(&best.target_from_source);
+        let mut found: Vec<Isometry3<f64>> = vec![];
+        for step in sheets::steps(&self.fine, self.radius, self.within()) {
+            let Some(at) = aligned(&(Translation3::from(step) * best)) else { continue };
+            let apart = |other: &Isometry3<f64>| self.moved(other, &at) > 0.5 * step.norm();
+            if apart(&best) && found.iter().all(apart) {
+                found.push(at);
+            }
+        }
+        found
     }
 
     /// Surfels lie on the part within this distance in the end, m.
