@@ -22,6 +22,8 @@ use crate::{Calibration, HandEye, Observation, PosePair, chance, lie, refine::po
 const NEAR: (f64, f64) = (1e-2, 6e-3);
 /// Part of the captures that must lie near others: below it, places make no difference.
 const LEAST_SHARE: f64 = 0.25;
+/// Scatter below this within a place, rad and m alike, is as good as none: no robot errs by less, and rounding does.
+const EXACT: f64 = 1e-5;
 /// Chance of an F as large where errors do not belong to places.
 const IMPROBABLE: f64 = 1e-3;
 
@@ -97,7 +99,7 @@ fn errors_belong_to(places: &[Vec<usize>], misfit: impl Fn(usize) -> Option<Vect
             within += all.iter().map(|r| (r - mean).norm_squared()).sum::<f64>();
         }
         let degrees = (3.0 * places.len() as f64 - 6.0, 3.0 * near as f64);
-        let f = (between / degrees.0) / (within / degrees.1).max(f64::MIN_POSITIVE);
+        let f = (between / degrees.0) / (within / degrees.1).max(EXACT.powi(2));
         chance::of_f(f, degrees) < IMPROBABLE
     };
     of(lie::omega) || of(lie::nu)
