@@ -1,7 +1,7 @@
 //! Captures of few places: what a robot errs by at a place it errs by in all captures near it, and ten captures there
 //! tell no more of the camera's pose than one.
 //!
-//! Whether the errors belong to the places is seen in the misfits `r` of an answer: of captures `i` at places `g`, with
+//! Whether the errors belong to the places is seen in the residuals `r` of an answer: of captures `i` at places `g`, with
 //! the mean `r_g` of each place,
 //!
 //! ```text
