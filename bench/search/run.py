@@ -136,7 +136,7 @@ def run(job):
     row = {"name": scene.name, "kind": kind, "seed": seed, "family": scene.family, "setting": scene.setting, "absent": scene.absent,
            "formats": [file.suffix[1:] for file in files], "scan_is_source": scene.scan_is_source, "outcome": outcome,
            "error": error, "s": spent, "verdict": answer["verdict"], "reasons": answer["reasons"],
-           "sizes": {key: answer.get(key) for key in ("inlier_fraction", "agreement", "rms_mm", "explained", "seconds")},
+           "sizes": {key: answer.get(key) for key in ("inlier_fraction", "agreement", "rms_mm", "explained", "sigma_mm", "sigma_deg", "seconds")},
            "places": len(answer.get("places") or [])}
     if seed < options.seeds[0] + options.compared and not scene.absent:
         found, row["peer_s"] = peer(scene, options.voxel)

@@ -14,7 +14,7 @@ use super::{
     search::{Evidence, Place, Search},
     surface::Surface,
 };
-use crate::Error;
+use crate::{Error, Verdict};
 
 /// Matches are looked for within so many times the spread of a window.
 const NEARBY: f64 = 3.0;
@@ -30,6 +30,10 @@ const MOVED: f64 = 0.04;
 const KEPT: f64 = 0.93;
 /// A place that explains at least this share of what the best explains is as good.
 const EQUAL: f64 = 0.95;
+/// The part's position must be known within this share of its radius: 95 % error, on average over its surface.
+const PRECISE: f64 = 0.005;
+/// From one standard deviation to 95 %.
+const DEVIATIONS_95: f64 = 1.96;
 /// Places that differ by a rotation about one point have no shift along its axis beyond this share of the radius.
 const SYMMETRIC: f64 = 0.05;
 
@@ -67,7 +71,28 @@ pub fn registered(
     if !found.places.is_empty() {
         found.reasons.push(ambiguous(&found.places, search));
     }
+    if found.verdict == Verdict::Accepted
+        && let Some(reason) = imprecise(&found, search)
+    {
+        found.verdict = Verdict::Undetermined;
+        found.reasons.push(reason);
+    }
     Ok(found)
+}
+
+/// Says how well the part's position is determined, where that is not enough to call it found.
+fn imprecise(found: &Dense, search: &Search) -> Option<String> {
+    let covariance = found.covariance.as_ref()?;
+    let error = DEVIATIONS_95 * search.deviation(&found.target_from_source, covariance);
+    let share = error / search.radius();
+    (share > PRECISE).then(|| {
+        format!(
+            "the surfaces in view determine the part's position only within {:.2} mm (95 %), {:.1} % of its radius: \
+             scan it from a side that shows its edges or other faces too",
+            1e3 * error,
+            100.0 * share
+        )
+    })
 }
 
 /// What speaks against an answer that was refined from a place.

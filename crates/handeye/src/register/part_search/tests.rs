@@ -1,8 +1,10 @@
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Vector3, Vector6};
+
+use super::{DEVIATIONS_95, PRECISE, imprecise};
 
 use crate::{
     Scan, TriangleMesh, Verdict, lie,
-    register::{Dense, DenseConfig, Surface, register_surfaces},
+    register::{Dense, DenseConfig, Surface, register_surfaces, search::Search},
     simulate::Random,
 };
 
@@ -141,4 +143,42 @@ fn a_part_that_is_found_does_not_depend_on_the_number_of_threads() {
     let part = Surface::of_mesh(&angle(), SPACING).unwrap().unwrap();
     let scan = Surface::of(&scan(&angle(), &placed(VIEWS[1]), &mut Random::new(6)), 1).unwrap();
     assert_eq!(found(&part, &scan, 1), found(&part, &scan, 3));
+}
+
+#[test]
+fn a_deviation_is_how_far_the_surface_moves() {
+    let mut random = Random::new(9);
+    let part = Surface::of_mesh(&angle(), SPACING).unwrap().unwrap();
+    let truth = placed(VIEWS[1]);
+    let scan = Surface::of(&scan(&angle(), &truth, &mut random), 1).unwrap();
+    let by = Vector6::new(4e-4, -1e-4, 2e-4, 1e-4, 3e-4, -2e-4);
+    let [low, high] = [Vector3::zeros(), Vector3::new(0.08, 0.05, 0.03)];
+    for (source, target, at) in [(&part, &scan, truth), (&scan, &part, truth.inverse())] {
+        let search = Search::new(source, target, 1).unwrap();
+        let found = search.deviation(&at, &(by * by.transpose()));
+        // over a box around the part instead of its surface
+        let moved = |corner: usize| {
+            let p = Vector3::from_fn(|k, _| if corner >> k & 1 == 0 { low[k] } else { high[k] });
+            let p = if at == truth { p.into() } else { truth.transform_point(&p.into()) };
+            ((at * lie::exp(&by)).transform_point(&p) - at.transform_point(&p)).norm_squared()
+        };
+        let corners = ((0..8).map(moved).sum::<f64>() / 8.0).sqrt();
+        assert!((found / corners - 1.0).abs() < 0.1, "{found} {corners}");
+    }
+}
+
+#[test]
+fn a_part_that_is_determined_poorly_is_not_called_found() {
+    let mut random = Random::new(3);
+    let part = Surface::of_mesh(&angle(), SPACING).unwrap().unwrap();
+    let scan = Surface::of(&scan(&angle(), &placed(VIEWS[0]), &mut random), 1).unwrap();
+    let search = Search::new(&part, &scan, 1).unwrap();
+    let mut answer = found(&part, &scan, 1);
+    let covariance = answer.covariance.unwrap();
+    let deviation = search.deviation(&answer.target_from_source, &covariance);
+    let up_to_limit = PRECISE * search.radius() / (DEVIATIONS_95 * deviation);
+    for (share, is_named) in [(0.98, false), (1.02, true)] {
+        answer.covariance = Some(covariance * (share * up_to_limit).powi(2));
+        assert_eq!(imprecise(&answer, &search).is_some(), is_named, "{share}");
+    }
 }

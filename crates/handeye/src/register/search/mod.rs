@@ -15,7 +15,7 @@ mod shape;
 mod sheets;
 mod visible;
 
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Matrix3x6, Matrix6, Point3, Translation3, Vector3};
 
 use self::{
     align::{Scene, explained},
@@ -25,7 +25,7 @@ use self::{
     visible::RangeImage,
 };
 use super::surface::Surface;
-use crate::{linalg, parallel};
+use crate::{lie, linalg, parallel};
 
 /// Surfels of the scan and of the part are so far apart.
 const SCAN_APART: f64 = 0.04;
@@ -322,6 +322,20 @@ impl Search {
     /// The part's radius, m.
     pub fn radius(&self) -> f64 {
         self.radius
+    }
+
+    /// Standard deviation (3-D, m) of the part's surface, RMS over all of it, of a covariance that is perturbed on
+    /// the right, rotation first.
+    pub fn deviation(&self, target_from_source: &Isometry3<f64>, covariance: &Matrix6<f64>) -> f64 {
+        let back = target_from_source.inverse();
+        let variance = |s: &Surfel| {
+            let p = if self.scan_is_source { back * Point3::from(s.p) } else { s.p.into() };
+            let mut jacobian = Matrix3x6::zeros();
+            jacobian.fixed_view_mut::<3, 3>(0, 0).copy_from(&-lie::hat(&p.coords));
+            jacobian.fixed_view_mut::<3, 3>(0, 3).copy_from(&Matrix3::identity());
+            (jacobian * covariance * jacobian.transpose()).trace()
+        };
+        (self.part.iter().map(variance).sum::<f64>() / self.part.len() as f64).sqrt()
     }
 
     /// Where the scan lies in the part.
