@@ -8,8 +8,9 @@
 use nalgebra::{Matrix3, Rotation3, Vector2, Vector3};
 
 use super::{
-    DepthSensor, Optics, Random,
+    DepthSensor, Optics, PrintErrors, Random,
     arm::{ArmErrors, BuiltArm, usual_arm},
+    conditions::{Paper, on_paper},
     recording::{Recording, Truth, placement_name},
     robot_error::{Robot, SystematicError},
 };
@@ -311,6 +312,12 @@ impl Cell {
     }
 
     /// Every touch of every board: its name, where it lies, and the corner.
+    /// What is wrong with the board.
+    pub(super) fn print_errors(&self) -> PrintErrors {
+        let Self { bow_mm: bend_mm, print_scale: scale, .. } = *self;
+        PrintErrors { bend_mm, scale, ..PrintErrors::default() }
+    }
+
     fn touch_all(&self, truth: &Truth, seed: u64) -> Option<Vec<Touch>> {
         let robot = self.robot();
         let corners = spread_corners(&self.target, self.touches);
@@ -345,7 +352,11 @@ impl Cell {
         truth: &Truth,
         (seed, k): (u64, usize),
     ) -> Option<Touch> {
-        let on_board = self.target.corner(corner).unwrap_or(Point::new(0.0, 0.0, 0.0));
+        let printed = self.target.corner(corner).map_or(Vector2::zeros(), |c| c.vector().xy());
+        let on_board = Point::from_vector(on_paper(
+            Paper::new(&self.target, &self.print_errors()).as_ref(),
+            &printed,
+        ));
         let mut probe = random(seed, PROBE, k);
         let missed = probe.normal3() * (self.noise.touch_m / 3f64.sqrt());
         let tip_in_base = (*base_from_target * on_board).vector() + missed;

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::{
-    Cell, Conditions, PrintErrors, Scene, TrueCorner,
+    Cell, Conditions, Scene, TrueCorner,
     cell::{CORNERS, PICTURES, SCANS, random},
     conditions::Paper,
 };
@@ -62,11 +62,8 @@ impl Recording<'_> {
         }
     }
 
-    /// What is wrong with the board.
     fn conditions(&self) -> Conditions {
-        let Cell { bow_mm: bend_mm, print_scale: scale, .. } = *self.cell;
-        let print = PrintErrors { bend_mm, scale, ..PrintErrors::default() };
-        Conditions { print, ..Conditions::default() }
+        Conditions { print: self.cell.print_errors(), ..Conditions::default() }
     }
 
     /// Renders picture `k`.

@@ -5,7 +5,9 @@ use std::f64::consts::{FRAC_PI_3, PI};
 use nalgebra::{Matrix3, Vector2, Vector3, Vector6};
 
 use super::*;
-use crate::{Camera, GrayImage, Intrinsics, Pose, Target, TargetModel, detect::detect};
+use crate::{
+    Camera, Flange, GrayImage, Intrinsics, Pose, Setup, Target, TargetModel, detect::detect,
+};
 
 const SIZE: (u32, u32) = (400, 320);
 
@@ -314,4 +316,31 @@ fn clutter_is_behind_the_board_and_follows_from_its_seed() {
 fn a_board_outside_of_the_picture_leaves_the_background() {
     let picture = scene(board(3, 3), facing([3000.0, 50.0], 20.0)).picture(&sharp(), 1);
     assert!(picture.values().iter().all(|v| *v == 120.0));
+}
+
+#[test]
+fn the_tip_touches_the_board_that_the_scans_show() {
+    let noise = CellNoise {
+        robot_repeatability_m: 0.0,
+        robot_absolute_m: 0.0,
+        robot_absolute_rad: 0.0,
+        corner_px: 0.0,
+        touch_m: 0.0,
+        ..CellNoise::default()
+    };
+    let sensor = DepthSensor { sigma_at_1m: 0.0, ..DepthSensor::default() };
+    for (bow_mm, print_scale) in [(0.0, [0.0; 2]), (3.0, [0.0; 2]), (0.0, [0.01, -0.02])] {
+        let usual = Cell::new(Setup::EyeInHand, 5);
+        let cell = Cell { noise, depth: Some(sensor), bow_mm, print_scale, ..usual };
+        let (session, truth) = cell.session(5).unwrap();
+        let view = &session.observations[0];
+        let base_from_camera =
+            view.base_from_flange * truth.hand_eye.mount_from_camera.rename::<Flange, Camera>();
+        for touch in &session.touches {
+            let seen = view.surface.iter().find(|c| c.id == touch.corner).unwrap();
+            let seen = base_from_camera * seen.in_camera;
+            let off = (seen.vector() - touch.in_base.vector()).norm();
+            assert!(off < 2e-5, "{bow_mm} {print_scale:?} {} {off}", touch.corner);
+        }
+    }
 }
