@@ -7,7 +7,34 @@
 //! S. Garrido-Jurado et al., *Automatic generation and detection of highly reliable fiducial
 //! markers under occlusion*, Pattern Recognition 47(6), 2014; E. Olson, *AprilTag*, ICRA 2011.
 
-use calib_targets_aruco::builtins;
+use std::sync::LazyLock;
+
+/// All markers; the file says how they are written.
+const MARKERS: &str = include_str!("dictionary/markers.txt");
+
+/// A family of the table.
+struct Family {
+    name: &'static str,
+    side: usize,
+    codes: Vec<u64>,
+}
+
+static FAMILIES: LazyLock<Vec<Family>> = LazyLock::new(|| {
+    let mut families: Vec<Family> = vec![];
+    for line in MARKERS.lines().filter(|line| !line.starts_with('#')) {
+        if let [name, side, _] = line.split(' ').collect::<Vec<_>>()[..]
+            && name.starts_with("DICT_")
+        {
+            families.push(Family { name, side: side.parse().unwrap_or(0), codes: vec![] });
+        } else if let Some(family) = families.last_mut() {
+            family.codes.extend(line.split(' ').filter_map(|c| u64::from_str_radix(c, 16).ok()));
+        }
+    }
+    families
+});
+
+/// Sizes of the families that are the first markers of the one of 1000.
+const SMALLER: [usize; 3] = [50, 100, 250];
 
 /// A family of markers, by OpenCV's name.
 #[derive(Debug, Clone, Copy)]
@@ -30,9 +57,17 @@ pub struct Reading {
 impl Dictionary {
     /// OpenCV's name, e.g. `DICT_6X6_250`, with or without its `DICT_`.
     pub fn named(name: &str) -> Option<Self> {
-        let table = builtins::builtin_dictionary(name)
-            .or_else(|| builtins::builtin_dictionary(&format!("DICT_{name}")))?;
-        Some(Self { side: table.marker_size(), codes: table.codes() })
+        let short = name.strip_prefix("DICT_").unwrap_or(name);
+        FAMILIES.iter().find_map(|family| {
+            let whole = family.name.strip_prefix("DICT_")?;
+            let of = |count: usize| Self { side: family.side, codes: &family.codes[..count] };
+            if whole == short {
+                return Some(of(family.codes.len()));
+            }
+            let (first, count) = (whole.strip_suffix("1000")?, short);
+            let count = count.strip_prefix(first)?.parse().ok()?;
+            SMALLER.contains(&count).then(|| of(count))
+        })
     }
 
     /// Bits along a side, without the border.
@@ -120,6 +155,30 @@ mod tests {
             let reading = dictionary.read(turned, 0..250, 2).unwrap();
             assert_eq!(reading, Reading { id: 17, turns, errors: 0 });
             turned = turned_back(turned, 6); // three quarter turns clockwise
+        }
+    }
+
+    #[test]
+    fn the_table_is_complete() {
+        for family in FAMILIES.iter() {
+            let head = MARKERS.lines().find(|line| line.starts_with(family.name)).unwrap();
+            assert!(head.ends_with(&format!(" {}", family.codes.len())), "{head}");
+            let bits = family.side * family.side;
+            assert!(family.codes.iter().all(|code| code >> bits == 0), "{head}");
+            let mut codes = family.codes.clone();
+            codes.sort_unstable();
+            codes.dedup();
+            assert_eq!(codes.len(), family.codes.len(), "{head}");
+        }
+        for (name, side, len) in
+            [("DICT_5X5_100", 5, 100), ("7X7_50", 7, 50), ("4X4_1000", 4, 1000)]
+        {
+            let dictionary = Dictionary::named(name).unwrap();
+            assert_eq!((dictionary.side(), dictionary.len()), (side, len), "{name}");
+        }
+        for name in ["DICT_4X4_60", "DICT_4X4_", "DICT_8X8_50", "4x4_50", "DICT_APRILTAG_36h50", ""]
+        {
+            assert!(Dictionary::named(name).is_none(), "{name}");
         }
     }
 
