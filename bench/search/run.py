@@ -54,7 +54,7 @@ not the camera's; parts as STL in mm or as a cloud; either is the source.
 
 *Right*: accepted, within 0.3 degrees and 0.5 mm on average over the part, of a place where the part is, up to the
 part's own symmetry. *Listed*: undetermined, because several places are equally good (they are listed), or because a
-motion is free (it is named), and the answer or one of the places is right to the same limits. *Wrong*: accepted and not right, also where the part is not there. Open3D has no verdict: whatever is not
+motion is free (it is named), or its position is determined too poorly, and the answer or one of the places is right to the same limits. *Wrong*: accepted and not right, also where the part is not there. Open3D has no verdict: whatever is not
 right is wrong, and scenes without the part are not counted for it. It runs its tutorial's settings (voxel {voxel:.0f} %
 of the part's radius, normals of 2, FPFH of 5 voxels, RANSAC 100000 with edge length 0.9 and distance 1.5, ICP on all points
 within 0.4 voxels). Processor time: of handeye the whole process with reading, of Open3D without reading."""

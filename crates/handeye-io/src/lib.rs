@@ -22,6 +22,7 @@ mod init;
 pub mod measure;
 mod mesh;
 mod npy;
+mod packed;
 mod pairs_file;
 pub mod parallel;
 mod parquet;

@@ -18,7 +18,7 @@ mod writing;
 
 use std::{
     fs::File,
-    io::{BufWriter, Read, Write},
+    io::{BufReader, BufWriter, Read, Write},
     path::{Path, PathBuf},
     sync::atomic::{AtomicUsize, Ordering},
 };
@@ -26,6 +26,7 @@ use std::{
 use crate::{
     error::{Error, unusable},
     files,
+    packed::Zstd,
 };
 pub use extract::{BagOptions, Extracted, Motion, extract};
 pub use robot::RobotSource;
@@ -157,7 +158,7 @@ impl Unpacked {
         let this = Self { file };
         let target = |source| Error::Write { path: this.file.clone(), source };
         let mut into = BufWriter::new(File::create(&this.file).map_err(target)?);
-        let mut from = zstd::Decoder::new(File::open(packed).map_err(source)?).map_err(source)?;
+        let mut from = Zstd::new(BufReader::new(File::open(packed).map_err(source)?));
         let (mut piece, mut unpacked) = (vec![0; 1 << 20], 0);
         let cut = loop {
             tick();
@@ -190,8 +191,9 @@ fn plain_kind(name: &str) -> String {
 /// Unpacks a message that was packed alone.
 fn unpack(packed: &[u8], file: &Path) -> Result<Vec<u8>, Error> {
     let mut bytes = vec![];
-    zstd::Decoder::new(packed)
-        .and_then(|decoder| decoder.take(LARGEST as u64).read_to_end(&mut bytes))
+    Zstd::new(packed)
+        .take(LARGEST as u64)
+        .read_to_end(&mut bytes)
         .map_err(|error| unusable(file, format!("a message cannot be unpacked: {error}")))?;
     Ok(bytes)
 }

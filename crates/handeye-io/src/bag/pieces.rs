@@ -2,7 +2,10 @@
 
 use std::io::{Read, Result};
 
+use lz4_flex::frame::FrameDecoder;
+
 use super::{Cut, LARGEST};
+use crate::packed::Zstd;
 
 /// What is said of a file that was cut.
 pub(super) fn early() -> String {
@@ -42,10 +45,8 @@ pub(super) fn unpacked(
             Ok(bytes.len())
         }
         "bz2" => bzip2::read::BzDecoder::new(packed).take(most).read_to_end(&mut bytes),
-        "lz4" => lz4::Decoder::new(packed).and_then(|from| from.take(most).read_to_end(&mut bytes)),
-        "zstd" => {
-            zstd::Decoder::new(packed).and_then(|from| from.take(most).read_to_end(&mut bytes))
-        }
+        "lz4" => FrameDecoder::new(packed).take(most).read_to_end(&mut bytes),
+        "zstd" => Zstd::new(packed).take(most).read_to_end(&mut bytes),
         other => return Err(format!("has a chunk compressed by \"{other}\", which is not read")),
     };
     let what = |error| format!("is broken: a chunk cannot be unpacked ({error})");

@@ -5,6 +5,7 @@ use std::io::Read;
 use flate2::read::GzDecoder;
 
 use super::{Broken, thrift::Value};
+use crate::packed::Zstd;
 
 /// The values of a column.
 pub(super) enum Column {
@@ -96,8 +97,7 @@ impl Chunk {
         let read = match self.codec {
             0 => packed.take(limit).read_to_end(&mut page),
             2 => GzDecoder::new(packed).take(limit).read_to_end(&mut page),
-            6 => zstd::Decoder::new(packed)
-                .and_then(|stream| stream.take(limit).read_to_end(&mut page)),
+            6 => Zstd::new(packed).take(limit).read_to_end(&mut page),
             1 if snap::raw::decompress_len(packed).is_ok_and(|found| found == size) => {
                 page = snap::raw::Decoder::new()
                     .decompress_vec(packed)
