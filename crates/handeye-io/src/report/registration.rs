@@ -115,12 +115,16 @@ fn reasons(found: &Dense) -> Vec<String> {
 fn facts(found: &Dense, gaps: &Gaps) -> Vec<(String, String)> {
     let mut all = vec![];
     let mut say = |value: String, name: &str| all.push((value, name.to_owned()));
-    // the same number as in the table below
-    if let Some(mm) = rms(&in_mm(&gaps.after)) {
-        say(format!("{mm:.3} mm"), "RMS distance of all points with a counterpart");
-    }
     if let Some(share) = found.explained {
+        // what is around the part belongs to something else
+        if found.rms_m.is_finite() {
+            let mm = 1e3 * found.rms_m;
+            say(format!("{mm:.3} mm"), "RMS distance of the points that lie on the part");
+        }
         say(format!("{:.0} %", 100.0 * share), "of the scan in the part's box lies on the part");
+    } else if let Some(mm) = rms(&in_mm(&gaps.after)) {
+        // the same number as in the table below
+        say(format!("{mm:.3} mm"), "RMS distance of all points with a counterpart");
     }
     say(format!("{:.0} %", 100.0 * found.inlier_fraction), "of the source on the target");
     if found.rms_m.is_finite() {

@@ -203,7 +203,7 @@ pub(super) fn judge_size(
     };
     let (value, sigma) = if used { answer } else { (value, sigma) };
     result.target_scale = Some(Scale { value, sigma, used });
-    let message = size_message(views.session, (value, sigma), used);
+    let message = size_message(views.session, declared, (value, sigma), used);
     if (value - 1.0).abs() > MOST_SCALE_ERROR {
         result.reasons.push(message.clone());
         result.verdict = Verdict::Rejected;
@@ -211,7 +211,8 @@ pub(super) fn judge_size(
     result.warnings.push(Warning::new(code, message));
 }
 
-fn size_message(session: &Session, (value, sigma): (f64, f64), used: bool) -> String {
+/// Of the session's target, which is `resized` times as large as the declared one.
+fn size_message(session: &Session, resized: f64, (value, sigma): (f64, f64), used: bool) -> String {
     let percent = (value - 1.0).abs() * 100.0;
     let sigma = sigma * 100.0;
     let Some(target) = &session.target else {
@@ -222,7 +223,7 @@ fn size_message(session: &Session, (value, sigma): (f64, f64), used: bool) -> St
         );
     };
     let which = if value > 1.0 { "larger" } else { "smaller" };
-    let declared = target.pitch_m() * 1e3 / if used { value } else { 1.0 };
+    let declared = target.pitch_m() * 1e3 / resized;
     let size = format!("{:.3} mm instead of {declared:.3} mm", declared * value);
     if (value - 1.0).abs() > MOST_SCALE_ERROR {
         let cause =
