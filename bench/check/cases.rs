@@ -10,10 +10,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::{
-    Camera, Pose, Session, Setup, Target,
-    simulate::{Cell, Random},
-};
+use handeye::{Camera, Pose, Session, Setup, Target, math::random::Random, simulate::Cell};
 use handeye_io::{
     Dataset, MANIFEST,
     checkup::{self, Explanation},

@@ -4,10 +4,9 @@ use std::{fs, path::Path};
 
 use handeye::{
     GrayImage, TargetModel,
-    simulate::{
-        Clutter, Conditions, Glare, Occlusion, Optics, Pattern, Random, Scene, Shape, TrueCorner,
-    },
-    target::AprilTagFamily,
+    math::random::Random,
+    model::target::AprilTagFamily,
+    simulate::{Clutter, Conditions, Glare, Occlusion, Optics, Pattern, Scene, Shape, TrueCorner},
 };
 use image::{ExtendedColorType, ImageEncoder, codecs::png};
 use serde_json::{Value, json};

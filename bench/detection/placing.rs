@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use handeye::{
-    Camera, Distortion, Intrinsics, Point, Pose, Target, TargetModel,
-    simulate::{Random, Scene},
+    Camera, Distortion, Intrinsics, Point, Pose, Target, TargetModel, math::random::Random,
+    simulate::Scene,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector2, Vector3};
 

@@ -2,8 +2,9 @@
 
 use handeye::{
     Mount, Point, Pose, Session, Setup, SurfaceCorner, detect,
-    predict::Volume,
-    simulate::{Cell, CellNoise, DepthSensor, Random, Truth, Viewing},
+    estimate::predict::Volume,
+    math::random::Random,
+    simulate::{Cell, CellNoise, DepthSensor, Truth, Viewing},
 };
 use nalgebra::{Isometry3, Rotation3, SVector, UnitQuaternion, Vector3};
 

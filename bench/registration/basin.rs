@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use handeye::{
-    Scan, Verdict, lie,
+    Scan, Verdict,
+    math::{lie, random::Random},
     register::{Dense, DenseConfig, register},
-    simulate::{Random, Room},
+    simulate::Room,
 };
 use nalgebra::{Isometry3, Point3, Vector3};
 use serde_json::{Value, json};

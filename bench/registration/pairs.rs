@@ -1,6 +1,6 @@
 //! The rigid fit of point pairs, beside the time that it takes to read them.
 
-use handeye::{register::rigid_fit, simulate::Random};
+use handeye::{math::random::Random, register::rigid_fit};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

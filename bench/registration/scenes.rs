@@ -7,10 +7,7 @@ use std::{
     path::Path,
 };
 
-use handeye::{
-    Intrinsics, Scan,
-    simulate::{Random, Room},
-};
+use handeye::{Intrinsics, Scan, math::random::Random, simulate::Room};
 use nalgebra::{Isometry3, Matrix4, Vector3};
 use serde_json::{Value, json};
 

@@ -3,8 +3,9 @@
 
 use handeye::{
     Calibration, Camera, Config, Mount, Pose, Session, Setup, Verdict, calibrate,
-    predict::{Volume, difference},
-    simulate::{Cell, CellNoise, DepthSensor, Mistake, Random, Truth, spoil},
+    estimate::predict::{Volume, difference},
+    math::random::Random,
+    simulate::{Cell, CellNoise, DepthSensor, Mistake, Truth, spoil},
 };
 
 /// Captures of a session, fewest and most.

@@ -2,7 +2,7 @@
 
 use handeye::{
     Calibration, Camera, Config, Mount, Pose, Setup, Verdict, calibrate,
-    predict::{Volume, difference},
+    estimate::predict::{Volume, difference},
     simulate::{Cell, DepthSensor, Truth},
 };
 

@@ -3,8 +3,9 @@
 use handeye::{
     Anchor, Base, Flange, HandEye, ImageCorner, Intrinsics, Mount, Observation, Placement, Point,
     Pose, Session, Setup, SurfaceCorner, TargetModel, TargetSize, detect,
+    math::random::Random,
     nalgebra::{Isometry3, Matrix3, Vector3},
-    simulate::{Cell, Random, Recording, Truth},
+    simulate::{Cell, Recording, Truth},
 };
 
 /// One systematic error.

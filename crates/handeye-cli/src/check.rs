@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use handeye::diagnose::explain::Score;
+use handeye::mistakes::explain::Score;
 use handeye_io::{
     MANIFEST,
     checkup::{self, Checkup, Explanation},

@@ -10,8 +10,9 @@ use clap::CommandFactory;
 use clap_complete::Shell;
 use handeye::{
     Calibration, Verdict, Warning,
-    calibration::{CaptureResult, Certificate},
-    findings, quaternion_xyzw,
+    calibrate::{findings, result::CaptureResult},
+    estimate::certify::Certificate,
+    quaternion_xyzw,
 };
 use serde::Serialize;
 

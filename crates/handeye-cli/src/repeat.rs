@@ -3,8 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use handeye::{
-    Calibration, Camera, Mount, Pose, Setup, calibration, quaternion_xyzw,
-    repeat::{Agreement, Repeat, Repetition, Scatter, repeat, scatter_at, scatter_of_rotation},
+    Calibration, Camera, Mount, Pose, Setup,
+    calibrate::result,
+    quaternion_xyzw,
+    tools::repeat::{
+        Agreement, Repeat, Repetition, Scatter, repeat, scatter_at, scatter_of_rotation,
+    },
 };
 use handeye_io::read_result;
 use nalgebra::Vector3;
@@ -64,7 +68,7 @@ struct Difference {
 #[derive(Serialize)]
 struct Combined {
     mount_from_camera: Pose<Mount, Camera>,
-    covariance: Option<calibration::Rows>,
+    covariance: Option<result::Rows>,
 }
 
 #[derive(Serialize)]
@@ -129,7 +133,7 @@ fn repetition(path: &Path, result: &Calibration) -> Result<Repetition, Failure> 
         let what = "holds no transform (the data did not determine it); leave it out";
         Failure::input(path, what)
     })?;
-    let covariance = result.hand_eye.covariance.mount_from_camera.as_ref().map(calibration::matrix);
+    let covariance = result.hand_eye.covariance.mount_from_camera.as_ref().map(result::matrix);
     Ok(Repetition { mount_from_camera, covariance })
 }
 
@@ -155,7 +159,7 @@ fn answer(
         name: first.name.clone(),
         combined: Combined {
             mount_from_camera: found.mean,
-            covariance: found.covariance.as_ref().map(calibration::rows),
+            covariance: found.covariance.as_ref().map(result::rows),
         },
         spread: Spread {
             camera_origin_mm: mm(&Vector3::zeros()),

@@ -1,6 +1,9 @@
 //! `handeye solve`: poses in, answer out.
 
-use handeye::{Calibration, Config, Method, Warning, certify::certify_result, findings};
+use handeye::{
+    Calibration, Config, Method, Warning,
+    calibrate::{certificate::certify_result, findings},
+};
 use handeye_io::read_poses;
 
 use crate::{

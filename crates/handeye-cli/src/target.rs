@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::{TargetModel, target::AprilTagFamily};
+use handeye::{TargetModel, model::target::AprilTagFamily};
 use handeye_io::{
     Problem,
     drawing::{self, DrawingError, Paper},

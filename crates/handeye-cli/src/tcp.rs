@@ -2,7 +2,7 @@
 
 use handeye::{
     Error, Verdict, Warning,
-    pivot::{self, Lengths, Pivot},
+    tools::pivot::{self, Lengths, Pivot},
 };
 use handeye_io::{RobotFile, RobotPoses, read_robot_poses};
 use nalgebra::{Matrix3, Vector3};

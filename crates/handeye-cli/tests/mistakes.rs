@@ -8,7 +8,7 @@ mod folder;
 use std::fs;
 
 use folder::{Folder, Run, handeye};
-use handeye::{Intrinsics, Setup, TargetModel, simulate::Cell, target::AprilTagFamily};
+use handeye::{Intrinsics, Setup, TargetModel, model::target::AprilTagFamily, simulate::Cell};
 use handeye_io::simulated::{self, ScanFormat, Writing};
 use serde_json::Value;
 

@@ -8,8 +8,9 @@ use std::fmt::Write;
 
 use folder::{Folder, handeye};
 use handeye::{
-    Intrinsics, Scan, lie,
-    simulate::{Random, Room, Solid, Thing},
+    Intrinsics, Scan,
+    math::{lie, random::Random},
+    simulate::{Room, Solid, Thing},
 };
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use serde_json::{Value, json};

@@ -7,10 +7,7 @@ mod folder;
 use std::fmt::Write;
 
 use folder::{Folder, handeye};
-use handeye::{
-    Intrinsics, Scan,
-    simulate::{Random, Room},
-};
+use handeye::{Intrinsics, Scan, math::random::Random, simulate::Room};
 use nalgebra::{Isometry3, Vector3};
 use serde_json::{Value, json};
 

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use handeye::{
-    Calibration, Config, Session, Setup, Verdict, Warning, calibrate, calibrate_moving,
-    calibration::SceneKind, findings, refine::noise::KnownNoise,
+    Calibration, Config, Session, Setup, Verdict, Warning, calibrate,
+    calibrate::{findings, result::SceneKind},
+    calibrate_moving,
+    estimate::noise::KnownNoise,
 };
 
 use crate::{

@@ -3,7 +3,8 @@
 //! once more as if it were a fault of its own.
 
 use handeye::{
-    Calibration, Intrinsics, Session, calibration::ScanResult, diagnose::flatness, linalg::median,
+    Calibration, Intrinsics, Session, calibrate::result::ScanResult, math::linalg::median,
+    mistakes::flatness,
 };
 
 /// Warnings that a cause explains, and their words beside it.

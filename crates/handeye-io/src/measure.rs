@@ -13,10 +13,10 @@ use std::{
 use handeye::{
     Camera, GrayImage, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
     SurfaceCorner, Target, TargetModel, TargetPose, Warning,
-    calibration::{ColourStepResult, SceneResult},
+    calibrate::result::{ColourStepResult, SceneResult},
     detect::{self, NotFound, sphere, surface},
-    intrinsics, lens,
-    linalg::median,
+    intrinsics::{self, lens},
+    math::linalg::median,
 };
 
 use crate::{

@@ -7,8 +7,8 @@ use std::{
 
 use handeye::{
     Base, Calibration, Camera, Config, Flange, Frame, Observation, Pose, Session, Setup, Stamped,
-    Streams, Target, calibrate_sequence, calibrate_streams, calibrate_unscaled, findings,
-    refine::KnownNoise, solve::FEWEST_POSES,
+    Streams, Target, calibrate::findings, calibrate_sequence, calibrate_streams,
+    calibrate_unscaled, estimate::KnownNoise, solve::FEWEST_POSES,
 };
 use serde::{
     Deserialize, Deserializer,

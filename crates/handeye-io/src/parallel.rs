@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-pub use handeye::parallel::in_order;
+pub use handeye::math::parallel::in_order;
 
 /// Pictures larger than this (pixels) are worked on by two threads at most: each takes some
 /// twenty bytes a pixel.

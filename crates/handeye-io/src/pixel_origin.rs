@@ -1,6 +1,6 @@
 //! Imported corners that lie half a pixel from where the given camera has them.
 
-use handeye::{ImageCorner, Intrinsics, TargetModel, Warning, pixel_origin};
+use handeye::{ImageCorner, Intrinsics, TargetModel, Warning, intrinsics::pixel_origin};
 
 use crate::PixelOrigin;
 

@@ -2,7 +2,7 @@
 
 use handeye::{
     Verdict,
-    calibration::{Rows, rows},
+    calibrate::result::{Rows, rows},
     quaternion_xyzw,
     register::{Dense, Stop},
 };

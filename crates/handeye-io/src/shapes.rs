@@ -11,9 +11,11 @@ use std::{
 
 use handeye::{
     Observation, Scan, Session, TargetPose,
-    calibration::{SceneKind, ScenePair, SceneResult},
-    register::{DenseConfig, Stop, Surface, register_surfaces},
-    scene::{self, Link, Placed},
+    calibrate::result::{SceneKind, ScenePair, SceneResult},
+    register::{
+        DenseConfig, Stop, Surface, register_surfaces,
+        scene::{self, Link, Placed},
+    },
 };
 use nalgebra::Isometry3;
 

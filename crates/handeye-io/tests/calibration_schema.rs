@@ -9,16 +9,22 @@ use std::{
 
 use handeye::{
     Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
-    calibration::{
-        Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BoardDeviation, BudgetEntry,
-        CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep, Certificate,
-        ColourStepResult, DepthResult, Determined, Diversity, FlatnessResult, FramesResult, Misfit,
-        Movement, MovementKind, PoseCovariance, Scale, ScanResult, SceneKind, ScenePair,
-        SceneResult, TipResult, TouchResult,
+    calibrate::{
+        findings::{Finding, Severity},
+        result::{
+            Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BoardDeviation, BudgetEntry,
+            CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep, ColourStepResult,
+            DepthResult, Determined, FlatnessResult, FramesResult, Movement, MovementKind,
+            PoseCovariance, Scale, ScanResult, SceneKind, ScenePair, SceneResult, TipResult,
+            TouchResult,
+        },
     },
-    findings::{Finding, Severity},
-    kinematics::{Arm, DhConvention, Joint, Parameter},
-    predict::{PredictedTre, TreMap, TreSlice},
+    estimate::{
+        certify::Certificate,
+        evaluate::{Diversity, Misfit},
+        predict::{PredictedTre, TreMap, TreSlice},
+    },
+    model::kinematics::{Arm, DhConvention, Joint, Parameter},
 };
 use nalgebra::{Isometry3, Vector3};
 use serde_json::Value;

@@ -7,7 +7,7 @@
 
 use std::path::{Path, PathBuf};
 
-use handeye::{Setup, linalg};
+use handeye::{Setup, math::linalg};
 use handeye_io::{Dataset, Error};
 use nalgebra::Vector3;
 

@@ -9,7 +9,7 @@ use std::{
 
 use handeye::{
     Config, Intrinsics, Setup, TargetModel, calibrate,
-    calibration::Verdict,
+    model::verdict::Verdict,
     simulate::{Cell, CellNoise, DepthSensor},
 };
 use handeye_io::{

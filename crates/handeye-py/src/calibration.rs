@@ -3,9 +3,10 @@
 use std::{collections::BTreeMap, path::PathBuf};
 
 use handeye::{
-    Calibration, Config, Observation, Pose, Session, Stamped, Streams, calibrate_sequence,
-    calibrate_streams, calibrate_unscaled, findings,
-    refine::{KnownPosition, noise::KnownNoise},
+    Calibration, Config, Observation, Pose, Session, Stamped, Streams,
+    calibrate::findings,
+    calibrate_sequence, calibrate_streams, calibrate_unscaled,
+    estimate::{KnownPosition, noise::KnownNoise},
 };
 use handeye_io::{
     Dataset,

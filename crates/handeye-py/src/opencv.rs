@@ -9,7 +9,11 @@ use std::collections::BTreeMap;
 
 use handeye::{
     Base, Calibration, Camera, Config, Flange, HandEye, Method, Mount, Observation, Pose, PosePair,
-    Session, Setup, Target, Verdict, calibrate_sequence, calibration, lie, linalg::median, solve,
+    Session, Setup, Target, Verdict,
+    calibrate::result,
+    calibrate_sequence,
+    math::{lie, linalg::median},
+    solve,
 };
 use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3};
 use numpy::PyArray2;
@@ -389,7 +393,7 @@ fn apart(calibration: &Calibration, found: &Pose<Mount, Camera>, metre: f64) -> 
     let answer = calibration.hand_eye.mount_from_camera?;
     let covariance = calibration.hand_eye.covariance.mount_from_camera?;
     let least = Matrix6::identity() * BEST * BEST;
-    let weight = (calibration::matrix(&covariance) + least).cholesky()?;
+    let weight = (result::matrix(&covariance) + least).cholesky()?;
     let off = answer.local(&found.farther(metre));
     let is_same = off.dot(&weight.solve(&off)) <= 6.0 * SAME * SAME;
     (!is_same).then(|| (lie::omega(&off).norm().to_degrees(), lie::nu(&off).norm()))

@@ -11,10 +11,11 @@ use std::{collections::BTreeMap, env};
 
 use handeye::{
     Base, Calibration, Camera, Config, Flange, Mount, Pose, Session, Setup, calibrate,
-    kinematics::Arm,
-    predict::Volume,
+    estimate::predict::Volume,
+    math::random::Random,
+    model::kinematics::Arm,
     register::rigid_fit::rigid_fit,
-    simulate::{ArmErrors, BuiltArm, Cell, CellNoise, DepthSensor, Random, Truth, Viewing},
+    simulate::{ArmErrors, BuiltArm, Cell, CellNoise, DepthSensor, Truth, Viewing},
 };
 use nalgebra::{Matrix3, Rotation3, Vector3};
 

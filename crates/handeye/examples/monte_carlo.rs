@@ -14,10 +14,12 @@ use std::{collections::BTreeMap, env};
 
 use handeye::{
     Calibration, Config, Mount, Pose, Session, calibrate,
-    calibration::matrix,
-    linalg::invert_spd,
-    predict::{Volume, difference, tre},
-    refine::KnownNoise,
+    calibrate::result::matrix,
+    estimate::{
+        KnownNoise,
+        predict::{Volume, difference, tre},
+    },
+    math::linalg::invert_spd,
 };
 use nalgebra::Vector3;
 use scenario::{SCENARIOS, Scenario, volume};

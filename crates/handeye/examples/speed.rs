@@ -13,13 +13,14 @@ use std::{env, fs, hint::black_box};
 
 use handeye::{
     Config, Pose, PosePair, Setup, TargetModel, calibrate,
-    refine::{
-        KnownNoise, View,
+    estimate::{
+        KnownNoise,
         extra::{TIP_PRIOR, tip},
         fit_joint, fit_views,
     },
-    simulate::{Cell, CellNoise, DepthSensor, Random},
-    solve::{Method, solve},
+    math::random::Random,
+    simulate::{Cell, CellNoise, DepthSensor},
+    solve::{Method, View, solve},
 };
 use nalgebra::{Isometry3, Vector3, Vector6};
 

@@ -27,7 +27,7 @@ use nalgebra::{
 };
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-use crate::lie;
+use crate::math::lie;
 
 /// A coordinate frame; its name is what files and Python see.
 pub trait Frame: 'static {

@@ -4,7 +4,7 @@
 
 use handeye::{
     Base, Calibration, Config, Flange, Pose, Session, Setup, calibrate,
-    kinematics::Arm,
+    model::kinematics::Arm,
     simulate::{ArmErrors, Cell, CellNoise, DepthSensor, Truth, Viewing},
 };
 use nalgebra::Vector3;

@@ -4,8 +4,9 @@
 
 use handeye::{
     Calibration, Config, LensSigma, Method, Setup, TargetSize, calibrate,
-    calibration::{Verdict, matrix},
-    linalg::invert_spd,
+    calibrate::result::matrix,
+    math::linalg::invert_spd,
+    model::verdict::Verdict,
     simulate::{Cell, CellNoise, DepthSensor, Truth},
 };
 

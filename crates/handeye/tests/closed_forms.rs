@@ -267,7 +267,7 @@ fn an_unknown_unit_of_the_camera_leaves_the_camera_in_its_place() {
 /// the eight equations of all.
 #[test]
 fn motions_near_a_half_turn_never_spoil_the_dual_quaternions() {
-    let mut random = handeye::simulate::Random::new(15);
+    let mut random = handeye::math::random::Random::new(15);
     let (mut worst, mut near) = (0.0f64, 0);
     for _ in 0..1000 {
         let truth = truth((random.normal3() * 0.8).into());

@@ -9,10 +9,12 @@ use std::collections::BTreeMap;
 
 use handeye::{
     Camera, Method, Mount, Pose, Session, Setup,
-    predict::{Volume, difference, tre},
-    refine::{JointFit, KnownNoise, fit_joint},
+    estimate::{
+        JointFit, KnownNoise, fit_joint,
+        predict::{Volume, difference, tre},
+        touches::{Registration, fit_touches, touch_rms},
+    },
     simulate::{Cell, DepthSensor, Truth, Viewing},
-    touches::{Registration, fit_touches, touch_rms},
 };
 use nalgebra::{Matrix6, Vector3};
 use problem::{pairs_of_touches, problem, start, start_turned};

@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 use handeye::{
     Base, Calibration, Camera, Config, Flange, Method, Observation, Point, Pose, Session, Setup,
     Target, TargetModel, Touch, Verdict, calibrate, calibrate_sequence,
-    refine::{KnownNoise, KnownPosition},
-    simulate::{Cell, Random},
+    estimate::{KnownNoise, KnownPosition},
+    math::random::Random,
+    simulate::Cell,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 

@@ -2,7 +2,7 @@
 
 use handeye::{
     Calibration, Pose, Setup, Verdict, Warning,
-    findings::{Severity, findings, reservation},
+    calibrate::findings::{Severity, findings, reservation},
     unjudged,
 };
 

@@ -6,12 +6,13 @@
 mod problem;
 
 use handeye::{
-    HandEye, Method, Setup, lie,
-    refine::{
+    HandEye, Method, Setup,
+    estimate::{
         Extra, ExtraKind, JointFit, KnownNoise, NoiseModel, Problem, Source, TouchedBoard,
         extra::{TIP_PRIOR, tip},
         fit_joint, joint,
     },
+    math::lie,
     simulate::{ArmErrors, Cell, DepthSensor},
 };
 use nalgebra::{DMatrix, DVector, Vector3, Vector6};
@@ -80,7 +81,7 @@ fn moved(fit: &JointFit, step: &DVector<f64>) -> (HandEye, Vector3<f64>) {
     (at, Vector3::from_fn(|k, _| fit.values[k] + step[12 + k]))
 }
 
-fn view_misfit(at: &HandEye, view: &handeye::refine::View, arm: &DVector<f64>) -> DVector<f64> {
+fn view_misfit(at: &HandEye, view: &handeye::solve::View, arm: &DVector<f64>) -> DVector<f64> {
     let HandEye { mount_from_camera, anchor_from_target } = *at;
     let anchor_from_mount = view.pair.anchor_from_mount.retract(&twist(view.by_arm.as_ref(), arm));
     let anchor_from_camera = anchor_from_mount * mount_from_camera;

@@ -4,10 +4,13 @@
 
 use handeye::{
     Base, Flange, HandEye, LensSigma, Pose, Session, Setup, TargetSize, calibrate,
-    plan::{self, ExpectedNoise, Setting},
-    predict::{Volume, difference},
-    refine::KnownNoise,
-    simulate::{Cell, DepthSensor, Random},
+    estimate::{
+        KnownNoise,
+        predict::{Volume, difference},
+    },
+    math::random::Random,
+    simulate::{Cell, DepthSensor},
+    tools::plan::{self, ExpectedNoise, Setting},
 };
 use nalgebra::Vector3;
 
@@ -148,8 +151,9 @@ fn the_promise_is_what_the_calibration_states() {
     let config = handeye::Config { known, ..handeye::Config::default() };
     let found = calibrate(&session, &config).unwrap();
     let covariance =
-        handeye::calibration::matrix(&found.hand_eye.covariance.mount_from_camera.unwrap());
-    let stated = handeye::predict::tre(&t.setting.volume, &covariance, |_| Vector3::zeros()).rms;
+        handeye::calibrate::result::matrix(&found.hand_eye.covariance.mount_from_camera.unwrap());
+    let stated =
+        handeye::estimate::predict::tre(&t.setting.volume, &covariance, |_| Vector3::zeros()).rms;
     let promised = t.predicted(&chosen);
     assert!((stated / promised - 1.0).abs() < 0.15, "{stated:.3} mm for {promised:.3} mm");
 }

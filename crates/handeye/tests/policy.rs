@@ -7,7 +7,7 @@
 #[path = "../../../bench/monte_carlo/scenario.rs"]
 mod scenario;
 
-use handeye::{Calibration, Camera, Config, Mount, Pose, calibrate, predict::difference};
+use handeye::{Calibration, Camera, Config, Mount, Pose, calibrate, estimate::predict::difference};
 use scenario::{BASE, Fault, SCENARIOS, Scenario, volume};
 
 fn named(name: &str) -> Scenario {

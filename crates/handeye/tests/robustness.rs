@@ -4,7 +4,8 @@
 
 use handeye::{
     Config, Session, Setup, Verdict, calibrate,
-    simulate::{Cell, Mistake, Random, spoil},
+    math::random::Random,
+    simulate::{Cell, Mistake, spoil},
 };
 
 #[path = "../../../bench/robustness/trial.rs"]

@@ -6,11 +6,13 @@ mod problem;
 
 use handeye::{
     Config, Error, Method, Session, Setup, Verdict, calibrate,
-    predict::{Volume, difference},
-    refine::KnownNoise,
+    estimate::{
+        KnownNoise,
+        predict::{Volume, difference},
+        touches::{Registration, fit_touches},
+    },
     register::IcpConfig,
     simulate::{Cell, Truth},
-    touches::{Registration, fit_touches},
 };
 use nalgebra::{Vector3, Vector6};
 use problem::{pairs_of_touches, start};

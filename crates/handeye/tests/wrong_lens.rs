@@ -3,10 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use handeye::{
-    Calibration, Config, LensSigma, Pose, Session, Setup, Verdict, calibrate,
-    camera::PARAMETERS,
-    detect,
-    predict::{Volume, difference},
+    Calibration, Config, LensSigma, Pose, Session, Setup, Verdict, calibrate, detect,
+    estimate::predict::{Volume, difference},
+    model::camera::PARAMETERS,
     simulate::{Cell, CellNoise, Truth},
 };
 use nalgebra::SVector;

@@ -6,7 +6,7 @@ use std::{fs, path::Path};
 
 use handeye::{
     Calibration, Verdict, Warning,
-    verify::{self, ChiSquare, LEAST_CHANCE, SHARE, Test, Touched, Verification, Within},
+    tools::verify::{self, ChiSquare, LEAST_CHANCE, SHARE, Test, Touched, Verification, Within},
 };
 use handeye_io::{
     read_result,

@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use handeye::{
-    Calibration, Flange, Mount, Pose, Session, Setup, TargetPose, Warning, calibration, touches,
-    verify::{self, ByPose, Sighting, Test, Touched},
+    Calibration, Flange, Mount, Pose, Session, Setup, TargetPose, Warning,
+    calibrate::result,
+    estimate::touches,
+    tools::verify::{self, ByPose, Sighting, Test, Touched},
 };
 use handeye_io::{Dataset, MANIFEST, TouchedPoint, measure, read_touched_points};
 use nalgebra::{Matrix3, Matrix6, Vector6};
@@ -26,8 +28,7 @@ fn robot_sigma(calibration: &Calibration) -> (f64, f64) {
 /// arm whose deviations it does not know.
 fn place_sigma(calibration: &Calibration) -> f64 {
     let tre = calibration.predicted_tre_mm.as_ref().map_or(0.0, |tre| tre.rms * 1e-3);
-    let by_arm =
-        if calibration.method == calibration::WITH_ARM { tre / 3.0f64.sqrt() } else { 0.0 };
+    let by_arm = if calibration.method == result::WITH_ARM { tre / 3.0f64.sqrt() } else { 0.0 };
     robot_sigma(calibration).1.max(by_arm)
 }
 
@@ -44,12 +45,7 @@ pub(super) fn test(
     };
     let mut test = Test {
         mount_from_camera,
-        covariance: calibration
-            .hand_eye
-            .covariance
-            .mount_from_camera
-            .as_ref()
-            .map(calibration::matrix),
+        covariance: calibration.hand_eye.covariance.mount_from_camera.as_ref().map(result::matrix),
         poses: vec![],
         touch_sigma: (args.touch_noise_mm * 1e-3).hypot(place_sigma(calibration)),
         touches: vec![],

@@ -1,6 +1,6 @@
 //! Which pictures become captures: one of each place where the robot stood still, or many of a robot in motion.
 
-use handeye::lie;
+use handeye::math::lie;
 use nalgebra::Vector6;
 
 use super::{

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use handeye::{
     Base, Flange, Pose,
-    streams::{Stamped, Stream},
+    calibrate::streams::{Stamped, Stream},
 };
 use nalgebra::Isometry3;
 
@@ -231,7 +231,7 @@ impl Robot {
         let Some(first) = poses.next() else { return false };
         poses.any(|pose| {
             let apart = first.base_from_flange.iso().inv_mul(pose.base_from_flange.iso());
-            handeye::lie::log(&apart).norm() > LEAST_MOTION
+            handeye::math::lie::log(&apart).norm() > LEAST_MOTION
         })
     }
 
@@ -366,8 +366,9 @@ fn motion(edge: &Edge, name: &str, bag: &Path) -> Result<Motion, Error> {
     // the last that was said holds, where it was said once for all
     let first = if edge.fixed { edge.samples[edge.samples.len() - 1].1 } else { edge.samples[0].1 };
     let limit = if edge.fixed { ROUNDING } else { SAME };
-    let stays =
-        |(_, pose): &(f64, Isometry3<f64>)| handeye::lie::log(&first.inv_mul(pose)).norm() < limit;
+    let stays = |(_, pose): &(f64, Isometry3<f64>)| {
+        handeye::math::lie::log(&first.inv_mul(pose)).norm() < limit
+    };
     if edge.samples.iter().all(stays) {
         return Ok(Motion::Fixed(first));
     }

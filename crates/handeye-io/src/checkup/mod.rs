@@ -11,7 +11,7 @@ use std::path::Path;
 
 use handeye::{
     Base, Flange, Pose, Session, Setup, Target, TargetModel, Warning,
-    diagnose::explain::{self, Diagnosis, Fault, Finding, Score},
+    mistakes::explain::{self, Diagnosis, Fault, Finding, Score},
     solve::consensus::Readings,
 };
 use nalgebra::{Isometry3, Vector3};

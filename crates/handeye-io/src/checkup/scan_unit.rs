@@ -1,6 +1,6 @@
 //! Whether the scans are in another unit than declared: they put the target so many times as far away as the images do.
 
-use handeye::{Session, SurfaceCorner, detect, linalg::median};
+use handeye::{Session, SurfaceCorner, detect, math::linalg::median};
 
 use super::{Change, Explanation, amend};
 use crate::{Dataset, measure::Measured, units::LengthUnit};

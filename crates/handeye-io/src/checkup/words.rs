@@ -2,7 +2,7 @@
 
 use handeye::{
     Setup,
-    diagnose::{
+    mistakes::{
         self, TargetScale,
         explain::{Fault, Order},
     },
@@ -65,7 +65,7 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
              them out"
         ),
         Fault::Scale(s) => match (&case.target, unit(s.value)) {
-            (Some(target), _) => diagnose::size_in_words(s, target),
+            (Some(target), _) => mistakes::size_in_words(s, target),
             (None, Some(units)) => format!(
                 "the target's poses count in another unit than the robot's: they are {:.4} times as large as they \
                  would be in its unit ({units})",

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use handeye::{
     AnswerFrame, Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics,
     LensSigma, Pose, Scan, Setup, Target, TargetModel, TargetSize, Touch, Warning, Workspace,
-    intrinsics::LensModel, kinematics::Arm, refine::KnownPosition,
+    estimate::KnownPosition, intrinsics::LensModel, model::kinematics::Arm,
 };
 use serde::Deserialize;
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use handeye::{
     AnswerFrame, Base, Camera, Flange, Intrinsics, LensSigma, Pose, Setup, Target, TargetModel,
-    TargetSize, Touch, Warning, Workspace, refine::KnownPosition,
+    TargetSize, Touch, Warning, Workspace, estimate::KnownPosition,
 };
 use nalgebra::Vector3;
 

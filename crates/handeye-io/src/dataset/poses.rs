@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use handeye::{Base, Camera, Flange, Pose, Target, Tool, Warning, kinematics::Arm};
+use handeye::{Base, Camera, Flange, Pose, Target, Tool, Warning, model::kinematics::Arm};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::manifest::{

@@ -7,7 +7,7 @@ mod svg;
 
 use handeye::{
     TargetModel,
-    target_art::{self, Art, Shape},
+    model::print::{self, Art, Shape},
 };
 
 pub use marked::{Marks, marked};
@@ -139,7 +139,7 @@ const LETTERS: f64 = 2.6;
 /// # Errors
 /// A target that does not fit; the message names the smallest paper that does.
 pub fn sheet(target: &TargetModel, paper: &Paper) -> Result<Sheet, DrawingError> {
-    let art = target_art::art(target)?;
+    let art = print::art(target)?;
     let needed = needed(&art);
     let Some(paper) = paper.around(needed) else { return Err(too_large(needed, paper)) };
     let left = 0.5 * (paper.width - art.width);

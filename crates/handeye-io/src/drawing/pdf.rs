@@ -1,6 +1,6 @@
 //! A sheet as a PDF of one page, all of it vectors.
 
-use handeye::target_art::Shape;
+use handeye::model::print::Shape;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
 use super::{Sheet, Text};

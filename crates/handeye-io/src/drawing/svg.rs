@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use handeye::target_art::Shape;
+use handeye::model::print::Shape;
 
 use super::Sheet;
 

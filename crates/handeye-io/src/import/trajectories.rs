@@ -5,7 +5,9 @@
 
 use std::path::{Path, PathBuf};
 
-use handeye::{Calibration, Config, Setup, Stamped, Verdict, calibrate_streams, linalg::median};
+use handeye::{
+    Calibration, Config, Setup, Stamped, Verdict, calibrate_streams, math::linalg::median,
+};
 
 use super::{
     Declared, Direction, Imported, declared, split,

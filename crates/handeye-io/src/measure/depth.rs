@@ -2,10 +2,10 @@
 
 use handeye::{
     SurfaceCorner, TargetModel, Warning,
-    calibration::{CaptureStep, ColourStepResult},
+    calibrate::result::{CaptureStep, ColourStepResult},
     detect::surface,
-    diagnose::flatness::{self, Felt},
-    linalg::median,
+    math::linalg::median,
+    mistakes::flatness::{self, Felt},
 };
 
 use super::{Seen, Shot};

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use handeye::{
     Calibration,
-    calibration::{ArmDeviation, ArmResult},
-    kinematics::Parameter,
+    calibrate::result::{ArmDeviation, ArmResult},
+    model::kinematics::Parameter,
     quaternion_xyzw,
 };
 

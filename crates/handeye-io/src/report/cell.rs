@@ -2,7 +2,7 @@
 
 use handeye::{
     Base, Calibration, Camera, Flange, Intrinsics, Point, Pose, Setup, Target, TargetModel,
-    calibration::CaptureResult,
+    calibrate::result::CaptureResult,
 };
 use nalgebra::Vector3;
 

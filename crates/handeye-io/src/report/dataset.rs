@@ -2,8 +2,7 @@
 
 use handeye::{
     Calibration, Observation, Session,
-    calibrate::{natural, relabelling},
-    calibration::CaptureResult,
+    calibrate::{natural, relabelling, result::CaptureResult},
 };
 
 use super::{MarkedCorner, Picture, Report, html};

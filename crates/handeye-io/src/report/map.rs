@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use handeye::predict::{TreMap, TreSlice};
+use handeye::estimate::predict::{TreMap, TreSlice};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 /// Size of the longer edge of a slice, units of the drawing.

@@ -22,8 +22,10 @@ use std::fmt::Write;
 
 use handeye::{
     Base, Calibration, Intrinsics, Point, Setup, TargetModel, Verdict,
-    calibration::{Candidate, CaptureResult},
-    findings::{self, Severity},
+    calibrate::{
+        findings::{self, Severity},
+        result::{Candidate, CaptureResult},
+    },
 };
 
 pub use dataset::{calibration_html, dataset_html};
@@ -411,7 +413,7 @@ fn touches(c: &Calibration) -> String {
             second: None,
         })
         .collect();
-    let row = |t: &handeye::calibration::TouchResult| {
+    let row = |t: &handeye::calibrate::result::TouchResult| {
         let d = t.difference_mm;
         format!(
             "<tr><td>{}</td><td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td></tr>",
@@ -461,7 +463,7 @@ fn budget(c: &Calibration) -> String {
         }
     }
     if !c.error_budget.is_empty() {
-        let row = |b: &handeye::calibration::BudgetEntry| {
+        let row = |b: &handeye::calibrate::result::BudgetEntry| {
             format!(
                 "<tr><td>{}</td><td class=\"words\">{}</td><td>{}</td></tr>",
                 escape(&b.source),
@@ -478,7 +480,7 @@ fn budget(c: &Calibration) -> String {
         );
     }
     if let (Some(now), false) = (&c.predicted_tre_mm, c.advice.is_empty()) {
-        let item = |a: &handeye::calibration::Advice| {
+        let item = |a: &handeye::calibrate::result::Advice| {
             let gain = (1.0 - a.predicted_tre_mm / now.rms).max(0.0) * 100.0;
             format!(
                 "<li>{}: <b>{:.2} mm</b> ({gain:.0} % less)</li>",

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use handeye::{
     Calibration,
-    calibration::{
+    calibrate::result::{
         BoardDeviation, ColourStepResult, FlatnessResult, FramesResult, SceneKind, ScenePair,
     },
 };
@@ -107,7 +107,7 @@ fn colour_step(step: &ColourStepResult) -> String {
 }
 
 fn flatness(f: &FlatnessResult) -> String {
-    let row = |c: &handeye::calibration::CaptureFlatness| {
+    let row = |c: &handeye::calibrate::result::CaptureFlatness| {
         format!(
             "<tr><td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td></tr>",
             super::escape(&c.id),

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use handeye::{
     Verdict,
-    verify::{ChiSquare, Verification, Within},
+    tools::verify::{ChiSquare, Verification, Within},
 };
 
 use super::{escape, judgement, page, plot, section, warnings};

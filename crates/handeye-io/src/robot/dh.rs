@@ -1,12 +1,12 @@
 //! The flange's pose from joint values, by Denavit-Hartenberg parameters.
 //!
-//! What the parameters mean is told in [`handeye::kinematics`].
+//! What the parameters mean is told in [`handeye::model::kinematics`].
 
 use std::path::Path;
 
 use handeye::{
     Base, FirstJoint, Flange, LastLink, Pose,
-    kinematics::{Arm, DhConvention, Joint},
+    model::kinematics::{Arm, DhConvention, Joint},
 };
 use serde::{Deserialize, de::IgnoredAny};
 

@@ -7,7 +7,7 @@ use std::{collections::BTreeMap, path::Path};
 
 use handeye::{
     Pose,
-    kinematics::{Arm, Axis, MOST_JOINTS},
+    model::kinematics::{Arm, Axis, MOST_JOINTS},
 };
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};

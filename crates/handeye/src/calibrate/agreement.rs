@@ -5,12 +5,13 @@ use nalgebra::Vector3;
 use super::{Config, Session, doubt, gate, movement, rejected};
 use crate::{
     Error, Observation, Pose, PosePair, Target, Warning,
-    calibration::{Calibration, CaptureResult, Verdict},
-    diagnose::{self, Convention},
-    evaluate,
-    linalg::median,
-    refine::View,
+    calibrate::result::{Calibration, CaptureResult},
+    estimate::evaluate,
+    math::linalg::median,
+    mistakes::{self, Convention},
+    model::verdict::Verdict,
     solve::{
+        View,
         consensus::{self, Consensus, Readings},
         motions,
     },
@@ -61,7 +62,7 @@ pub(super) struct Captures<'a> {
 impl Captures<'_> {
     /// One capture as the fits see it: pose and covariance moved to the target's first corner.
     pub fn view(&self, i: usize, reading: usize) -> View {
-        let carry = crate::lie::adjoint(self.target_from_corner.inverse().iso());
+        let carry = crate::math::lie::adjoint(self.target_from_corner.inverse().iso());
         let covariance = self.session.observations[i].candidates[reading].covariance;
         View {
             pair: self.pair(i, reading),
@@ -120,8 +121,8 @@ const ROUNDING: f64 = 1e-7;
 /// In words. Robot poses inverted, target poses inverted, and the other setup can explain the same
 /// data equally well; target poses from our own detection are not in doubt.
 fn inversion(
-    explaining: &[&diagnose::Evidence],
-    best: &diagnose::Evidence,
+    explaining: &[&mistakes::Evidence],
+    best: &mistakes::Evidence,
     bare: bool,
 ) -> (&'static str, &'static str) {
     let alike = |c: Convention| {
@@ -152,9 +153,9 @@ fn suspect_conventions(
     found: Option<&Consensus>,
     result: &mut Calibration,
 ) {
-    let all = diagnose::conventions(readings, found);
+    let all = mistakes::conventions(readings, found);
     let declared = all.iter().find(|e| e.convention == Convention::AsDeclared).copied();
-    let better = |e: &&diagnose::Evidence| {
+    let better = |e: &&mistakes::Evidence| {
         e.convention != Convention::AsDeclared
             && (bare || e.convention != Convention::TargetInverted)
             && 2 * e.agree > readings.len()
@@ -166,7 +167,7 @@ fn suspect_conventions(
                     && e.median_rad < 1.2 * d.median_rad + 1e-3
             })
     };
-    let explaining: Vec<&diagnose::Evidence> = all.iter().filter(better).collect();
+    let explaining: Vec<&mistakes::Evidence> = all.iter().filter(better).collect();
     let Some(best) = explaining.iter().min_by(|a, b| a.median_m.total_cmp(&b.median_m)) else {
         return;
     };

@@ -21,7 +21,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::{
     PosePair,
-    refine::{ExtraKind, JointFit, Problem},
+    estimate::{ExtraKind, JointFit, Problem},
 };
 
 /// What arms do to such a variance before anything is seen of one, and how many groups that is worth.
@@ -105,8 +105,9 @@ mod tests {
         Anchor, Camera, HandEye, Mount, Pose, Setup, Target,
         calibrate::prior::SIZE,
         detect::sight::{CAMERA, Sight, TARGET_SCALE},
-        refine::{self, Extra, KnownNoise, View},
-        simulate::Random,
+        estimate::{self, Extra, KnownNoise},
+        math::random::Random,
+        solve::View,
     };
 
     const ROBOT: f64 = 3e-4;
@@ -156,7 +157,7 @@ mod tests {
     fn mean_excess(alike: f64) -> f64 {
         let of = |seed| {
             let (problem, start) = problem(alike, seed);
-            let fit = refine::fit_joint(&problem, &start, &KnownNoise::default()).unwrap();
+            let fit = estimate::fit_joint(&problem, &start, &KnownNoise::default()).unwrap();
             excess(&problem, &fit, |kind| kind == SIZE)
         };
         (0..30).map(of).sum::<f64>() / 30.0
@@ -187,7 +188,7 @@ mod tests {
     fn few_captures_say_nothing_of_it() {
         let (mut problem, start) = problem(0.0, 2);
         problem.views.truncate(5);
-        let fit = refine::fit_joint(&problem, &start, &KnownNoise::default()).unwrap();
+        let fit = estimate::fit_joint(&problem, &start, &KnownNoise::default()).unwrap();
         assert_eq!(excess(&problem, &fit, |kind| kind == SIZE), BEFOREHAND.0);
     }
 }

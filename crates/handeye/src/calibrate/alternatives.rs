@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     Error, HandEye,
-    refine::{self, JointFit, KnownNoise, Problem},
+    estimate::{self, JointFit, KnownNoise, Problem},
 };
 
 /// A component of less weight than this changes neither mean nor covariance.
@@ -64,22 +64,22 @@ impl Alternatives {
     /// Fits the problem under every component.
     ///
     /// # Errors
-    /// As [`refine::fit_joint`].
+    /// As [`estimate::fit_joint`].
     pub(super) fn fit(
         &self,
         problem: &Problem,
         start: &HandEye,
         known: &KnownNoise,
     ) -> Result<Averaged, Error> {
-        self.average(problem, |problem| refine::fit_joint(problem, start, known))
+        self.average(problem, |problem| estimate::fit_joint(problem, start, known))
     }
 
     /// The same from an answer that is near.
     pub(super) fn refit(&self, problem: &Problem, near: &JointFit, known: &KnownNoise) -> Averaged {
-        let fitted = |p: &Problem| Ok(refine::joint::refit(p, near, known));
+        let fitted = |p: &Problem| Ok(estimate::joint::refit(p, near, known));
         self.average(problem, fitted).unwrap_or_else(|_: Error| Averaged {
             problem: problem.clone(),
-            fit: refine::joint::refit(problem, near, known),
+            fit: estimate::joint::refit(problem, near, known),
             as_declared: NO_DOUBT,
         })
     }
@@ -106,7 +106,7 @@ impl Alternatives {
         for component in components {
             // what is as good as `excess` times less data is, in the unknowns, a prior that much tighter
             let tight = component.tightened(excess).applied(problem);
-            let mut found = refine::joint::refit_under_noise_of(&tight, &reference);
+            let mut found = estimate::joint::refit_under_noise_of(&tight, &reference);
             let evidence = found.log_likelihood + for_unknown_noise(&found, &reference, excess);
             let problem = component.applied(problem);
             found.extras.clone_from(&problem.extras);

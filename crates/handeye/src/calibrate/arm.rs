@@ -10,11 +10,10 @@ use nalgebra::{DMatrix, DVector};
 use super::{Config, agreement::Views, joint::held_out_views};
 use crate::{
     HandEye, Observation, Pose, Setup, Touch, Warning,
-    calibration::{ArmDeviation, ArmHeldOut, ArmResult, Calibration},
-    evaluate,
-    kinematics::{Arm, Deviation},
-    lie,
-    refine::{Extra, ExtraKind, JointFit, Problem, Source, joint},
+    calibrate::result::{ArmDeviation, ArmHeldOut, ArmResult, Calibration},
+    estimate::{Extra, ExtraKind, JointFit, Problem, Source, evaluate, joint},
+    math::lie,
+    model::kinematics::{Arm, Deviation},
 };
 
 /// The fit in which the arm deviates from its model.
@@ -342,7 +341,7 @@ impl ArmFit {
     }
 
     fn tip_offset_mm(&self) -> Option<[f64; 3]> {
-        let in_flange = |b: &crate::refine::TouchedBoard| {
+        let in_flange = |b: &crate::estimate::TouchedBoard| {
             b.corners.iter().all(|c| c.base_from_flange.is_some())
         };
         let touched = !self.problem.boards.is_empty() && self.problem.boards.iter().all(in_flange);

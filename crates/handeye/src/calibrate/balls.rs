@@ -12,14 +12,16 @@ use super::{
 };
 use crate::{
     Camera, Mount, Observation, Pose, PosePair, Warning,
-    calibration::{
-        Answer, BudgetEntry, Calibration, Candidate, Misfit, PoseCovariance, Verdict, rows,
+    calibrate::result::{Answer, BudgetEntry, Calibration, Candidate, PoseCovariance, rows},
+    estimate::{
+        evaluate::{self, Misfit},
+        predict::{self, PredictedTre, Volume},
+        touches,
     },
-    diagnose, evaluate,
-    linalg::median,
-    predict::{self, PredictedTre, Volume},
+    math::linalg::median,
+    mistakes,
+    model::verdict::Verdict,
     solve::points::{self, PointFit, PointView},
-    touches,
 };
 
 /// Name of the method.
@@ -125,8 +127,8 @@ fn conclude(
     let factor = touches::small_sample(fit.degrees_of_freedom);
     let covariance = fit.covariance * factor;
     let own: Matrix6<f64> = covariance.fixed_view::<6, 6>(0, 0).into_owned();
-    let free = diagnose::free_of(&own, &fit.mount_from_camera.rotation());
-    result.undetermined.extend(diagnose::in_words(&free, &pairs, session.setup));
+    let free = mistakes::free_of(&own, &fit.mount_from_camera.rotation());
+    result.undetermined.extend(mistakes::in_words(&free, &pairs, session.setup));
     if !free.is_empty() {
         result.determined = Some(verdict::determined(&fit.mount_from_camera, &free));
     }
@@ -253,7 +255,7 @@ mod tests {
     use nalgebra::{Matrix3, Rotation3};
 
     use super::*;
-    use crate::{Point, Setup, SurfaceCorner, TargetModel, calibrate, simulate::Random};
+    use crate::{Point, Setup, SurfaceCorner, TargetModel, calibrate, math::random::Random};
 
     const COUNT: usize = 64;
     /// Scatter of the robot's positions, m.

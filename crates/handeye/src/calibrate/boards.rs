@@ -8,8 +8,9 @@ use super::{
 use crate::{
     Placement, Pose, PosePair, Setup, Target, TargetModel, Touch,
     detect::sight::by_shape,
-    lie,
-    refine::{JointFit, TouchedBoard, TouchedCorner, View},
+    estimate::{JointFit, TouchedBoard, TouchedCorner},
+    math::lie,
+    solve::View,
 };
 
 /// Boards with their touches, and which touch of the session each corner is.

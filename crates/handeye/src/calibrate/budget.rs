@@ -8,8 +8,8 @@ use nalgebra::DMatrix;
 
 use super::workpiece::Workpiece;
 use crate::{
-    calibration::{Advice, BudgetEntry},
-    refine::{JointFit, NoiseModel, Problem, Sigma, noise::Source},
+    calibrate::result::{Advice, BudgetEntry},
+    estimate::{JointFit, NoiseModel, Problem, Sigma, noise::Source},
 };
 
 /// Every source of error with its size and its part in the error at the workpiece.

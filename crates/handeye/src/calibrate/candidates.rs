@@ -21,15 +21,18 @@ use super::{
 };
 use registered::stored_registration;
 
+use crate::solve::View;
 use crate::{
     Camera, HandEye, Mount, Pose, PosePair, Warning,
-    calibration::{Answer, Calibration, Candidate, PoseCovariance, WITH_ARM, rows},
-    diagnose,
-    evaluate::{self, Estimator},
-    predict::{self, Volume},
-    refine::{self, JointFit, Problem, pose_fit::Matrix12},
-    solve::{self, Method, consensus::Consensus},
-    touches::{self, TouchPairs},
+    calibrate::result::{Answer, Calibration, Candidate, PoseCovariance, WITH_ARM, rows},
+    estimate::{
+        self, JointFit, Problem,
+        evaluate::{self, Estimator},
+        predict::{self, Volume},
+        touches::{self, TouchPairs},
+    },
+    mistakes,
+    solve::{self, Method, consensus::Consensus, least_squares::Matrix12},
 };
 
 /// Makes and judges all candidates, chooses one, and reports the touches. With the views comes the
@@ -167,15 +170,15 @@ fn right_touches(
 /// Names what the best answer leaves free, and what views alone would have.
 fn name_free(views: &Views, fit: &JointFit, best: &JointFit, result: &mut Calibration) {
     let (setup, pairs) = (views.session.setup, pairs_of(views));
-    let free = diagnose::free_directions(best);
-    result.undetermined.extend(diagnose::in_words(&free, &pairs, setup));
+    let free = mistakes::free_directions(best);
+    result.undetermined.extend(mistakes::in_words(&free, &pairs, setup));
     if !free.is_empty() {
         result.determined = Some(verdict::determined(&best.hand_eye.mount_from_camera, &free));
         return;
     }
-    let by_views = diagnose::free_directions(fit);
+    let by_views = mistakes::free_directions(fit);
     if !by_views.is_empty() {
-        let what = diagnose::in_words(&by_views, &pairs, setup).join(", ");
+        let what = mistakes::in_words(&by_views, &pairs, setup).join(", ");
         result.warnings.push(Warning::new(
             "determined-by-touches",
             format!(
@@ -217,9 +220,8 @@ fn blocks(covariance: &Matrix12) -> (Matrix6<f64>, Matrix6<f64>) {
 }
 
 /// The views where a fit's camera puts them.
-pub(super) fn as_fitted(fit: &JointFit, views: &[refine::View]) -> Vec<refine::View> {
-    let moved =
-        |v: &refine::View| refine::View { pair: v.with(&fit.extras, &fit.values), ..v.clone() };
+pub(super) fn as_fitted(fit: &JointFit, views: &[View]) -> Vec<View> {
+    let moved = |v: &View| View { pair: v.with(&fit.extras, &fit.values), ..v.clone() };
     views.iter().map(moved).collect()
 }
 
@@ -227,7 +229,7 @@ pub(super) fn as_fitted(fit: &JointFit, views: &[refine::View]) -> Vec<refine::V
 struct Judge<'a> {
     views: &'a Views<'a>,
     paired: &'a [TouchPairs],
-    known: refine::KnownNoise,
+    known: estimate::KnownNoise,
     workpiece: &'a Workpiece<'a>,
 }
 
@@ -365,7 +367,7 @@ impl Judge<'_> {
 
 /// The answer for files: about the target's own origin again.
 pub(super) fn stored(views: &Views, answer: &HandEye, covariance: Option<&Matrix12>) -> Answer {
-    let carry = crate::lie::adjoint(views.target_from_corner.iso());
+    let carry = crate::math::lie::adjoint(views.target_from_corner.iso());
     let moved = answer.retarget(views.target_from_corner.inverse());
     Answer {
         mount_from_camera: Some(moved.mount_from_camera),

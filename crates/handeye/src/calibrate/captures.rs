@@ -4,14 +4,17 @@ use super::{Session, agreement::Views, joint::Joint};
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
     TargetPose, Touch, Warning,
-    calibration::{Calibration, TouchResult},
+    calibrate::result::{Calibration, TouchResult},
     detect::{
         self,
         sight::{Sight, TARGET_SCALE},
     },
-    evaluate, lie,
-    refine::{JointFit, View},
-    touches::{self, TouchPairs},
+    estimate::{
+        JointFit, evaluate,
+        touches::{self, TouchPairs},
+    },
+    math::lie,
+    solve::View,
 };
 
 /// Which symmetry of the board the chosen pose stands for: the one that brings the corners of the
@@ -192,7 +195,7 @@ pub(super) fn own_pose(v: &View, views: &Views) -> Pose<Camera, Target> {
 pub(super) fn report_captures(views: &Views, result: &mut Calibration) {
     let Some(answer) = answer(result, views) else { return };
     for (v, &i) in views.views.iter().zip(&views.indices) {
-        let (angle, distance) = evaluate::loop_misfit(&answer, &v.pair);
+        let (angle, distance) = answer.loop_misfit(&v.pair);
         let capture = &mut result.captures[i];
         capture.camera_from_target = Some(own_pose(v, views));
         capture.residual_deg = Some(angle.to_degrees());

@@ -3,13 +3,13 @@
 use super::agreement::Captures;
 use crate::{
     HandEye, PosePair, TargetModel, Warning,
-    calibration::{Calibration, Scale, Verdict},
-    diagnose::{
+    calibrate::result::{Calibration, Scale},
+    math::linalg::median,
+    mistakes::{
         self, TargetScale,
         explain::{self, Fault, Order},
     },
-    evaluate,
-    linalg::median,
+    model::verdict::Verdict,
     solve::consensus::{self, Consensus, Readings},
 };
 
@@ -133,7 +133,7 @@ pub(super) fn suspect_size(
         _ => None,
     });
     let Some(size) = size else { return false };
-    let message = diagnose::size_in_words(&size, target);
+    let message = mistakes::size_in_words(&size, target);
     let TargetScale { value, sigma, .. } = size;
     result.target_scale = Some(Scale { value, sigma, used: false });
     result.reasons.insert(0, message.clone());
@@ -154,7 +154,7 @@ fn agrees_well(readings: &[Readings], found: &Consensus) -> bool {
             let anchor_from_mount = readings[i].anchor_from_mount;
             let camera_from_target = readings[i].camera_from_target[found.reading[i]];
             let pair = PosePair { anchor_from_mount, camera_from_target };
-            evaluate::loop_misfit(&found.hand_eye, &pair)
+            found.hand_eye.loop_misfit(&pair)
         })
         .unzip();
     2 * angles.len() > readings.len()

@@ -9,8 +9,8 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::{Config, agreement::Captures, masked::masked};
 use crate::{
-    refine::{self, JointFit, View},
-    solve::{FEWEST_POSES, consensus::Consensus},
+    estimate::{self, JointFit},
+    solve::{FEWEST_POSES, View, consensus::Consensus},
 };
 
 /// Chance of a capture as far off as it is below which it stays out.
@@ -55,7 +55,7 @@ fn fit_of(
     config: &Config,
 ) -> Option<JointFit> {
     let views: Vec<View> = used.iter().map(|&i| captures.view(i, found.reading[i])).collect();
-    refine::fit_views(&views, &found.hand_eye, &config.known, captures.session.setup).ok()
+    estimate::fit_views(&views, &found.hand_eye, &config.known, captures.session.setup).ok()
 }
 
 /// Lets captures in, in their best reading, that are no surprise.
@@ -108,7 +108,7 @@ fn unmask(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &C
     let setup = captures.session.setup;
     let hidden = masked(&views, fit, setup, |part| {
         let part: Vec<View> = part.iter().map(|&k| views[k].clone()).collect();
-        refine::fit_views(&part, &found.hand_eye, &config.known, setup).ok()
+        estimate::fit_views(&part, &found.hand_eye, &config.known, setup).ok()
     });
     hidden.iter().for_each(|&k| found.agrees[used[k]] = false);
     !hidden.is_empty()

@@ -12,13 +12,14 @@ use super::{
 };
 use crate::{
     TargetModel, Warning,
-    calibration::{Calibration, TipResult},
-    chance, evaluate,
-    refine::{
-        Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, View,
+    calibrate::result::{Calibration, TipResult},
+    estimate::{
+        Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, evaluate,
         extra::{SYSTEMATIC, TIP_PRIOR, systematic, tip},
         joint,
     },
+    math::statistics,
+    solve::View,
 };
 
 /// What views and touches say together.
@@ -112,7 +113,7 @@ fn free_wrong_tip(
     let fixed = joint::refit(&without, fit, known);
     let (h, g) = score(&without, &fixed, &tip(TIP_PRIOR))?;
     let (d2, rank) = significance(&h, &g);
-    let p_value = chance::of_chi_square(d2, rank);
+    let p_value = statistics::of_chi_square(d2, rank);
     let (h_systematic, g_systematic) = score(&without, &fixed, &systematic(1.0))?;
     let as_systematic = most_gain(&h_systematic, &g_systematic, &STRENGTHS);
     if p_value > WRONG_TIP || most_gain(&h, &g, &TIP_SIZES) < as_systematic {
@@ -164,7 +165,7 @@ fn leave_out_wrong(
         let refitted = joint::refit(&without, fit, known);
         let Some(d2) = refitted.surprise_of_touch(&without, &alone) else { return left_out };
         let dof = 3.0 * (count as f64 - 1.0);
-        let p = chance::of_f(d2 / 3.0, (3.0, dof));
+        let p = statistics::of_f(d2 / 3.0, (3.0, dof));
         if p * count as f64 > IMPROBABLE_TOUCH {
             return left_out;
         }
@@ -210,7 +211,7 @@ fn most_gain(h: &DMatrix<f64>, g: &DVector<f64>, sizes: &[f64]) -> f64 {
 fn conflict(problem: &Problem, fit: &JointFit, explained: bool) -> Option<Conflict> {
     let (h, g) = score(problem, fit, &systematic(1.0))?;
     let (d2, rank) = significance(&h, &g);
-    let p_value = chance::of_chi_square(d2, rank);
+    let p_value = statistics::of_chi_square(d2, rank);
     let gains = STRENGTHS.map(|s| gain(&h, &g, s));
     let best = (0..gains.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b]))?;
     // a tip that had to be found leaves little that could tell a second difference from noise
@@ -409,7 +410,7 @@ pub(super) fn held_out_views(
         let refitted = joint::refit(&Problem { views: rest, ..problem.clone() }, fit, known);
         for i in fold {
             let pair = views[i].with(&refitted.extras, &refitted.values);
-            found[i] = Some(evaluate::loop_misfit(&refitted.hand_eye, &pair));
+            found[i] = Some(refitted.hand_eye.loop_misfit(&pair));
         }
     }
     found

@@ -6,9 +6,9 @@ use super::{
 };
 use crate::{
     Warning,
-    calibration::Calibration,
-    diagnose,
-    refine::{self, JointFit, Problem},
+    calibrate::result::Calibration,
+    estimate::{self, JointFit, Problem},
+    mistakes,
 };
 
 /// Squared distance in standard deviations at which a known position contradicts the data.
@@ -19,18 +19,18 @@ pub(super) fn judge(
     whole: &Problem,
     best: &JointFit,
     views: &Views,
-    known_noise: &refine::KnownNoise,
+    known_noise: &estimate::KnownNoise,
     result: &mut Calibration,
 ) {
     let Some(known) = &whole.known_position else { return };
     let without = Problem { known_position: None, ..whole.clone() };
-    let fit = refine::joint::refit(&without, best, known_noise);
+    let fit = estimate::joint::refit(&without, best, known_noise);
     let (pairs, setup) = (pairs_of(views), views.session.setup);
-    let free = diagnose::free_directions(&fit);
+    let free = mistakes::free_directions(&fit);
     let x = &fit.hand_eye.mount_from_camera;
     let off = known.axis.dot(&x.translation()) - known.value_m;
     if !free.is_empty() {
-        let what = diagnose::in_words(&free, &pairs, setup).join(", ");
+        let what = mistakes::in_words(&free, &pairs, setup).join(", ");
         result.warnings.push(Warning::new(
             "determined-by-known-position",
             format!(

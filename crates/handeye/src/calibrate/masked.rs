@@ -14,10 +14,7 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::gate::{IMPROBABLE, surprise_limit};
-use crate::{
-    Setup,
-    refine::{JointFit, View},
-};
+use crate::{Setup, estimate::JointFit, solve::View};
 
 /// Part of the captures that the search starts from.
 const BEST_PART: f64 = 0.6;

@@ -19,7 +19,9 @@ mod boards;
 mod budget;
 mod candidates;
 mod captures;
+pub mod certificate;
 mod doubt;
+pub mod findings;
 mod gate;
 mod joint;
 mod known_position;
@@ -35,10 +37,14 @@ mod reach;
 mod refined;
 mod rejected;
 pub(crate) mod repeated;
+pub mod result;
 mod scans;
+pub mod sequence;
 pub(crate) mod settle;
 mod sources;
+pub mod streams;
 pub(crate) mod unknown;
+pub mod unscaled;
 mod verdict;
 mod workpiece;
 mod wrong_touches;
@@ -46,12 +52,11 @@ mod wrong_touches;
 use crate::{
     Camera, Correspondence, Error, Intrinsics, Mount, Observation, Placement, Pose, Setup,
     TargetModel, Touch, Workspace,
-    calibration::{Answer, Calibration, Misfit, UNJUDGED, Verdict},
-    kinematics::Arm,
-    refine::{KnownPosition, noise::KnownNoise},
+    calibrate::result::{Answer, Calibration, UNJUDGED},
+    estimate::{KnownPosition, evaluate::Misfit, noise::KnownNoise, touches},
+    model::{kinematics::Arm, verdict::Verdict},
     register::IcpConfig,
     solve::Method,
-    touches,
 };
 
 pub use captures::relabelling;

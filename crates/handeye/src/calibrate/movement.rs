@@ -25,11 +25,11 @@ use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vec
 use super::{Session, agreement::Captures, gate::IMPROBABLE};
 use crate::{
     Anchor, Calibration, Mount, Pose, Setup, Verdict, Warning,
-    calibration::{CaptureResult, Movement, MovementKind, matrix, rows},
-    chance, lie,
-    refine::{JointFit, pose_fit},
+    calibrate::result::{CaptureResult, Movement, MovementKind, matrix, rows},
+    estimate::JointFit,
+    math::{lie, statistics},
     register::rigid_fit::point_jacobian,
-    solve::consensus::Consensus,
+    solve::{consensus::Consensus, least_squares},
 };
 
 /// Fewest captures one after the other that are a block.
@@ -159,7 +159,7 @@ fn of_camera(rows: &[Used]) -> Option<Matrix6<f64>> {
 
 fn row(captures: &Captures, fit: &JointFit, i: usize, reading: usize) -> Option<Row> {
     let view = captures.view(i, reading);
-    let (r, j) = pose_fit::misfit_with_jacobian(&fit.hand_eye, &view.pair);
+    let (r, j) = least_squares::misfit_with_jacobian(&fit.hand_eye, &view.pair);
     let covariance = fit.noise.covariance(&view, &fit.hand_eye, captures.session.setup);
     let root = Cholesky::new(covariance)?.l();
     Some(Row {
@@ -239,7 +239,8 @@ fn common(rows: &[&Row], side: Side, recorded: &Recorded) -> Option<Vector6<f64>
     let delta = -(Cholesky::new(normal)?.solve(&right));
     let left: f64 = rows.iter().map(|r| (r.residual + r.by(side) * delta).norm_squared()).sum();
     let equations = (recorded.equations * (rows.len() - 1)) as f64;
-    let chance = chance::of_f(left / equations, (equations, recorded.degrees_of_freedom.max(1.0)));
+    let chance =
+        statistics::of_f(left / equations, (equations, recorded.degrees_of_freedom.max(1.0)));
     (chance > IMPROBABLE).then_some(delta)
 }
 

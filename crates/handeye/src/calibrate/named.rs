@@ -3,9 +3,9 @@
 
 use super::{Config, agreement::Views, candidates, joint, verdict};
 use crate::{
-    calibration::{Calibration, Verdict},
-    evaluate,
-    refine::JointFit,
+    calibrate::result::Calibration,
+    estimate::{JointFit, evaluate},
+    model::verdict::Verdict,
     solve,
 };
 

@@ -1,7 +1,7 @@
 //! The offset between the frames of images and scans, found before the robot has its say.
 //!
 //! The board's plane in image and scan tells rotation and shift from one frame to the other
-//! ([`crate::diagnose::frames`]), `scan_from_image = D`. Scans are then brought into the frame of the images, so that
+//! ([`crate::mistakes::frames`]), `scan_from_image = D`. Scans are then brought into the frame of the images, so that
 //! both are fused, and the answer for the scans is
 //!
 //! ```text
@@ -16,12 +16,11 @@ use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3};
 use super::{AnswerFrame, Session, scans::seen_planes};
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Mount, Pose, SurfaceCorner, TargetPose, Warning,
-    calibration::{matrix, rows},
+    calibrate::result::{matrix, rows},
     detect,
-    diagnose::frames::{Frames, Part, frames},
-    lie,
-    linalg::median,
-    predict,
+    estimate::predict,
+    math::{lie, linalg::median},
+    mistakes::frames::{Frames, Part, frames},
 };
 
 /// Offsets that move no point of the target by more than this are none, m.

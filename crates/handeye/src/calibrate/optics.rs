@@ -18,8 +18,7 @@ use super::{
 use crate::{
     Camera, ImageCorner, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel,
     Warning,
-    calibration::{Calibration, CameraResult, DepthResult},
-    camera::PARAMETERS,
+    calibrate::result::{Calibration, CameraResult, DepthResult},
     detect::{
         self,
         sight::{
@@ -27,8 +26,10 @@ use crate::{
             corrected, lifted_again,
         },
     },
-    refine::{Extra, ExtraKind, JointFit, View},
+    estimate::{Extra, ExtraKind, JointFit},
+    model::camera::PARAMETERS,
     register::rigid_fit::point_jacobian,
+    solve::View,
 };
 
 /// What of camera and depth is free, and how far it has moved from what was given.
@@ -329,7 +330,7 @@ pub(super) fn with_sights(views: &Views) -> Vec<View> {
         let own = captures::own_pose(v, views);
         let map = captures::relabelling(o, &own, target);
         let sight = sight_of(o, &map, target, camera, excess, &own);
-        let carry = crate::lie::adjoint(views.target_from_corner.inverse().iso());
+        let carry = crate::math::lie::adjoint(views.target_from_corner.inverse().iso());
         View { sight: sight.map(|s| s.carried(&carry).into()), ..v.clone() }
     };
     views.used.iter().zip(&views.views).map(one).collect()

@@ -16,7 +16,11 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::{Session, repeated::Uncounted};
-use crate::{Calibration, HandEye, Observation, PosePair, chance, lie, refine::pose_fit};
+use crate::{
+    Calibration, HandEye, Observation, PosePair,
+    math::{lie, statistics},
+    solve::least_squares,
+};
 
 /// Robot poses this close are one place: rad and m.
 const NEAR: (f64, f64) = (1e-2, 6e-3);
@@ -76,7 +80,7 @@ fn misfit(session: &Session, hand_eye: &HandEye, i: usize) -> Option<Vector6<f64
     let o = &session.observations[i];
     let anchor_from_mount = session.setup.anchor_from_mount(o.base_from_flange);
     let of = |camera_from_target| {
-        pose_fit::misfit(hand_eye, &PosePair { anchor_from_mount, camera_from_target })
+        least_squares::misfit(hand_eye, &PosePair { anchor_from_mount, camera_from_target })
     };
     let all = o.candidates.iter().map(|c| of(c.camera_from_target));
     all.min_by(|a, b| a.norm().total_cmp(&b.norm()))
@@ -100,7 +104,7 @@ fn errors_belong_to(places: &[Vec<usize>], misfit: impl Fn(usize) -> Option<Vect
         }
         let degrees = (3.0 * places.len() as f64 - 6.0, 3.0 * near as f64);
         let f = (between / degrees.0) / (within / degrees.1).max(EXACT.powi(2));
-        chance::of_f(f, degrees) < IMPROBABLE
+        statistics::of_f(f, degrees) < IMPROBABLE
     };
     of(lie::omega) || of(lie::nu)
 }
@@ -111,7 +115,9 @@ mod tests {
     use nalgebra::{Isometry3, Matrix6};
 
     use super::*;
-    use crate::{Base, Camera, Config, Flange, Mount, Pose, Setup, calibrate, simulate::Random};
+    use crate::{
+        Base, Camera, Config, Flange, Mount, Pose, Setup, calibrate, math::random::Random,
+    };
 
     const PLACES: usize = 5;
     /// The robot's error at a place, per axis: rad and m; and what a camera adds.
@@ -156,8 +162,9 @@ mod tests {
             assert_eq!(told, by_place, "seed {seed}: {:?}", found.warnings);
             assert_eq!(found.captures.len(), session.observations.len());
             let off = found.hand_eye.mount_from_camera.unwrap().local(&truth);
-            let stated: Matrix6<f64> =
-                crate::calibration::matrix(&found.hand_eye.covariance.mount_from_camera.unwrap());
+            let stated: Matrix6<f64> = crate::calibrate::result::matrix(
+                &found.hand_eye.covariance.mount_from_camera.unwrap(),
+            );
             off.dot(&(stated.try_inverse().unwrap() * off)) / 6.0
         };
         let mut all: Vec<f64> = (0..15).map(of).collect();

@@ -5,9 +5,13 @@ use nalgebra::{Matrix3, Vector3};
 use super::{Session, workpiece::workspace_volume};
 use crate::{
     Camera, Error, Mount, Pose, Warning,
-    calibration::{Answer, Calibration, Candidate, Misfit, PoseCovariance, Verdict, rows},
-    predict::{self, Volume},
-    touches::{self, Registration, TouchPairs},
+    calibrate::result::{Answer, Calibration, Candidate, PoseCovariance, rows},
+    estimate::{
+        evaluate::Misfit,
+        predict::{self, Volume},
+        touches::{self, Registration, TouchPairs},
+    },
+    model::verdict::Verdict,
 };
 
 pub(super) fn from_points(session: &Session, result: &mut Calibration) {

@@ -7,7 +7,7 @@ use super::{LensSigma, Session, TargetSize};
 use crate::{
     Distortion, Intrinsics, TargetModel,
     detect::sight::{CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, PRINT, TARGET_SCALE},
-    refine::{Extra, ExtraKind, Problem},
+    estimate::{Extra, ExtraKind, Problem},
 };
 
 /// The target's size, as a share of the declared one.

@@ -12,9 +12,8 @@ use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix6, Vector3};
 use super::{agreement::Views, arm::ArmFit};
 use crate::{
     Camera, Flange, Mount, Pose, Setup,
-    kinematics::Arm,
-    predict::Volume,
-    refine::ExtraKind,
+    estimate::{ExtraKind, predict::Volume},
+    model::kinematics::Arm,
     register::rigid_fit::{point_jacobian, rigid_fit},
 };
 

@@ -1,6 +1,6 @@
 //! What of a given lens has changed, in words.
 
-use crate::{Calibration, Intrinsics, Session, Warning, calibration::CameraResult};
+use crate::{Calibration, Intrinsics, Session, Warning, calibrate::result::CameraResult};
 
 /// A parameter has changed when it moved by more than so many standard deviations.
 const CHANGED: f64 = 2.0;

@@ -13,11 +13,10 @@ use super::{
 };
 use crate::{
     Pose, Target, TargetModel, Warning,
-    calibration::Calibration,
-    evaluate, lie,
-    linalg::median,
-    refine::{JointFit, View},
-    solve::consensus::Consensus,
+    calibrate::result::Calibration,
+    estimate::JointFit,
+    math::{lie, linalg::median},
+    solve::{View, consensus::Consensus},
 };
 
 /// Squared distance that six axes of noise reach once in a hundred times.
@@ -151,8 +150,7 @@ fn in_words(captures: &Captures, i: usize, reason: &Reason) -> (&'static str, St
 }
 
 fn disagreement(captures: &Captures, found: &Consensus, i: usize) -> String {
-    let (angle, distance) =
-        evaluate::loop_misfit(&found.hand_eye, &captures.pair(i, found.reading[i]));
+    let (angle, distance) = found.hand_eye.loop_misfit(&captures.pair(i, found.reading[i]));
     let reach = captures.session.observations[i].base_from_flange.translation().norm();
     let why = match reach > FARTHEST {
         true => format!(
@@ -183,7 +181,7 @@ struct Test<'a> {
 /// Gaussian that `d²` is made for.
 fn typical(captures: &Captures, found: &Consensus) -> (f64, f64) {
     let used = (0..found.agrees.len()).filter(|&i| found.agrees[i]);
-    let misfit = |i| evaluate::loop_misfit(&found.hand_eye, &captures.pair(i, found.reading[i]));
+    let misfit = |i| found.hand_eye.loop_misfit(&captures.pair(i, found.reading[i]));
     let (angles, distances): (Vec<f64>, Vec<f64>) = used.map(misfit).unzip();
     (3.0 * median(angles).max(1e-3), 3.0 * median(distances).max(5e-4))
 }
@@ -241,14 +239,14 @@ impl Test<'_> {
         (0..readings[i].camera_from_target.len()).any(|k| {
             let mut pair = self.captures.view(i, k).pair;
             pair.anchor_from_mount = readings[j].anchor_from_mount;
-            let (angle, distance) = evaluate::loop_misfit(&self.fit.hand_eye, &pair);
+            let (angle, distance) = self.fit.hand_eye.loop_misfit(&pair);
             angle < BELIEVABLE.0.min(NEARLY * self.typical.0)
                 && distance < BELIEVABLE.1.min(NEARLY * self.typical.1)
         })
     }
 
     fn restored(&self, view: &View) -> bool {
-        let (angle, distance) = evaluate::loop_misfit(&self.fit.hand_eye, &view.pair);
+        let (angle, distance) = self.fit.hand_eye.loop_misfit(&view.pair);
         angle < BELIEVABLE.0
             && distance < BELIEVABLE.1
             && (angle < self.typical.0 && distance < self.typical.1

@@ -2,7 +2,7 @@
 //! counts; as independent captures they would promise an accuracy that nobody has measured.
 
 use super::{Session, agreement, natural};
-use crate::{Observation, Warning, calibration::Calibration};
+use crate::{Observation, Warning, calibrate::result::Calibration};
 
 /// Robot poses this close are one place: rad and m. Nobody moves by less; what a robot reads of itself varies by less.
 const SAME_PLACE: (f64, f64) = (3e-4, 1e-4);

@@ -5,11 +5,11 @@ use nalgebra::{Matrix3, Vector3};
 use super::{Session, captures::relabelling, optics};
 use crate::{
     Camera, Observation, Pose, SurfaceCorner, Target, TargetModel, Warning,
-    calibration::{
+    calibrate::result::{
         BoardDeviation, Calibration, CaptureFlatness, FlatnessResult, FramesResult, ScanResult,
     },
     detect,
-    diagnose::{
+    mistakes::{
         flatness::{Bend, Felt, Flatness, flatness},
         frames::{Frames, Part, TwoPlanes, frames, plane_of_points, plane_of_pose},
     },
@@ -47,7 +47,7 @@ pub(super) fn report(session: &Session, result: &mut Calibration) -> bool {
 }
 
 fn seen<'a>(session: &'a Session, target: &TargetModel, result: &Calibration) -> Vec<Seen<'a>> {
-    let one = |(o, c): (&'a Observation, &crate::calibration::CaptureResult)| {
+    let one = |(o, c): (&'a Observation, &crate::calibrate::result::CaptureResult)| {
         let pose = c.camera_from_target.filter(|_| c.used && !o.surface.is_empty())?;
         let names = relabelling(o, &pose, target);
         let renamed =
@@ -92,7 +92,7 @@ fn as_result(found: &Flatness, seen: &[Seen]) -> FlatnessResult {
             chance: bend.chance,
         })
     };
-    let place = |d: &crate::diagnose::flatness::Deviation| BoardDeviation {
+    let place = |d: &crate::mistakes::flatness::Deviation| BoardDeviation {
         x_mm: d.at.x * 1e3,
         y_mm: d.at.y * 1e3,
         deviation_mm: d.height_m * 1e3,

@@ -4,9 +4,12 @@ use nalgebra::Vector6;
 
 use super::unknown::{self, Unknown, extras};
 use crate::{
-    Error, HandEye, PosePair, Setup, evaluate,
-    refine::{self, JointFit, KnownNoise, Problem, View},
-    solve::consensus::{self, Consensus, Readings},
+    Error, HandEye, PosePair, Setup,
+    estimate::{self, JointFit, KnownNoise, Problem},
+    solve::{
+        View,
+        consensus::{self, Consensus, Readings},
+    },
 };
 
 /// Where the unknowns stand.
@@ -79,7 +82,7 @@ fn look(
     let views: Vec<View> = used.map(view).collect();
     let extras = extras(free_scale, captures.velocities.is_some());
     let problem = Problem { setup, views, boards: vec![], extras, known_position: None };
-    let fit = refine::fit_joint(&problem, &found.hand_eye, known)?;
+    let fit = estimate::fit_joint(&problem, &found.hand_eye, known)?;
     Ok(Settled { stand, views: problem.views, fit })
 }
 
@@ -98,7 +101,7 @@ fn readings(pair: &PosePair) -> Readings {
 /// Mean of `ln(1 + d²)` over all captures, `d` their misfit in units of 0.3 degrees and 2 mm.
 pub(crate) fn misfit(hand_eye: &HandEye, pairs: &[PosePair]) -> f64 {
     let one = |pair: &PosePair| {
-        let (angle, distance) = evaluate::loop_misfit(hand_eye, pair);
+        let (angle, distance) = hand_eye.loop_misfit(pair);
         ((angle / UNIT.0).powi(2) + (distance / UNIT.1).powi(2)).ln_1p()
     };
     pairs.iter().map(one).sum::<f64>() / pairs.len().max(1) as f64

@@ -17,12 +17,14 @@ use super::{
 };
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
-    TargetPose, Verdict, Warning, chance,
+    TargetPose, Verdict, Warning,
     detect::{
         self,
         sight::{corrected, lifted_again, on_ray},
     },
-    lie, predict, register,
+    estimate::predict,
+    math::{lie, statistics},
+    register,
 };
 
 /// Fewest corners in a scan that make a pose.
@@ -298,7 +300,7 @@ fn mean_of(all: &[Vector6<f64>]) -> Option<Gap> {
     let covariance = all.iter().fold(Matrix6::zeros(), scatter) / (n - 1.0);
     let t2 = n * mean.dot(&(covariance.try_inverse()? * mean));
     let f = t2 * (n - 6.0) / (6.0 * (n - 1.0));
-    Some(Gap { mean, chance: chance::of_f(f, (6.0, n - 6.0)) })
+    Some(Gap { mean, chance: statistics::of_f(f, (6.0, n - 6.0)) })
 }
 
 /// The session with target poses from one of both alone.
@@ -415,7 +417,7 @@ fn other_answer(answer: &Calibration, beside: &Calibration, other: &str) -> Stri
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::Random;
+    use crate::math::random::Random;
 
     fn differences(mean: Vector6<f64>, sigma: f64, count: usize, seed: u64) -> Vec<Vector6<f64>> {
         let mut random = Random::new(seed);

@@ -17,10 +17,11 @@ use nalgebra::{SMatrix, Vector6};
 use super::agreement::Views;
 use crate::{
     HandEye,
-    calibration::Calibration,
+    calibrate::result::Calibration,
     detect::sight::{CLOCK, Sight, TARGET_SCALE},
-    lie,
-    refine::{Extra, ExtraKind, JointFit, View},
+    estimate::{Extra, ExtraKind, JointFit},
+    math::lie,
+    solve::View,
 };
 
 /// Unknowns beside both poses; by default there are none.

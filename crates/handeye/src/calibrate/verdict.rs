@@ -3,9 +3,12 @@
 use super::{Config, Session, agreement::Views, prior::SIZE};
 use crate::{
     Camera, Mount, Pose, TargetSize, Warning,
-    calibration::{Answer, Calibration, Determined, Scale, Verdict},
-    chance, diagnose, quaternion_xyzw,
-    refine::{JointFit, noise::Source},
+    calibrate::result::{Answer, Calibration, Determined, Scale},
+    estimate::{JointFit, noise::Source},
+    math::statistics,
+    mistakes,
+    model::verdict::Verdict,
+    quaternion_xyzw,
 };
 
 /// Predicted error (95 %) beyond which an answer is rejected when the user named no limit, mm.
@@ -92,7 +95,7 @@ fn has_corners(result: &Calibration) -> bool {
 }
 
 /// What is known of a pose of which something is free.
-pub(super) fn determined(x: &Pose<Mount, Camera>, free: &[diagnose::Free]) -> Determined {
+pub(super) fn determined(x: &Pose<Mount, Camera>, free: &[mistakes::Free]) -> Determined {
     let along = |is_rotation: bool| {
         free.iter().filter(move |f| f.is_rotation == is_rotation).map(|f| f.axis)
     };
@@ -180,8 +183,8 @@ pub(super) fn judge_size(
     if !travels(views, by_views) {
         return;
     }
-    let found = diagnose::target_scale(&views.views, by_views, &config.known, views.session.setup);
-    let Some(diagnose::TargetScale { value, sigma, .. }) = found else { return };
+    let found = mistakes::target_scale(&views.views, by_views, &config.known, views.session.setup);
+    let Some(mistakes::TargetScale { value, sigma, .. }) = found else { return };
     let used = as_declared < 0.5;
     // how far the target that the views are about is from the declared one already
     let (value, sigma) = (value * declared, sigma * declared);
@@ -189,7 +192,7 @@ pub(super) fn judge_size(
     let answer =
         best.extra(SIZE).map_or((value, sigma), |(x, s)| (declared * (1.0 + x), declared * s));
     let dof = (by_views.degrees_of_freedom - 1.0).max(1.0);
-    let p_value = chance::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
+    let p_value = statistics::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
     let off = (value - 1.0).abs();
     let improbable = p_value < IMPROBABLE_SCALE;
     let code = match (&views.session.target, views.session.target_size) {
@@ -227,7 +230,7 @@ fn size_message(session: &Session, resized: f64, (value, sigma): (f64, f64), use
     let size = format!("{:.3} mm instead of {declared:.3} mm", declared * value);
     if (value - 1.0).abs() > MOST_SCALE_ERROR {
         let cause =
-            diagnose::cause_of_size(value, target).map_or(String::new(), |c| format!(": {c}"));
+            mistakes::cause_of_size(value, target).map_or(String::new(), |c| format!(": {c}"));
         return format!(
             "the target is {percent:.1} +- {sigma:.1} % {which} than declared ({size}){cause}; measure it, and correct \
              [target]. If the declared size is right, the focal length or the robot's own scale is wrong"

@@ -9,10 +9,13 @@ use super::{
     reach::Reach,
 };
 use crate::{
-    Camera, Mount, Pose, Setup, Target, Workspace, diagnose,
-    predict::{self, PredictedTre, Volume},
-    refine::JointFit,
-    touches,
+    Camera, Mount, Pose, Setup, Target, Workspace,
+    estimate::{
+        JointFit,
+        predict::{self, PredictedTre, Volume},
+        touches,
+    },
+    mistakes,
 };
 
 /// Share of the equations that tell the noise on which an answer rests: rotations tell nothing of
@@ -35,12 +38,12 @@ pub(super) fn volume(views: &Views, fit: &JointFit) -> Option<Volume> {
     let Some(target) = &views.session.target else {
         let origin = [crate::Point::new(0.0, 0.0, 0.0)];
         let name = "the box around the target's origin in all poses";
-        return diagnose::seen_volume(&pairs_of(views), &origin, name);
+        return mistakes::seen_volume(&pairs_of(views), &origin, name);
     };
     let corners: Vec<crate::Point<Target>> =
         target.corners().iter().map(|c| views.target_from_corner.inverse() * *c).collect();
     let name = "the box in which the camera saw the target";
-    let mut volume = diagnose::seen_volume(&pairs_of(views), &corners, name)?;
+    let mut volume = mistakes::seen_volume(&pairs_of(views), &corners, name)?;
     if let Some(camera) = &views.session.camera {
         let seen: Vec<_> =
             volume.points.iter().copied().filter(|p| optics::in_picture(camera, p)).collect();

@@ -10,9 +10,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::{agreement::Views, boards::Boards};
 use crate::{
     TargetModel, Warning,
-    calibration::{Calibration, Verdict},
-    linalg::{self, median},
-    refine::{JointFit, Problem, TouchedBoard},
+    calibrate::result::Calibration,
+    estimate::{JointFit, Problem, TouchedBoard},
+    math::linalg::{self, median},
+    model::verdict::Verdict,
 };
 
 /// Largest offset of a tip that is still taken for one, m.

@@ -251,8 +251,11 @@ impl<'a> Family<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::{Optics, Random, Scene};
     use crate::{Distortion, Intrinsics, Pose};
+    use crate::{
+        math::random::Random,
+        simulate::{Optics, Scene},
+    };
     use nalgebra::{Matrix3, Vector2, Vector3, Vector6};
     use std::collections::BTreeMap;
 

@@ -18,7 +18,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::board::NotFound;
 use super::pyramid::Scaled;
 use super::view::{Sighting, View};
-use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel, linalg::median};
+use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel, math::linalg::median};
 use blobs::Blob;
 use ellipse::{Ellipse, Rough};
 use lattice::{Board, Lattice};

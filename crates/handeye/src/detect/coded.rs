@@ -13,6 +13,7 @@ use super::grid::Grid;
 use super::homography;
 use super::markers::{self, Dictionary};
 use super::tags::Board;
+use crate::model::print::marker_of_square;
 use crate::{GrayImage, ImageCorner, TargetModel};
 
 /// Fewer corners do not determine a pose.
@@ -100,7 +101,7 @@ fn charuco(target: &TargetModel) -> Result<Coded<'_>, NotFound> {
     let squares =
         (0..squares_y as usize).flat_map(|j| (0..squares_x as usize).map(move |i| (i, j)));
     let has_marker = |&(i, j): &(usize, usize)| {
-        markers::marker_of_square(i, j, squares_x as usize, white_first).is_some()
+        marker_of_square(i, j, squares_x as usize, white_first).is_some()
     };
     Ok(Coded {
         target,

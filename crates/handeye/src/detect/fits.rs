@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use super::grid::Grid;
 use super::subpixel::{self, FittedCorner, NearCorner, RoughCorner};
-use crate::{GrayImage, ImageCorner, linalg::median};
+use crate::{GrayImage, ImageCorner, math::linalg::median};
 
 /// Measured corners by label.
 pub(super) type Fitted = BTreeMap<(i32, i32), FittedCorner>;

@@ -3,19 +3,7 @@
 use nalgebra::Vector2;
 
 use crate::GrayImage;
-pub use crate::dictionary::{Dictionary, Reading};
-
-/// Which marker of a ChArUco board sits in square `(i, j)`; `None` in a black one.
-pub fn marker_of_square(i: usize, j: usize, squares_x: usize, white_first: bool) -> Option<u32> {
-    let shift = usize::from(white_first);
-    if (i + j + shift).is_multiple_of(2) {
-        return None;
-    }
-    // white squares of a row start at column 0 or 1; odd widths alternate their number
-    let in_row = |row: usize| (squares_x + usize::from((row + 1 + shift).is_multiple_of(2))) / 2;
-    let before: usize = (0..j).map(in_row).sum();
-    Some((before + i / 2) as u32)
-}
+pub use crate::model::dictionary::{Dictionary, Reading};
 
 /// What the cells of a marker, border included, look like in a picture.
 #[derive(Debug, Clone)]

@@ -141,8 +141,11 @@ fn ends(
 mod tests {
     use super::super::{board, relabelled};
     use super::*;
-    use crate::simulate::{Optics, Random, Scene};
     use crate::{ImageCorner, Intrinsics, Pose};
+    use crate::{
+        math::random::Random,
+        simulate::{Optics, Scene},
+    };
     use nalgebra::{Matrix3, Vector3, Vector6};
 
     fn scene(columns: u32, rows: u32, roll: f64) -> Scene {

@@ -26,7 +26,7 @@ pub(crate) use fit::moved;
 pub use start::two_rotations;
 pub use symmetry::{relabelled, symmetry_turn, with_symmetries};
 
-use crate::linalg::median;
+use crate::math::linalg::median;
 use crate::{Error, ImageCorner, Intrinsics, SurfaceCorner, TargetModel, TargetPose};
 
 /// A pose of the target and how well it explains the picture.

@@ -9,7 +9,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::view::{Sighting, View};
-use crate::linalg::median;
+use crate::math::linalg::median;
 use crate::{ImageCorner, Intrinsics, TargetModel};
 
 /// Fewer corners leave nothing beside the homography's eight numbers.
@@ -66,7 +66,7 @@ fn sighting(corner: &ImageCorner, target: &TargetModel) -> Option<Sighting> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Camera, Distortion, Pose, Target, simulate::Random};
+    use crate::{Camera, Distortion, Pose, Target, math::random::Random};
     use nalgebra::Isometry3;
 
     const SIZE: (usize, usize) = (800, 600);

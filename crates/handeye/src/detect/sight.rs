@@ -15,7 +15,8 @@ use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix, SVector, Vector2, Vector3, 
 
 use super::planar_pose::{Fit, PosedTarget, moved};
 use crate::{
-    Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel, camera::PARAMETERS,
+    Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
+    model::camera::PARAMETERS,
 };
 
 /// Number of parameters of camera and target that a target pose may depend on.

@@ -8,7 +8,7 @@ use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 
 use super::board::Outcome;
 use super::residuals::residuals;
-use crate::linalg::median;
+use crate::math::linalg::median;
 use crate::{ImageCorner, Intrinsics, TargetModel};
 
 /// Fewer corners do not tell which of them is wrong.

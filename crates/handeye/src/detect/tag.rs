@@ -317,7 +317,8 @@ mod tests {
     use super::*;
     use crate::{
         Intrinsics, Pose, TargetModel,
-        simulate::{Optics, Random, Scene},
+        math::random::Random,
+        simulate::{Optics, Scene},
     };
 
     const NAMES: [&str; 3] = ["DICT_APRILTAG_36h11", "DICT_6X6_250", "DICT_4X4_50"];

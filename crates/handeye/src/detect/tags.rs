@@ -15,7 +15,7 @@ use super::fits::sorted;
 use super::homography;
 use super::tag::{Level, Levels, Print, Quad, SeenTag};
 use super::view::{Sighting, View};
-use crate::target::PlacedTag;
+use crate::model::target::PlacedTag;
 use crate::{GrayImage, ImageCorner, TargetModel};
 
 /// A tag belongs to a group when its corners are this near to where they should be, in its sides:

@@ -5,10 +5,10 @@ use nalgebra::{DMatrix, Isometry3, Matrix6, SMatrix, SVector, Vector2, Vector3, 
 
 use super::lens_model::{Free, NAMES};
 use super::{CameraCalibration, FEWEST_CORNERS, FEWEST_VIEWS, PRICE, ViewFit, undetermined};
-use crate::camera::LENS_PARAMETERS;
 use crate::detect::target_poses;
-use crate::lie::{self, hat};
-use crate::linalg::median;
+use crate::math::lie::{self, hat};
+use crate::math::linalg::median;
+use crate::model::camera::LENS_PARAMETERS;
 use crate::{Distortion, Error, ImageCorner, Intrinsics, Pose, TargetModel, Warning};
 
 /// A focal length less sure than this share of it is not determined by the views.

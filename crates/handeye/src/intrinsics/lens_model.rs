@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use crate::camera::LENS_PARAMETERS;
+use crate::model::camera::LENS_PARAMETERS;
 use crate::{Distortion, Intrinsics};
 
 /// The model of a lens.

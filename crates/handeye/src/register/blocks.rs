@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::patch::{Patch, Sums};
-use crate::{Scan, parallel};
+use crate::{Scan, math::parallel};
 
 /// Rows of blocks that a thread works on at once.
 const CHUNK: usize = 32;

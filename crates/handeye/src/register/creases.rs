@@ -9,7 +9,7 @@
 //! place lies.
 
 use super::{pair::LEAST, patch::Patch};
-use crate::linalg;
+use crate::math::linalg;
 
 /// Scatter across a plane above this many times the usual one is that of a crease.
 const CREASED: f64 = 4.0;
@@ -92,7 +92,7 @@ impl Scatter {
 mod tests {
     use super::*;
     use crate::register::blocks;
-    use crate::{Scan, simulate::Random};
+    use crate::{Scan, math::random::Random};
     use nalgebra::Vector3;
 
     /// A roof whose ridge runs down the middle, 1 m from the camera, with noise of 0.5 mm along its rays.

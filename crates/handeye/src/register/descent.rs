@@ -26,7 +26,10 @@ use super::{
     patch::Patch,
     surface::Surface,
 };
-use crate::{Error, linalg, parallel};
+use crate::{
+    Error,
+    math::{linalg, parallel},
+};
 
 /// Normals of a match are within 30 degrees.
 const COSINE: f64 = 0.866;

@@ -24,7 +24,7 @@ use super::{
     pair::Match,
     patch::Patch,
 };
-use crate::{
+use crate::math::{
     gram::{pairs, place},
     lie, linalg,
 };

@@ -10,7 +10,7 @@ use super::{
     kd_tree::KdTree,
     patch::{Patch, Sums},
 };
-use crate::parallel;
+use crate::math::parallel;
 
 /// Points through which a plane is laid.
 const AROUND: usize = 16;

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use super::{kd_tree::KdTree, surface::Surface};
-use crate::parallel;
+use crate::math::parallel;
 
 /// Windows of the source, and of the target, of which pairs are made.
 const PAIRED: (usize, usize) = (300, 500);

@@ -13,7 +13,7 @@
 use nalgebra::{Isometry3, Vector3};
 
 use super::{RigidFit, kd_tree::KdTree, rigid_fit};
-use crate::{Error, lie};
+use crate::{Error, math::lie};
 
 /// When to match and when to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -268,7 +268,7 @@ fn partition(entries: &mut [Entry], axis: usize, split: f32) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::Random;
+    use crate::math::random::Random;
 
     fn squared(a: &[f32; 3], b: &[f32; 3]) -> f32 {
         (0..3).map(|k| (a[k] - b[k]).powi(2)).sum()

@@ -10,7 +10,10 @@
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::rigid_fit::{self, point_jacobian};
-use crate::{Error, lie, linalg};
+use crate::{
+    Error,
+    math::{lie, linalg},
+};
 
 /// Most steps; three are usual.
 const MOST_STEPS: usize = 30;
@@ -124,7 +127,7 @@ fn indefinite(i: usize) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::Random;
+    use crate::math::random::Random;
 
     fn truth() -> Isometry3<f64> {
         Isometry3::new(Vector3::new(0.6, -0.2, 1.1), Vector3::new(2.0, 2.1, -0.3))

@@ -21,6 +21,7 @@ pub mod rigid_fit;
 mod rivals;
 pub mod robust_fit;
 mod rotation;
+pub mod scene;
 mod search;
 pub mod similarity_fit;
 mod size;

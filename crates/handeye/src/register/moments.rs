@@ -3,7 +3,7 @@
 use multiversion::multiversion;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::gram::place;
+use crate::math::gram::place;
 
 /// Weighted sums over pairs `(p, q)` about their centroids.
 #[derive(Debug, Clone, Copy)]

@@ -111,11 +111,7 @@ fn direction(p: &Vector3<f64>) -> Vector2<f64> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{
-        Intrinsics, Scan,
-        register::Surface,
-        simulate::{Random, Room},
-    };
+    use crate::{Intrinsics, Scan, math::random::Random, register::Surface, simulate::Room};
     use nalgebra::Isometry3;
 
     fn cloud(points: impl Iterator<Item = [f32; 3]>) -> Surface {

@@ -132,7 +132,7 @@ const LINE: f64 = 0.01;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::Random;
+    use crate::math::random::Random;
     use nalgebra::Matrix3;
 
     fn sums(points: &[Vector3<f64>]) -> Sums {

@@ -16,7 +16,7 @@
 use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix, Translation3, Vector3};
 
 use super::{moments::Moments, rotation};
-use crate::{Error, lie};
+use crate::{Error, math::lie};
 
 /// A registration and how sure it is.
 #[derive(Debug, Clone, PartialEq)]
@@ -257,7 +257,7 @@ pub fn point_jacobian(p: &Vector3<f64>) -> SMatrix<f64, 3, 6> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{linalg, simulate::Random};
+    use crate::math::{linalg, random::Random};
 
     pub(crate) fn grid() -> Vec<Vector3<f64>> {
         (0..12)

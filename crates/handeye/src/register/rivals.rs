@@ -15,7 +15,7 @@ use super::{
     patch::Patch,
     surface::Surface,
 };
-use crate::{Error, parallel};
+use crate::{Error, math::parallel};
 
 /// Windows that are looked at first, from every start.
 const TRIED: f64 = 500.0;

@@ -10,7 +10,10 @@
 use nalgebra::{Isometry3, Vector3};
 
 use super::rigid_fit::{RigidFit, moments, rigid_fit, weighted_rigid_fit};
-use crate::{Error, linalg, simulate::Random};
+use crate::{
+    Error,
+    math::{linalg, random::Random},
+};
 
 /// With fewer pairs, all triples are tried.
 const ALL_TRIPLES: usize = 20;
@@ -123,7 +126,7 @@ fn weighted(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lie;
+    use crate::math::lie;
 
     fn truth() -> Isometry3<f64> {
         Isometry3::new(Vector3::new(0.6, -0.2, 1.1), Vector3::new(2.0, 2.1, -0.3))

@@ -18,7 +18,7 @@
 
 use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
 
-use crate::linalg;
+use crate::math::linalg;
 
 /// Most steps to the largest eigenvalue: a simple root takes six.
 const MOST_ROOT_STEPS: usize = 30;
@@ -193,7 +193,7 @@ pub fn eigenvalues(s: &Matrix3<f64>) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::random::Random;
+    use crate::math::random::Random;
 
     fn random_matrix(random: &mut Random, spread: [f64; 3]) -> Matrix3<f64> {
         let rotation = |random: &mut Random| {

@@ -50,7 +50,7 @@ pub fn similarity_fit(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{lie, simulate::Random};
+    use crate::math::{lie, random::Random};
 
     fn points() -> Vec<Vector3<f64>> {
         (0..12)

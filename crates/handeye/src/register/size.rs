@@ -18,7 +18,7 @@ use super::{
     freedom::{DETERMINED, FEIGNED, leaning, of_normal, usual},
     pair::Match,
 };
-use crate::{lie, linalg};
+use crate::math::{lie, linalg};
 
 type Vector7 = SVector<f64, 7>;
 type Matrix7 = SMatrix<f64, 7, 7>;

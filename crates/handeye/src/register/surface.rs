@@ -11,7 +11,10 @@ use super::{
     blocks, creases::Scatter, grid_view::GridView, kd_tree::KdTree, mesh_surface, outlook::Outlook,
     patch::Patch, voxels::Voxels,
 };
-use crate::{Error, Scan, TriangleMesh, linalg, parallel};
+use crate::{
+    Error, Scan, TriangleMesh,
+    math::{linalg, parallel},
+};
 
 /// Side of a block in a scan of 100 000 points, pixels. It grows with the power 0.4 of their number: finer
 /// pixels go into quieter windows more than into smaller ones.

@@ -7,7 +7,7 @@
 use nalgebra::Vector3;
 
 use super::patch::{Patch, Sums};
-use crate::parallel;
+use crate::math::parallel;
 
 /// Steps along the edge of a cube, as a power of two.
 const STEP_BITS: u32 = 15;

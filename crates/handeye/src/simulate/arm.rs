@@ -8,10 +8,10 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::Vector3;
 
-use super::Random;
+use crate::math::random::Random;
 use crate::{
     Base, Flange, Pose,
-    kinematics::{Arm, DhConvention, Joint},
+    model::kinematics::{Arm, DhConvention, Joint},
 };
 
 /// How wrong an arm is, standard deviations.
@@ -155,7 +155,7 @@ fn principal(angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{lie, register::rigid_fit};
+    use crate::{math::lie, register::rigid_fit};
 
     #[test]
     fn joint_values_bring_the_real_flange_where_it_was_asked_for() {

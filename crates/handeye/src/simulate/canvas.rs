@@ -2,11 +2,9 @@
 
 use nalgebra::Vector2;
 
+use super::Optics;
 use super::psf::Kernel;
-use super::{
-    Optics,
-    texture::{Nearby, Texture},
-};
+use crate::model::texture::{Nearby, Texture};
 
 /// A rectangle of pixels, right and bottom excluded.
 #[derive(Clone, Copy)]
@@ -176,7 +174,8 @@ impl<'a> Pixel<'a> {
 
     /// `None` beside the paper.
     fn ink(&self, at: &Vector2<f64>) -> Option<f64> {
-        self.texture.covers(at).then(|| self.texture.grey(at, self.optics))
+        let is_black = self.texture.is_black_at(at)?;
+        Some(if is_black { self.optics.black } else { self.optics.white })
     }
 
     /// What it sees if it sees the same everywhere.

@@ -8,12 +8,13 @@
 use nalgebra::{Matrix3, Rotation3, Vector2, Vector3};
 
 use super::{
-    DepthSensor, Optics, PrintErrors, Random,
+    DepthSensor, Optics, PrintErrors,
     arm::{ArmErrors, BuiltArm, usual_arm},
     conditions::{Paper, on_paper},
     recording::{Recording, Truth, placement_name},
     robot_error::{Robot, SystematicError},
 };
+use crate::math::random::Random;
 use crate::{
     Anchor, Base, Camera, Error, Flange, HandEye, Intrinsics, Mount, Point, Pose, Session, Setup,
     Target, TargetModel, Touch,

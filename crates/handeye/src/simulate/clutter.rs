@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use nalgebra::Vector2;
 
 use super::canvas::{Canvas, Window};
-use super::{Conditions, Optics, Random, render::develop};
+use super::{Conditions, Optics, render::develop};
 use crate::GrayImage;
+use crate::math::random::Random;
 
 /// A background.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

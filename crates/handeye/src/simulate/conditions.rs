@@ -2,7 +2,8 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::{Clutter, Optics, Random, Scene, clutter::noise_at};
+use super::{Clutter, Optics, Scene, clutter::noise_at};
+use crate::math::random::Random;
 use crate::{Camera, Point, Pose, Target, TargetModel};
 
 /// How light, print and surroundings differ from a flat, faultless, evenly lit board alone.

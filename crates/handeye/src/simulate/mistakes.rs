@@ -5,7 +5,7 @@
 
 use nalgebra::{Isometry3, Rotation3, UnitQuaternion, Vector3};
 
-use super::Random;
+use crate::math::random::Random;
 use crate::{Base, Camera, Flange, ImageCorner, Observation, Point, Pose, Session, Target, detect};
 
 /// One kind of mistake.

@@ -7,21 +7,18 @@ pub mod clutter;
 pub mod conditions;
 mod mistakes;
 mod psf;
-pub mod random;
 pub mod recording;
 pub mod render;
 mod robot_error;
 pub mod room;
 #[cfg(test)]
 mod tests;
-pub(crate) mod texture;
 
 pub use arm::{ArmErrors, BuiltArm};
 pub use cell::{Cell, CellNoise, Viewing};
 pub use clutter::{Clutter, Pattern};
 pub use conditions::{Conditions, Glare, Occlusion, PrintErrors, Shape, Slope, TrueCorner};
 pub use mistakes::{Mistake, spoil};
-pub use random::Random;
 pub use recording::{Recording, Truth};
 pub use render::{BitDepth, DepthSensor, Optics, Scene};
 pub use room::{Room, Solid, Thing};

@@ -8,10 +8,12 @@
 
 use nalgebra::{Rotation3, Vector2, Vector3};
 
+use super::Conditions;
 use super::canvas::{Canvas, Window};
 use super::conditions::{Cover, Glow, Paper, WHITEST, meet_bent, on_paper, texture_of};
 use super::psf::Kernel;
-use super::{Conditions, Random, texture::Texture};
+use crate::math::random::Random;
+use crate::model::texture::Texture;
 use crate::{Camera, GrayImage, Intrinsics, Point, Pose, Scan, Target, TargetModel};
 
 /// A board in front of a camera.

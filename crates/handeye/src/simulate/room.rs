@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::Random;
+use crate::math::random::Random;
 use crate::{Intrinsics, Scan};
 
 /// A simple shape, m.

@@ -18,9 +18,11 @@
 
 use crate::{
     Anchor, Camera, Error, HandEye, Mount, Pose, PosePair, Target,
-    linalg::median,
-    refine::{View, fit_fixed_weights},
-    solve::{self, FEWEST_POSES, Method, few_axes, graduated::graduated, half_turns, motions},
+    math::linalg::median,
+    solve::{
+        self, FEWEST_POSES, Method, View, few_axes, graduated::graduated, half_turns,
+        least_squares::fit_fixed_weights, motions,
+    },
 };
 
 /// One capture with every reading of its picture.

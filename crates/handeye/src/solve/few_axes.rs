@@ -18,7 +18,10 @@
 use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
 
 use super::{jacobi, motions, place_target};
-use crate::{HandEye, Pose, PosePair, lie, linalg};
+use crate::{
+    HandEye, Pose, PosePair,
+    math::{lie, linalg},
+};
 
 /// Eigenvalues below this part of the largest belong to directions that are free.
 const FREE: f64 = 1e-9;

@@ -18,8 +18,8 @@
 use nalgebra::{Matrix6, Vector6};
 
 use crate::{
-    HandEye, evaluate,
-    refine::{View, fit_weighted},
+    HandEye,
+    solve::{View, least_squares::fit_weighted},
 };
 
 /// Steps at most: `1.4^100` is beyond any ratio of misfits.
@@ -33,7 +33,7 @@ pub(super) fn graduated(views: &[View], start: &HandEye, sigma: (f64, f64), gate
     let unit = Matrix6::from_diagonal(&Vector6::new(r, r, r, t, t, t));
     let squares = |at: &HandEye| -> Vec<f64> {
         let one = |v: &View| {
-            let (angle, distance) = evaluate::loop_misfit(at, &v.pair);
+            let (angle, distance) = at.loop_misfit(&v.pair);
             (angle / sigma.0).powi(2) + (distance / sigma.1).powi(2)
         };
         views.iter().map(one).collect()
@@ -70,9 +70,9 @@ fn weight(d2: f64, c2: f64, mu: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        refine::fit_fixed_weights,
-        solve::tests::{assert_same, exact_pairs, truths},
+    use crate::solve::{
+        least_squares::fit_fixed_weights,
+        tests::{assert_same, exact_pairs, truths},
     };
 
     #[test]

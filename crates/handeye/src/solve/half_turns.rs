@@ -10,7 +10,10 @@ use std::f64::consts::PI;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::{few_axes, motions, motions::Motion, place_target};
-use crate::{HandEye, Pose, PosePair, lie, linalg};
+use crate::{
+    HandEye, Pose, PosePair,
+    math::{lie, linalg},
+};
 
 /// Turns (rad) this near to 180 degrees may be about either sense of their axis.
 const NEAR: f64 = 0.1;

@@ -23,7 +23,7 @@ use super::{
     moments::{Seen, Translations},
     open, place,
 };
-use crate::{Error, HandEye, PosePair, lie};
+use crate::{Error, HandEye, PosePair, math::lie};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let all = moments::seen(pairs)?;

@@ -126,7 +126,7 @@ mod tests {
         for axis_angle in [Vector3::new(0.3, -2.0, 1.0), Vector3::x() * std::f64::consts::PI] {
             let q = UnitQuaternion::from_scaled_axis(axis_angle);
             let found = nearest_rotation(&(q.to_rotation_matrix().into_inner() * 3.0)).unwrap();
-            assert!(crate::lie::angle(&found, &q) < 1e-14);
+            assert!(crate::math::lie::angle(&found, &q) < 1e-14);
         }
     }
 

@@ -16,6 +16,7 @@ mod half_turns;
 mod horaud_dornaika;
 mod jacobi;
 mod kronecker;
+pub mod least_squares;
 mod li;
 mod lu_chou;
 mod moments;
@@ -29,9 +30,10 @@ mod tsai_lenz;
 mod wu;
 mod zhuang;
 
+pub use least_squares::View;
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
-use crate::{Error, HandEye, Pose, PosePair, linalg};
+use crate::{Error, HandEye, Pose, PosePair, math::linalg};
 
 /// A published closed form.
 ///

@@ -5,7 +5,7 @@
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
 use super::{jacobi, moments};
-use crate::{Error, PosePair, lie};
+use crate::{Error, PosePair, math::lie};
 
 /// One relative motion, seen by the robot and by the camera.
 #[derive(Debug, Clone, Copy)]

@@ -18,7 +18,10 @@
 
 use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, SVector, Vector3, Vector6};
 
-use crate::{Anchor, Camera, Error, Mount, Point, Pose, lie, linalg::median, simulate::Random};
+use crate::{
+    Anchor, Camera, Error, Mount, Point, Pose,
+    math::{lie, linalg::median, random::Random},
+};
 
 /// One capture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -146,7 +149,7 @@ pub fn fit_points(views: &[PointView]) -> Result<PointFit, Error> {
     let (mut h, _, _) = equations(&used, &state, Some(robot));
     (0..9).for_each(|k| h[(k, k)] += FREE_SIGMA.powi(-2));
     let covariance =
-        crate::linalg::inverse_spd(&nalgebra::DMatrix::from_column_slice(9, 9, h.as_slice()))
+        crate::math::linalg::inverse_spd(&nalgebra::DMatrix::from_column_slice(9, 9, h.as_slice()))
             .map_or_else(
                 || Nine::identity() * FREE_SIGMA.powi(2),
                 |c| Nine::from_column_slice(c.as_slice()),

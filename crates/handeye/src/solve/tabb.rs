@@ -23,7 +23,7 @@ use super::{
     kronecker::{self, Centred},
     moments, open, shah,
 };
-use crate::{Error, HandEye, Pose, PosePair, lie};
+use crate::{Error, HandEye, Pose, PosePair, math::lie};
 
 /// Distances in the anchor, of the camera's origin.
 pub(super) fn solve_c1(pairs: &[PosePair]) -> Result<HandEye, Error> {

@@ -4,7 +4,8 @@
 
 use handeye::{
     Placement, Pose, PosePair, Session, Setup, TargetPose,
-    refine::{Extra, Problem, TouchedBoard, TouchedCorner, View},
+    estimate::{Extra, Problem, TouchedBoard, TouchedCorner},
+    solve::View,
 };
 
 fn view(anchor_from_mount: Pose<handeye::Anchor, handeye::Mount>, seen: &[TargetPose]) -> View {
@@ -76,10 +77,10 @@ pub fn start_turned(session: &Session, method: handeye::Method) -> handeye::Hand
 }
 
 /// Corners as the camera has them with those touched (both in m).
-pub fn pairs_of_touches(session: &Session) -> Vec<handeye::touches::TouchPairs> {
+pub fn pairs_of_touches(session: &Session) -> Vec<handeye::estimate::touches::TouchPairs> {
     let target = session.target.as_ref().unwrap();
     let seen: Vec<_> = session.observations.iter().collect();
-    let (paired, missing) = handeye::touches::pair_touches(
+    let (paired, missing) = handeye::estimate::touches::pair_touches(
         session.setup,
         target,
         &seen,

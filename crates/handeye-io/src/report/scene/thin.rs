@@ -127,7 +127,7 @@ fn extent(points: &[[f32; 3]], all: &[u32]) -> ([f64; 3], f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use handeye::simulate::Random;
+    use handeye::math::random::Random;
 
     /// A wave, with most of its points in one corner.
     fn wave(count: usize) -> Vec<[f32; 3]> {

@@ -3,14 +3,19 @@
 use nalgebra::Matrix6;
 
 use super::{Judge, Judged, pairs_of, stored};
+use crate::solve::View;
 use crate::{
     Error, HandEye, Warning,
-    calibrate::{Config, agreement::Views},
-    calibration::{Answer, Calibration, Candidate, PoseCovariance, rows},
-    evaluate,
-    refine::{self, JointFit},
+    calibrate::{
+        Config,
+        agreement::Views,
+        result::{Answer, Calibration, Candidate, PoseCovariance, rows},
+    },
+    estimate::{
+        JointFit, evaluate,
+        touches::{self, Registration, TouchPairs},
+    },
     solve,
-    touches::{self, Registration, TouchPairs},
 };
 
 impl Judge<'_> {
@@ -93,12 +98,12 @@ pub(super) fn stored_registration(
     covariance: Option<&Matrix6<f64>>,
 ) -> Answer {
     let n = views.views.len() as f64;
-    let carry = |v: &refine::View| crate::lie::adjoint(v.pair.camera_from_target.inverse().iso());
+    let carry = |v: &View| crate::math::lie::adjoint(v.pair.camera_from_target.inverse().iso());
     let j = views.views.iter().map(carry).sum::<Matrix6<f64>>() / n;
     let setup = views.session.setup;
-    let noise = |v: &refine::View| fit.noise.covariance(v, &fit.hand_eye, setup);
+    let noise = |v: &View| fit.noise.covariance(v, &fit.hand_eye, setup);
     let own = views.views.iter().map(noise).sum::<Matrix6<f64>>() / (n * n);
-    let to_origin = crate::lie::adjoint(views.target_from_corner.iso());
+    let to_origin = crate::math::lie::adjoint(views.target_from_corner.iso());
     let place =
         |x: &Matrix6<f64>| to_origin * (j * x * j.transpose() + own) * to_origin.transpose();
     Answer {
@@ -112,7 +117,7 @@ pub(super) fn stored_registration(
 
 /// Noise of every view as the touches see it.
 fn view_noise(views: &Views, fit: &JointFit) -> Vec<touches::ViewNoise> {
-    let one = |v: &refine::View| touches::ViewNoise {
+    let one = |v: &View| touches::ViewNoise {
         camera_from_target: v.pair.camera_from_target.rotation(),
         covariance: fit.noise.covariance(v, &fit.hand_eye, views.session.setup),
     };

@@ -1,6 +1,9 @@
 use super::*;
-use crate::simulate::{Optics, Random, Scene};
 use crate::{Distortion, Pose};
+use crate::{
+    math::random::Random,
+    simulate::{Optics, Scene},
+};
 use nalgebra::{Matrix3, Vector3, Vector6};
 
 fn symmetric(columns: u32, rows: u32) -> TargetModel {

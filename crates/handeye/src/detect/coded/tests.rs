@@ -4,9 +4,12 @@ use nalgebra::{Isometry3, Matrix2, Vector3};
 
 use super::*;
 use crate::detect::detect;
-use crate::simulate::{Conditions, Occlusion, Optics, Random, Scene, Shape};
-use crate::target::AprilTagFamily;
+use crate::model::target::AprilTagFamily;
 use crate::{Intrinsics, Pose};
+use crate::{
+    math::random::Random,
+    simulate::{Conditions, Occlusion, Optics, Scene, Shape},
+};
 
 /// A board of 5 x 4 tags, the side of a tag about `tag_px` wide, tilted up to 45 degrees.
 fn scene(tag_px: f64, border_bits: u32, random: &mut Random) -> Scene {

@@ -8,8 +8,8 @@ use nalgebra::{
 use super::PosedTarget;
 use super::start::{translation, two_rotations};
 use crate::detect::homography;
-use crate::lie::{self, hat};
-use crate::linalg::median;
+use crate::math::lie::{self, hat};
+use crate::math::linalg::median;
 use crate::{Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, TargetModel, TargetPose};
 
 /// Huber's bound: beyond this many standard deviations a corner pulls with constant force.

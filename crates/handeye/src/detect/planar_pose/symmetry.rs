@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::PosedTarget;
-use crate::lie;
+use crate::math::lie;
 use crate::{ImageCorner, Pose, Target, TargetModel, TargetPose};
 
 /// The poses under every labelling that looks the same, see [`TargetModel::symmetries`]: for each

@@ -1,5 +1,5 @@
 use super::*;
-use crate::simulate::Random;
+use crate::math::random::Random;
 use crate::{Camera, Distortion, Pose, Target};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3, Vector6};
 

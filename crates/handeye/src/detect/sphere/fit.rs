@@ -9,7 +9,7 @@ use super::{
 use crate::{
     Point, Scan,
     detect::surface::{MAD, TUKEY, TUKEY_COST, inflation, tukey},
-    linalg::median,
+    math::linalg::median,
 };
 
 /// Whether the diameter is known.

@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 use super::*;
 use crate::{
     Intrinsics, Pose, TargetModel,
-    simulate::{DepthSensor, Random, Scene},
+    math::random::Random,
+    simulate::{DepthSensor, Scene},
 };
 
 fn scene(diameter_mm: f64, centre: [f64; 3]) -> Scene {

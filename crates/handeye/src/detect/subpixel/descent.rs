@@ -6,7 +6,7 @@ use super::disc::{Disc, FEWEST_PIXELS};
 use super::model::{Model, Parameters, products, residuals};
 use super::{FittedCorner, RoughCorner};
 use crate::detect::levenberg::{Bounded, Descent, Linearised, ROUNDING_VARIANCE, descend};
-use crate::gram::place;
+use crate::math::gram::place;
 
 /// No pixel of a disc is more columns or rows away from its middle.
 const MOST_ACROSS: i32 = 16;

@@ -8,7 +8,7 @@ use nalgebra::SVector;
 use super::disc::{Disc, LANES, Lane, Pixels};
 use crate::detect::erf::erf;
 use crate::detect::saturated::share_within;
-use crate::gram::{accumulate, pairs};
+use crate::math::gram::{accumulate, pairs};
 
 pub(super) type Parameters = SVector<f64, 9>;
 

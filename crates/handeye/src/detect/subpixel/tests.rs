@@ -1,8 +1,11 @@
 use super::disc::{LANES, Pixels};
 use super::model::{Light, Model};
 use super::*;
-use crate::simulate::{Optics, Random, Scene};
 use crate::{Intrinsics, Pose, TargetModel};
+use crate::{
+    math::random::Random,
+    simulate::{Optics, Scene},
+};
 use nalgebra::{Vector3, Vector6};
 
 #[test]

@@ -25,8 +25,8 @@ use super::{
     step::Step,
 };
 use crate::{
-    ImageCorner, SurfaceCorner, TargetModel, detect::homography, linalg::median,
-    simulate::texture::Texture,
+    ImageCorner, SurfaceCorner, TargetModel, detect::homography, math::linalg::median,
+    model::texture::Texture,
 };
 
 /// What the colours of a print say in one capture.

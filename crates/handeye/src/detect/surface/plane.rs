@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 
 use super::{Reason, samples::Sample};
-use crate::{Point, SurfaceCorner, linalg::median, simulate::Random};
+use crate::{
+    Point, SurfaceCorner,
+    math::{linalg::median, random::Random},
+};
 
 /// Planes tried by least median of squares: with half the points good, one of eight is.
 const TRIES: usize = 40;

@@ -3,8 +3,11 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::*;
-use crate::simulate::{Conditions, DepthSensor, Optics, PrintErrors, Random, Scene};
 use crate::{Point, Pose, TargetModel};
+use crate::{
+    math::random::Random,
+    simulate::{Conditions, DepthSensor, Optics, PrintErrors, Scene},
+};
 use nalgebra::Vector6;
 
 fn scene() -> Scene {

@@ -16,7 +16,7 @@ use super::quads::Quad;
 use crate::GrayImage;
 use crate::detect::levenberg::{Bounded, Descent, Linearised, descend};
 use crate::detect::saturated::is_saturated;
-use crate::gram::place;
+use crate::math::gram::place;
 pub(super) use model::Parameters;
 use model::{LANES, Model, Pixels, products};
 

@@ -203,7 +203,7 @@ fn half_hull(points: impl Iterator<Item = Vector2<f64>>) -> Vec<Vector2<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::Random;
+    use crate::math::random::Random;
 
     fn noise(width: usize, height: usize) -> GrayImage {
         let mut random = Random::new(3);

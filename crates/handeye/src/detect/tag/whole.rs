@@ -359,8 +359,11 @@ fn bounds(image: &GrayImage, quad: &Quad, margin: f64) -> Option<(Vector2<f64>, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::{Optics, Random, Scene};
     use crate::{Intrinsics, Pose, TargetModel};
+    use crate::{
+        math::random::Random,
+        simulate::{Optics, Scene},
+    };
     use nalgebra::Isometry3;
 
     /// A tag of 6 cells with some bits.

@@ -4,8 +4,11 @@ use nalgebra::{Isometry3, Vector2, Vector3};
 
 use super::*;
 use crate::detect::detect;
-use crate::simulate::{Conditions, Occlusion, Optics, Random, Scene, Shape};
 use crate::{Camera, Distortion, Intrinsics, Pose, Target};
+use crate::{
+    math::random::Random,
+    simulate::{Conditions, Occlusion, Optics, Scene, Shape},
+};
 
 fn grid(dictionary: &str, tags_x: u32, tags_y: u32) -> TargetModel {
     TargetModel::TagGrid {
@@ -24,7 +27,7 @@ fn aprilgrid(border_bits: u32, corner_squares: bool) -> TargetModel {
         tags_y: 4,
         tag_mm: 24.0,
         spacing: 0.3,
-        family: crate::target::AprilTagFamily::Tag36h11,
+        family: crate::model::target::AprilTagFamily::Tag36h11,
         first_id: 0,
         corner_squares,
         border_bits,

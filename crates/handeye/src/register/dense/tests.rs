@@ -2,8 +2,9 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::{
-    Intrinsics, lie, linalg,
-    simulate::{Random, Room, Solid, Thing},
+    Intrinsics,
+    math::{lie, linalg, random::Random},
+    simulate::{Room, Solid, Thing},
 };
 
 const PI: f64 = std::f64::consts::PI;

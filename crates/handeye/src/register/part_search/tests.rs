@@ -3,9 +3,9 @@ use nalgebra::{Isometry3, Vector3, Vector6};
 use super::{DEVIATIONS_95, PRECISE, imprecise};
 
 use crate::{
-    Scan, TriangleMesh, Verdict, lie,
+    Scan, TriangleMesh, Verdict,
+    math::{lie, random::Random},
     register::{Dense, DenseConfig, Surface, register_surfaces, search::Search},
-    simulate::Random,
 };
 
 /// Points on a mesh are so far apart, m.

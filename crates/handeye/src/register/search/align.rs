@@ -12,7 +12,7 @@ use super::{
     shape::{Surfel, parts},
     visible::{RangeImage, Sight},
 };
-use crate::{linalg, register::descent::moved};
+use crate::{math::linalg, register::descent::moved};
 
 /// Normals of a surfel and that on which it lies agree within 32 degrees.
 const FLUSH: f64 = 0.85;

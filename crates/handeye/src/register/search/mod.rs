@@ -25,7 +25,7 @@ use self::{
     visible::RangeImage,
 };
 use super::surface::Surface;
-use crate::{lie, linalg, parallel};
+use crate::math::{lie, linalg, parallel};
 
 /// Surfels of the scan and of the part are so far apart.
 const SCAN_APART: f64 = 0.04;

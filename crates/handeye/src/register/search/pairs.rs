@@ -120,7 +120,10 @@ fn axes(a: &Vector3<f64>, b: &Vector3<f64>) -> Option<Matrix3<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{lie, register::search::shape::parts, simulate::Random};
+    use crate::{
+        math::{lie, random::Random},
+        register::search::shape::parts,
+    };
 
     #[test]
     fn a_pair_that_was_moved_has_the_same_key_and_tells_the_motion() {

@@ -7,7 +7,7 @@ use nalgebra::SVector;
 
 use crate::detect::erf::erf;
 use crate::detect::saturated::share_within;
-use crate::gram::{accumulate, pairs};
+use crate::math::gram::{accumulate, pairs};
 
 pub(in super::super) type Parameters = SVector<f64, 6>;
 

@@ -1,0 +1,437 @@
+//! The result of a calibration: everything that files and reports show.
+
+mod scans;
+
+use nalgebra::{Matrix6, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Anchor, Base, Camera, Flange, Intrinsics, Mount, Pose, Setup, Target, Verdict, Warning,
+    calibrate::findings::Finding,
+    estimate::{
+        certify::Certificate,
+        evaluate::{Diversity, Misfit},
+        predict::PredictedTre,
+    },
+    model::kinematics::{Arm, Parameter},
+};
+
+pub use scans::{
+    BoardDeviation, CaptureFlatness, CaptureStep, ColourStepResult, FlatnessResult, FramesResult,
+    ScanResult, SceneKind, ScenePair, SceneResult,
+};
+
+/// A 6 x 6 covariance as rows, rotation (rad) first, then translation (m), perturbed on the right.
+pub type Rows = [[f64; 6]; 6];
+
+/// Rows of a covariance.
+pub fn rows(m: &Matrix6<f64>) -> Rows {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]))
+}
+
+/// The matrix of such rows.
+pub fn matrix(rows: &Rows) -> Matrix6<f64> {
+    Matrix6::from_fn(|i, j| rows[i][j])
+}
+
+/// Covariances of both answers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
+pub struct PoseCovariance {
+    /// Of `mount_from_camera`, in the camera frame.
+    pub mount_from_camera: Option<Rows>,
+    /// Of `anchor_from_target`, in the target frame.
+    pub anchor_from_target: Option<Rows>,
+}
+
+/// The answer as stored: what is not determined is null.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
+pub struct Answer {
+    /// Where the camera sits. Mount is the flange (eye-in-hand) or the base (eye-to-hand).
+    pub mount_from_camera: Option<Pose<Mount, Camera>>,
+    /// Where the target sits. Anchor is the base (eye-in-hand) or the flange (eye-to-hand).
+    pub anchor_from_target: Option<Pose<Anchor, Target>>,
+    /// How sure both are.
+    #[serde(default)]
+    pub covariance: PoseCovariance,
+}
+
+/// One way to the answer, beside the others.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Candidate {
+    /// `closed-form-shah`, `least-squares`, `two-step-svd` ...
+    pub name: String,
+    /// Its answer.
+    pub hand_eye: Answer,
+    /// Misfit on the captures it was made from.
+    pub in_sample: Misfit,
+    /// Misfit on captures left out of it.
+    pub held_out: Misfit,
+    /// RMS distance of touches to its prediction, including touches it was made from.
+    pub touch_rms_mm: Option<f64>,
+    /// The error on what it has not seen: touches where there are any, captures otherwise.
+    pub held_out_mm: Option<f64>,
+    /// Predicted error (rms) where the answer will be used.
+    pub predicted_tre_mm: Option<f64>,
+    /// What to know about it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+}
+
+/// One capture in the result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CaptureResult {
+    /// Its name.
+    pub id: String,
+    /// Whether the answer rests on it.
+    pub used: bool,
+    /// Why not, if not.
+    pub reason: Option<String>,
+    /// What the robot reported.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// Where the camera saw the target, in the reading that was chosen.
+    pub camera_from_target: Option<Pose<Camera, Target>>,
+    /// Corners found in its picture.
+    pub corners: usize,
+    /// Corners found in its scan.
+    pub corners_3d: usize,
+    /// RMS distance of its corners to the target model seen from its own best pose.
+    pub residual_px: Option<f64>,
+    /// RMS distance of its corners to where the answer and the robot pose put them.
+    pub reprojection_px: Option<f64>,
+    /// Misfit of its loop, at the target's first corner.
+    pub residual_mm: Option<f64>,
+    /// Misfit of its loop, rotation.
+    pub residual_deg: Option<f64>,
+    /// The same misfit when the answer was made without it.
+    pub held_out_mm: Option<f64>,
+    /// The same, rotation.
+    pub held_out_deg: Option<f64>,
+}
+
+/// One touch in the result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TouchResult {
+    /// The placement that was touched.
+    pub capture: String,
+    /// Which corner.
+    pub corner: u32,
+    /// Distance between the tip and where the chosen answer puts the corner.
+    pub residual_mm: f64,
+    /// That difference in the base frame, tip minus prediction.
+    pub difference_mm: Vector3<f64>,
+    /// Whether candidates were made with it.
+    pub used: bool,
+}
+
+/// One source of error and its size.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BudgetEntry {
+    /// `robot`, `picture` ...
+    pub source: String,
+    /// Standard deviation per axis, in words with units.
+    pub sigma: String,
+    /// Standard deviation, mm per axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma_mm: Option<f64>,
+    /// Standard deviation, degrees per axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma_deg: Option<f64>,
+    /// How unsure that standard deviation is, as a part of it; `None` where it was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma_uncertainty: Option<f64>,
+    /// What it contributes to the predicted error (root mean square), mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_workpiece_mm: Option<f64>,
+}
+
+/// A change and what it would do.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Advice {
+    /// What to change.
+    pub change: String,
+    /// Predicted error (root mean square) then, mm.
+    pub predicted_tre_mm: f64,
+}
+
+/// Size of the target as the robot's motions see it, over the declared one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Scale {
+    /// Found over declared.
+    pub value: f64,
+    /// Standard deviation.
+    pub sigma: f64,
+    /// Whether the answer rests on it, and not on the declared size.
+    #[serde(default)]
+    pub used: bool,
+}
+
+/// Something that moved during the session, or captures that say so.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Movement {
+    /// How.
+    pub kind: MovementKind,
+    /// Whether it may be the camera that moved.
+    pub camera: bool,
+    /// Whether it may be the target that moved.
+    pub target: bool,
+    /// First capture of a block, after a step, or of a slip.
+    pub first: String,
+    /// Last one.
+    pub last: String,
+    /// Whether the captures run to the end of the session.
+    pub at_end: bool,
+    /// Whether the robot poses of a block lie at a place of their own, or the robot went from place to place, and may err
+    /// there.
+    pub at_a_place: bool,
+    /// How far, at the target (mm).
+    pub displacement_mm: f64,
+    /// By which angle.
+    pub rotation_deg: f64,
+    /// How probable a movement is.
+    pub probability: f64,
+    /// By how much the predicted error was widened (mm, squares added).
+    pub widened_mm: f64,
+}
+
+/// How something moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MovementKind {
+    /// Captures one after the other are rejected, and agree with one another.
+    Block,
+    /// At once, between two captures.
+    Step,
+    /// Evenly from the first capture to the last.
+    Slip,
+}
+
+/// The determined part of `mount_from_camera` where the data leave directions free.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Determined {
+    /// Its rotation; `None` where a rotation is free.
+    pub rotation_xyzw: Option<[f64; 4]>,
+    /// Its translation without the components along the free directions; `None` where a rotation is
+    /// free.
+    pub translation_across_m: Option<[f64; 3]>,
+    /// Axes of the mount about which the camera may turn.
+    pub free_rotations: Vec<[f64; 3]>,
+    /// Directions of the mount along which the camera may shift.
+    pub free_translations: Vec<[f64; 3]>,
+}
+
+impl Determined {
+    /// What is known, for people: one line a quantity, mm.
+    pub fn lines(&self) -> Vec<String> {
+        let axis = |a: &[f64; 3]| format!("({:.4}, {:.4}, {:.4})", a[0], a[1], a[2]);
+        let mut lines = vec![];
+        if let Some([x, y, z, w]) = self.rotation_xyzw {
+            lines.push(format!("quaternion {x:.7} {y:.7} {z:.7} {w:.7} (x y z w)"));
+        }
+        if let Some(t) = self.translation_across_m
+            && self.free_translations.len() < 3
+        {
+            let [x, y, z] = t.map(|v| v * 1e3);
+            let free: Vec<String> =
+                self.free_translations.iter().map(|a| format!(" + any {}", axis(a))).collect();
+            lines.push(format!("translation ({x:.3}, {y:.3}, {z:.3}) mm{}", free.concat()));
+        }
+        lines.extend(self.free_rotations.iter().map(|a| format!("free to turn about {}", axis(a))));
+        lines
+    }
+}
+
+/// The camera as the calibration found it, where it was free.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct CameraResult {
+    /// Its parameters.
+    pub intrinsics: Intrinsics,
+    /// Standard deviation of `fx`, px.
+    pub sigma_fx: f64,
+    /// Standard deviation of `fy`, px.
+    pub sigma_fy: f64,
+    /// Standard deviation of `cx`, px.
+    pub sigma_cx: f64,
+    /// Standard deviation of `cy`, px.
+    pub sigma_cy: f64,
+}
+
+/// Depth that scans read: `z_read = scale z + bias_mm`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DepthResult {
+    /// Factor; one is right.
+    pub scale: f64,
+    /// Its standard deviation.
+    pub sigma_scale: f64,
+    /// Offset, mm.
+    pub bias_mm: f64,
+    /// Its standard deviation, mm.
+    pub sigma_bias_mm: f64,
+}
+
+/// A tool's tip that is not where the robot believes it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TipResult {
+    /// Tip minus belief, mm.
+    pub offset_mm: [f64; 3],
+    /// Standard deviations, mm.
+    pub sigma_mm: [f64; 3],
+    /// In which frame: `flange`, or `base` where no flange pose was recorded at contact.
+    pub frame: String,
+}
+
+/// What was wrong with the arm, where joint values and its model were given and the data show it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ArmResult {
+    /// The arm as it is.
+    pub model: Arm,
+    /// What differs from the model that was given.
+    pub deviations: Vec<ArmDeviation>,
+    /// Where the camera sits, for a robot that computes with the corrected model.
+    pub mount_from_camera: Pose<Mount, Camera>,
+    /// Where the target sits, likewise.
+    pub anchor_from_target: Pose<Anchor, Target>,
+    /// The tool's tip minus what the robot believes, in the flange, mm; null without touches.
+    pub tip_offset_mm: Option<[f64; 3]>,
+    /// Misfit of captures left out.
+    pub held_out: ArmHeldOut,
+    /// Standard deviation of the robot's position with the model that was given, mm per axis.
+    pub robot_before_mm: f64,
+    /// The same with the corrected one.
+    pub robot_after_mm: f64,
+    /// Predicted error (root mean square) of a robot that computes with the corrected model.
+    pub predicted_tre_mm: Option<f64>,
+}
+
+/// One parameter of the arm that differs from its model.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ArmDeviation {
+    /// Number of the joint; the first one is 1.
+    pub joint: usize,
+    /// Which parameter.
+    pub parameter: Parameter,
+    /// Found minus given: degrees for angles, mm for lengths.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// Whether the data told it, or it is about what was believed beforehand.
+    pub observed: bool,
+}
+
+/// RMS misfit of captures left out, mm.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ArmHeldOut {
+    /// With the model that was given.
+    pub before_mm: Option<f64>,
+    /// With the corrected one.
+    pub after_mm: Option<f64>,
+}
+
+/// Name of the candidate that knows of the arm's deviations.
+pub const WITH_ARM: &str = "joint-with-arm";
+
+/// A finished calibration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Calibration {
+    /// Version of this format.
+    pub format: String,
+    /// Who carries the camera.
+    pub setup: Setup,
+    /// Whether it can be used.
+    pub verdict: Verdict,
+    /// Why: one sentence a reason, most important first.
+    pub reasons: Vec<String>,
+    /// Name of the chosen candidate's method.
+    pub method: String,
+    /// The answer.
+    pub hand_eye: Answer,
+    /// The answer's name for the user: `base_from_camera` or `flange_from_camera`.
+    pub name: String,
+    /// Name of the chosen candidate.
+    pub chosen: Option<String>,
+    /// Why it was chosen.
+    pub why: String,
+    /// All candidates.
+    pub candidates: Vec<Candidate>,
+    /// Predicted error where the answer will be used.
+    pub predicted_tre_mm: Option<PredictedTre>,
+    /// Misfit of the chosen answer.
+    pub residual: Misfit,
+    /// Misfit of the chosen method on what was left out.
+    pub held_out: Misfit,
+    /// All captures, in the order of their names.
+    pub captures: Vec<CaptureResult>,
+    /// All touches.
+    pub touches: Vec<TouchResult>,
+    /// Names of captures that were left out.
+    pub rejected: Vec<String>,
+    /// Directions that the data leave free, in words.
+    pub undetermined: Vec<String>,
+    /// What is known of the answer where a direction is free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub determined: Option<Determined>,
+    /// What the poses can determine.
+    pub diversity: Option<Diversity>,
+    /// Where the error comes from.
+    pub error_budget: Vec<BudgetEntry>,
+    /// What would make the predicted error smaller, the most helpful first.
+    #[serde(default)]
+    pub advice: Vec<Advice>,
+    /// Camera time minus robot time; zero for pairs, which are taken at the same moment, null where
+    /// streams do not tell it.
+    pub time_offset_s: Option<f64>,
+    /// Its standard deviation, where it was estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_offset_sigma_s: Option<f64>,
+    /// Factor that was taken out of the measured distances, `measured = scale * metric`: one where
+    /// the target's size is trusted, the method's own where one was asked for that finds it, null where the factor is free and the motions do not tell it.
+    pub scale: Option<f64>,
+    /// Its standard deviation, where it was estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale_sigma: Option<f64>,
+    /// Size of the target as the robot sees it, for comparison.
+    pub target_scale: Option<Scale>,
+    /// Something that moved during the session.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub movement: Option<Movement>,
+    /// The camera, where its parameters were part of the fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraResult>,
+    /// The depth of scans, where it was part of the fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth: Option<DepthResult>,
+    /// What the scans say of the board and of themselves, where there are scans.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scans: Option<ScanResult>,
+    /// The tool's tip, where the data show that it is not where the robot believes it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip: Option<TipResult>,
+    /// What is wrong with the arm, where that was looked for and found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arm: Option<ArmResult>,
+    /// What is proven of the least-squares fit, where that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<Certificate>,
+    /// What to know.
+    pub warnings: Vec<Warning>,
+    /// Warnings and reasons against the answer, with what each does to it.
+    #[serde(default)]
+    pub findings: Vec<Finding>,
+    /// Name of the run, from what went in and what came out: also in the page.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run_id: Option<String>,
+}
+
+/// Method of a pose that comes from elsewhere.
+pub(crate) const UNJUDGED: &str = "unjudged";
+
+impl Calibration {
+    /// Whether it is a mere pose that comes from elsewhere, without any data to judge it by.
+    pub fn is_unjudged(&self) -> bool {
+        self.method == UNJUDGED
+    }
+
+    /// Process exit code of the verdict: 0 accepted, 3 otherwise.
+    pub fn exit_code(&self) -> u8 {
+        if self.verdict == Verdict::Accepted { 0 } else { 3 }
+    }
+}

@@ -1,0 +1,469 @@
+//! Captures taken one after the other, whose errors may change slowly: odometry drifts, a mount
+//! gives way, a robot warms up.
+//!
+//! The calibration itself takes the errors of captures as independent. Here its answer is put beside
+//! a fit with drift ([`crate::estimate::drift`]); where the restricted likelihood gains clearly, drift
+//! is part of the model: captures that did not agree only because of it come back in, the captures
+//! without their drift are calibrated once more, so that everything else about them is judged, and
+//! answer, covariance and predicted error are those of the fit with drift. A camera that walks away in
+//! its holder has no one place, and its result is rejected.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
+
+use crate::{
+    Calibration, Config, Error, HandEye, PosePair, Session, Verdict, Warning,
+    calibrate::{
+        self, repeated,
+        result::{Answer, Candidate, PoseCovariance, rows},
+    },
+    detect::sight::{CLOCK, TARGET_SCALE},
+    estimate::{
+        Extra, ExtraKind, JointFit,
+        drift::{self, DriftFit, Free, Sequence, Side},
+        evaluate::{self, Misfit},
+        predict::{self, PredictedTre},
+        touches,
+    },
+    math::lie,
+    mistakes,
+    register::rigid_fit::point_jacobian,
+    solve::{View, least_squares},
+};
+
+/// Fewer captures do not tell drift from noise.
+const FEWEST: usize = 12;
+
+/// Gain of the restricted likelihood that shows drift: its three parameters gain as much by chance
+/// in one of two thousand sequences (half of the point of a chi-squared distribution), and there are two
+/// sides on which something may give way.
+const GAIN: f64 = 8.9;
+
+/// The same of one parameter.
+const GAIN_OF_ONE: f64 = 5.4;
+
+/// Correlation of neighbouring misfits that chance exceeds in one of a hundred sequences, times the
+/// root of their number of equations.
+const BY_CHANCE: f64 = 2.3;
+
+/// Rounds of letting captures in and putting them out.
+const ROUNDS: usize = 6;
+
+/// Surprise (squared, in units of standard deviations, of six axes) that one capture in a hundred
+/// thousand exceeds.
+const SURPRISING: f64 = 34.0;
+
+/// Misfit of captures left out beyond which drift explains nothing, as in any calibration: mm and
+/// degrees.
+const MOST_HELD_OUT: (f64, f64) = (15.0, 2.5);
+
+/// Predicted error (95 %) beyond which an answer is rejected when the user named no limit, mm.
+const MOST_PREDICTED_MM: f64 = 10.0;
+
+/// Names of the candidate.
+const NAME: &str = "drift";
+
+/// Standard deviation of the belief in a factor, and in a time offset (s): far more than any motion
+/// leaves open.
+const ANYTHING: f64 = 10.0;
+
+/// Warnings of captures that are wrong in a way that is no drift.
+const WRONG: [&str; 6] = [
+    "order-shifted",
+    "poses-inverted",
+    "target-poses-inverted",
+    "robot-poses-inverted",
+    "robot-length-unit",
+    "target-length-unit",
+];
+
+/// Calibrates from bare target poses that were taken one after the other, in the order of their
+/// names (`img_2` before `img_10`), or at `times` (s) by name of the capture. Where their errors
+/// show no drift, and for anything but bare poses, the result is that of [`calibrate::calibrate`].
+///
+/// # Errors
+/// As [`calibrate::calibrate`].
+pub fn calibrate_sequence(
+    session: &Session,
+    times: &BTreeMap<String, f64>,
+    config: &Config,
+) -> Result<Calibration, Error> {
+    calibrate::check(session)?;
+    let mut session = calibrate::in_order(session);
+    let repeated = repeated::take_out(&mut session);
+    let mut result = of_distinct(&session, times, config)?;
+    repeated.report(&mut result);
+    Ok(result)
+}
+
+/// The same of captures that do not repeat one another.
+fn of_distinct(
+    session: &Session,
+    times: &BTreeMap<String, f64>,
+    config: &Config,
+) -> Result<Calibration, Error> {
+    let plain = calibrate::calibrate_distinct(session.clone(), config);
+    let bare = session.target.is_none()
+        && session.touches.is_empty()
+        && session.correspondences.is_empty()
+        && session.known_position.is_none()
+        && session.observations.iter().all(|o| o.corners.is_empty() && o.candidates.len() == 1);
+    if !bare || config.method.is_some() {
+        return Ok(plain);
+    }
+    let in_order = in_order(session, times);
+    Ok(with_drift(&in_order, times, config, &plain)?.unwrap_or(plain))
+}
+
+fn in_order(session: &Session, times: &BTreeMap<String, f64>) -> Session {
+    let mut session = calibrate::in_order(session);
+    let time = |name: &String| times.get(name).copied().unwrap_or(f64::INFINITY);
+    session.observations.sort_by(|a, b| time(&a.capture).total_cmp(&time(&b.capture)));
+    session
+}
+
+/// The result with drift; `None` where there is none to be seen.
+fn with_drift(
+    session: &Session,
+    times: &BTreeMap<String, f64>,
+    config: &Config,
+    plain: &Calibration,
+) -> Result<Option<Calibration>, Error> {
+    let Some(start) = answer(plain) else { return Ok(None) };
+    let wrong = plain.warnings.iter().any(|w| WRONG.contains(&w.code.as_str()));
+    let mut used = used(session, plain);
+    if wrong || used.iter().filter(|u| **u).count() < FEWEST {
+        return Ok(None);
+    }
+    let mut sequence = sequence(session, times, config, &start);
+    let Some(found) = fit(&mut sequence, &mut used, config, &start)? else { return Ok(None) };
+    let free = mistakes::free_directions(&found.fit);
+    let held_out = held_out(&found, &used);
+    let too_far = |m: Option<f64>, most: f64| m.is_none_or(|m| m > most);
+    if too_far(held_out.translation_rms_mm, MOST_HELD_OUT.0)
+        || too_far(held_out.rotation_rms_deg, MOST_HELD_OUT.1)
+    {
+        return Ok(None);
+    }
+    if !free.is_empty() {
+        return Ok((sequence.side == Side::Camera).then(|| loose(&found, plain)));
+    }
+    let steady = without(session, &sequence, &found);
+    let mut result = calibrate::calibrate_distinct(calibrate::in_order(&steady), config);
+    if result.hand_eye.mount_from_camera.is_none() {
+        return Ok(None);
+    }
+    let names: Vec<String> = session.observations.iter().map(|o| o.capture.clone()).collect();
+    report(&names, &sequence, &found, &used, config, plain, &mut result);
+    Ok(Some(result))
+}
+
+/// The result for a camera that walks away in its holder: nobody knows where it sits after the captures.
+fn loose(found: &DriftFit, plain: &Calibration) -> Calibration {
+    let mut result = plain.clone();
+    let words = in_words(Side::Camera, found);
+    result.reasons = vec![format!(
+        "errors change slowly from capture to capture: {words}; it has no one place on its mount: \
+         fasten it, and take the captures anew"
+    )];
+    result.verdict = Verdict::Rejected;
+    result.warnings.push(Warning::new("drift", words));
+    result
+}
+
+fn answer(plain: &Calibration) -> Option<HandEye> {
+    Some(HandEye {
+        mount_from_camera: plain.hand_eye.mount_from_camera?,
+        anchor_from_target: plain.hand_eye.anchor_from_target?,
+    })
+}
+
+/// Which captures of the session the result rests on.
+fn used(session: &Session, plain: &Calibration) -> Vec<bool> {
+    let by_name: BTreeMap<&str, bool> =
+        plain.captures.iter().map(|c| (c.id.as_str(), c.used)).collect();
+    let one = |o: &crate::Observation| by_name.get(o.capture.as_str()).copied().unwrap_or(false);
+    session.observations.iter().map(one).collect()
+}
+
+fn sequence(
+    session: &Session,
+    times: &BTreeMap<String, f64>,
+    config: &Config,
+    at: &HandEye,
+) -> Sequence {
+    let unknown = &config.unknown;
+    let scale = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), ANYTHING);
+    let clock = Extra::about_zero(ExtraKind::Camera(CLOCK), ANYTHING);
+    let extras =
+        [unknown.scale.then_some(scale), (!unknown.velocities.is_empty()).then_some(clock)];
+    let view = |o: &crate::Observation| {
+        let pair = PosePair {
+            anchor_from_mount: session.setup.anchor_from_mount(o.base_from_flange),
+            camera_from_target: o.candidates[0].camera_from_target,
+        };
+        unknown.freed(&View::bare(pair), unknown.velocities.get(&o.capture), at)
+    };
+    let views: Vec<View> = session.observations.iter().map(view).collect();
+    let n = views.len();
+    let at_time: Option<Vec<f64>> =
+        session.observations.iter().map(|o| times.get(&o.capture).copied()).collect();
+    let after = match at_time {
+        Some(t) if n > 1 && t[n - 1] > t[0] => {
+            let mean = (t[n - 1] - t[0]) / (n - 1) as f64;
+            std::iter::once(0.0).chain(t.windows(2).map(|w| (w[1] - w[0]) / mean)).collect()
+        }
+        _ => vec![1.0; n],
+    };
+    let extras = extras.into_iter().flatten().collect();
+    Sequence { setup: session.setup, side: Side::Target, views, after, extras }
+}
+
+/// The fit with drift on the side where it gains most, and the captures that are no surprise to it;
+/// `None` where it gains little on either.
+fn fit(
+    sequence: &mut Sequence,
+    used: &mut Vec<bool>,
+    config: &Config,
+    start: &HandEye,
+) -> Result<Option<DriftFit>, Error> {
+    let known = &config.known;
+    let mut near = drift::without_drift(sequence, used, start, known)?;
+    let mut best: Option<(Side, DriftFit)> = None;
+    for side in [Side::Target, Side::Camera] {
+        sequence.side = side;
+        if !neighbours_alike(sequence, used, &near) {
+            continue;
+        }
+        let white = drift::fit_drift(sequence, used, &near, known, Free::Nothing)?;
+        let found = drift::fit_drift(sequence, used, &near, known, Free::Pose)?;
+        let least =
+            best.as_ref().map_or(white.fit.log_likelihood + GAIN, |b| b.1.fit.log_likelihood);
+        if found.fit.log_likelihood > least {
+            best = Some((side, found));
+        }
+    }
+    let Some((side, mut found)) = best else { return Ok(None) };
+    sequence.side = side;
+    let sequence = &*sequence;
+    let fit =
+        |used: &[bool], near: &JointFit, free| drift::fit_drift(sequence, used, near, known, free);
+    let mut free = Free::Pose;
+    if config.unknown.scale {
+        let unit = fit(used, &near, Free::PoseAndUnit)?;
+        if unit.fit.log_likelihood - found.fit.log_likelihood > GAIN_OF_ONE {
+            (free, found) = (Free::PoseAndUnit, unit);
+        }
+    }
+    for _ in 0..ROUNDS {
+        let belongs: Vec<bool> = found.views.iter().map(|v| v.surprise < SURPRISING).collect();
+        if belongs == *used || belongs.iter().filter(|b| **b).count() < FEWEST {
+            break;
+        }
+        *used = belongs;
+        near.hand_eye = found.fit.hand_eye;
+        near.values = found.fit.values.clone();
+        found = fit(used, &near, free)?;
+    }
+    Ok(Some(found))
+}
+
+/// Whether misfits of neighbouring views, each in units of its own noise and in the axes of what may
+/// give way, are more alike than chance has it.
+fn neighbours_alike(sequence: &Sequence, used: &[bool], near: &JointFit) -> bool {
+    let white = |view: &View| {
+        let pair = view.with(&near.extras, &near.values);
+        let turn = match sequence.side {
+            Side::Target => Matrix6::identity(),
+            Side::Camera => lie::adjoint(pair.camera_from_target.iso()),
+        };
+        let r = turn * least_squares::misfit(&near.hand_eye, &pair);
+        let noise = near.noise.covariance(view, &near.hand_eye, sequence.setup);
+        (turn * noise * turn.transpose()).cholesky()?.l().solve_lower_triangular(&r)
+    };
+    let views = sequence.views.iter().zip(used).filter(|(_, used)| **used);
+    let misfits: Vec<Vector6<f64>> = views.filter_map(|(view, _)| white(view)).collect();
+    let products: f64 = misfits.windows(2).map(|w| w[0].dot(&w[1])).sum();
+    let squares: f64 = misfits.iter().map(Vector6::norm_squared).sum();
+    products > BY_CHANCE / (6.0 * misfits.len() as f64).sqrt() * squares
+}
+
+fn held_out(found: &DriftFit, used: &[bool]) -> Misfit {
+    let one = |(v, used): (&drift::Slow, &bool)| {
+        used.then(|| (lie::omega(&v.left_out).norm(), lie::nu(&v.left_out).norm()))
+    };
+    evaluate::rms(&found.views.iter().zip(used).map(one).collect::<Vec<_>>())
+}
+
+/// The session with the drift taken out, in metres and at the right time.
+fn without(session: &Session, sequence: &Sequence, found: &DriftFit) -> Session {
+    let mut session = session.clone();
+    for (k, o) in session.observations.iter_mut().enumerate() {
+        let pair = sequence.views[k].with(&sequence.extras, &found.fit.values);
+        o.candidates[0].camera_from_target = pair.camera_from_target.retract(&found.views[k].drift);
+    }
+    session
+}
+
+/// Puts the fit with drift into the result for the captures without it.
+fn report(
+    names: &[String],
+    sequence: &Sequence,
+    found: &DriftFit,
+    used: &[bool],
+    config: &Config,
+    plain: &Calibration,
+    result: &mut Calibration,
+) {
+    let (fit, held_out) = (&found.fit, held_out(found, used));
+    let inflation = touches::small_sample(fit.degrees_of_freedom);
+    let covariance = fit.covariance.as_ref().map(|c| c * inflation);
+    let block = |k: usize| -> Option<Matrix6<f64>> {
+        covariance.as_ref().map(|c| c.fixed_view::<6, 6>(k, k).into_owned())
+    };
+    result.hand_eye = Answer {
+        mount_from_camera: Some(fit.hand_eye.mount_from_camera),
+        anchor_from_target: Some(fit.hand_eye.anchor_from_target),
+        covariance: PoseCovariance {
+            mount_from_camera: block(0).map(|c| rows(&c)),
+            anchor_from_target: block(6).map(|c| rows(&c)),
+        },
+    };
+    let tre = predicted(sequence, found, inflation);
+    result.chosen = Some(NAME.into());
+    result.method = NAME.into();
+    result.why = String::from(
+        "the errors of neighbouring captures are alike, and the other candidates take them as \
+         independent",
+    );
+    (result.error_budget, result.advice) = (vec![], vec![]);
+    result.held_out = held_out;
+    result.candidates = plain.candidates.clone();
+    for candidate in &mut result.candidates {
+        // predicted as if errors were independent
+        candidate.predicted_tre_mm = None;
+        candidate.hand_eye.covariance = PoseCovariance::default();
+    }
+    let words = in_words(sequence.side, found);
+    result.candidates.push(Candidate {
+        name: NAME.into(),
+        hand_eye: result.hand_eye,
+        in_sample: result.residual,
+        held_out,
+        touch_rms_mm: None,
+        held_out_mm: held_out.translation_rms_mm,
+        predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+        note: Some(words.clone()),
+    });
+    captures(names, found, plain, result);
+    extras(found, result);
+    conclude(tre, config, result);
+    result.warnings.push(Warning::new(
+        "drift",
+        format!(
+            "errors change slowly from capture to capture: {words}; the answer takes it into account"
+        ),
+    ));
+}
+
+fn in_words(side: Side, found: &DriftFit) -> String {
+    let d = &found.drift;
+    let what = match side {
+        Side::Target => "the target or the robot seems to move",
+        Side::Camera => "the camera seems to move in its holder",
+    };
+    let unit = if d.scale > 0.0 {
+        format!(", {:.3} % of the unit of distances", d.scale * 100.0)
+    } else {
+        String::new()
+    };
+    format!(
+        "{what} by {:.3} degrees and {:.2} mm per axis{unit} from one capture to the next",
+        d.rotation.to_degrees(),
+        d.position * 1e3
+    )
+}
+
+/// Target poses as they were given, and what each missed when left out.
+fn captures(names: &[String], found: &DriftFit, plain: &Calibration, result: &mut Calibration) {
+    let given: BTreeMap<&str, Option<_>> =
+        plain.captures.iter().map(|c| (c.id.as_str(), c.camera_from_target)).collect();
+    for (name, view) in names.iter().zip(&found.views) {
+        let Some(capture) = result.captures.iter_mut().find(|c| c.id == *name) else { continue };
+        capture.camera_from_target = given.get(name.as_str()).copied().flatten();
+        let left_out = &view.left_out;
+        capture.held_out_deg = Some(lie::omega(left_out).norm().to_degrees());
+        capture.held_out_mm = Some(lie::nu(left_out).norm() * 1e3);
+    }
+}
+
+/// Scale and time offset, as a change of what was given.
+fn extras(found: &DriftFit, result: &mut Calibration) {
+    if let Some((share, sigma)) = found.fit.extra(ExtraKind::Camera(TARGET_SCALE)) {
+        let larger = 1.0 + share;
+        result.scale = Some(1.0 / larger);
+        result.scale_sigma = Some(sigma / larger.powi(2));
+    }
+    if let Some((later, sigma)) = found.fit.extra(ExtraKind::Camera(CLOCK)) {
+        result.time_offset_s = Some(later);
+        result.time_offset_sigma_s = Some(sigma);
+    }
+}
+
+/// The verdict on the captures without drift, and on how sure the answer is with it.
+fn conclude(tre: Option<PredictedTre>, config: &Config, result: &mut Calibration) {
+    result.reasons.retain(|r| !r.contains("are predicted within"));
+    let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
+    match &tre {
+        Some(tre) if tre.p95 <= limit && result.verdict == Verdict::Accepted => {
+            result.reasons.push(format!(
+                "95 of 100 points in {} are predicted within {:.2} mm",
+                tre.r#where, tre.p95
+            ));
+        }
+        Some(tre) if tre.p95 > limit => {
+            result.reasons.push(format!(
+                "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm: the errors \
+                 drift, so add captures with more tilt, or find out what moves",
+                tre.r#where, tre.p95
+            ));
+            result.verdict = Verdict::Rejected;
+        }
+        _ => {}
+    }
+    result.predicted_tre_mm = tre;
+}
+
+/// Predicted error around where the target's origin was seen. Points that the camera locates move
+/// with the unit of its distances, and so does their error.
+fn predicted(sequence: &Sequence, found: &DriftFit, inflation: f64) -> Option<PredictedTre> {
+    let fit = &found.fit;
+    let pairs: Vec<PosePair> =
+        sequence.views.iter().map(|v| v.with(&fit.extras, &fit.values)).collect();
+    let origin = [crate::Point::new(0.0, 0.0, 0.0)];
+    let name = "the box around the target's origin in all poses";
+    let volume = mistakes::seen_volume(&pairs, &origin, name)?;
+    let covariance = fit.covariance.as_ref()? * inflation;
+    let scale = fit.extras.iter().position(|e| e.kind == ExtraKind::Camera(TARGET_SCALE));
+    let spread = |p: &Vector3<f64>| {
+        let mut j = SMatrix::<f64, 3, 7>::zeros();
+        j.fixed_view_mut::<3, 6>(0, 0).copy_from(&point_jacobian(p));
+        let mut s = SMatrix::<f64, 7, 7>::zeros();
+        s.fixed_view_mut::<6, 6>(0, 0).copy_from(&covariance.fixed_view::<6, 6>(0, 0));
+        if let Some(k) = scale {
+            j.set_column(6, p);
+            for i in 0..6 {
+                s[(i, 6)] = covariance[(i, 12 + k)];
+                s[(6, i)] = s[(i, 6)];
+            }
+            s[(6, 6)] = covariance[(12 + k, 12 + k)];
+        }
+        j * s * j.transpose()
+    };
+    let spread: Vec<_> = volume.points.iter().map(spread).collect();
+    Some(predict::tre_of_points(&volume, &spread, |_| Vector3::zeros()))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,137 @@
+//! What two streams leave open although a fit has found it: noise of the robot passes for motion.
+//!
+//! A robot that stands still leaves everything open, one that moves at a constant velocity the
+//! offset of the clocks: the camera's place then goes along with it.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Matrix6, Vector6};
+
+use super::{choose::Both, stream::Stream};
+use crate::{
+    Error,
+    calibrate::{
+        settle::{Settled, Stand},
+        unknown,
+    },
+    estimate::evaluate,
+    math::{lie, linalg},
+    solve::{View, least_squares},
+};
+
+/// Scatter (rad, m) of poses that may be noise: twice what a poor robot reports at rest.
+const MOST_AT_REST: (f64, f64) = (0.02, 5e-3);
+/// Scatter that is rest, whatever the camera sees. rad and m.
+const AT_REST: (f64, f64) = (1e-3, 1e-3);
+/// Motion is more than so many times the misfit of the loops.
+const ABOVE_NOISE: f64 = 3.0;
+
+/// Scatter (root mean square; rad, m) of a stream's poses about their mean.
+fn scatter(stream: &Stream) -> (f64, f64) {
+    let n = stream.poses.len().max(1) as f64;
+    let rotation = linalg::mean_rotation(stream.poses.iter().map(|p| &p.rotation));
+    let place = stream.poses.iter().map(|p| p.translation.vector).sum::<nalgebra::Vector3<f64>>();
+    let place = place / n;
+    let turn = |p: &nalgebra::Isometry3<f64>| lie::angle(&p.rotation, &rotation).powi(2);
+    let turns: f64 = stream.poses.iter().map(turn).sum();
+    let shifts: f64 =
+        stream.poses.iter().map(|p| (p.translation.vector - place).norm_squared()).sum();
+    ((turns / n).sqrt(), (shifts / n).sqrt())
+}
+
+/// Whether the robot does not move, or no more than the loops fail to close by.
+pub(super) fn still(both: &Both, settled: Option<&Settled>) -> Option<Error> {
+    let (turn, shift) = scatter(&both.robot);
+    let within = |limit: (f64, f64)| turn < limit.0 && shift < limit.1;
+    let noise = settled.is_some_and(|s| {
+        let pair = |v: &View| Some(s.fit.hand_eye.loop_misfit(&v.pair));
+        let all: Vec<_> = s.views.iter().map(pair).collect();
+        let found = evaluate::rms(&all);
+        let (deg, mm) = (found.rotation_rms_deg, found.translation_rms_mm);
+        let limit = |size: Option<f64>| ABOVE_NOISE * size.unwrap_or(0.0);
+        within((limit(deg).to_radians(), limit(mm) * 1e-3))
+    });
+    let at_rest = if settled.is_some() {
+        within(MOST_AT_REST) && noise || turn == 0.0 && shift == 0.0
+    } else {
+        within(AT_REST)
+    };
+    at_rest.then(|| Error::NotDetermined {
+        what: format!(
+            "the robot does not move: its poses differ by {:.3} degrees and {:.3} mm (RMS), no more \
+             than noise; record both streams while it turns by 30 degrees and more about two axes, \
+             and starts and stops",
+            turn.to_degrees(),
+            shift * 1e3
+        ),
+    })
+}
+
+/// Standard deviations by which the clocks are moved to see whether that costs what it should.
+const MOVED: f64 = 20.0;
+/// Factor on the misfit below which it costs nothing. By as many standard deviations it should be
+/// 1.5 and more.
+const COSTS: f64 = 1.2;
+/// Squared distance, in units of its noise, beyond which a capture is wrong anyway.
+const WRONG: f64 = 50.0;
+/// Fewer captures in common tell nothing.
+const FEWEST: usize = 6;
+
+/// Whether the clocks may be moved against each other at no cost although the fit finds an offset,
+/// the motion being steady: its standard deviation then comes from noise in the velocities.
+pub(super) fn clock_is_free(both: &Both, chosen: &[usize], settled: &Settled) -> bool {
+    let Some((_, sigma)) = unknown::clock(&settled.fit) else { return false };
+    let Stand { offset, scale } = settled.stand;
+    if !steady(&both.captures(chosen, offset, scale).velocities.unwrap_or_default()) {
+        return false;
+    }
+    let right = |&k: &usize| {
+        let found = both.captures(&[k], offset, scale).pairs.first().copied();
+        let distance = |pair| settled.fit.distance(&View::bare(pair), both.setup);
+        found.and_then(distance).is_some_and(|d2| d2 < WRONG)
+    };
+    let right: Vec<usize> = chosen.iter().copied().filter(right).collect();
+    let Some(here) = cost(both, &right, settled, offset) else { return false };
+    let by = both.apart().max(MOVED * sigma);
+    [-by, by].into_iter().any(|by| {
+        cost(both, &right, settled, offset + by).is_some_and(|there| there < COSTS * here)
+    })
+}
+
+/// Whether velocities vary by less than their mean.
+fn steady(velocities: &[Vector6<f64>]) -> bool {
+    let n = velocities.len().max(1) as f64;
+    let mean = velocities.iter().sum::<Vector6<f64>>() / n;
+    let spread = velocities.iter().map(|v| (v - mean).norm_squared()).sum::<f64>() / n;
+    spread < mean.norm_squared()
+}
+
+/// Mean squared distance of captures at an offset, in units of their noise, both poses being fitted
+/// anew.
+fn cost(both: &Both, chosen: &[usize], settled: &Settled, offset: f64) -> Option<f64> {
+    let pairs = both.captures(chosen, offset, settled.stand.scale).pairs;
+    if pairs.len() < FEWEST {
+        return None;
+    }
+    let fit = &settled.fit;
+    let views: Vec<View> = pairs.into_iter().map(View::bare).collect();
+    let weight = |v: &View| {
+        let noise = fit.noise.covariance(v, &fit.hand_eye, both.setup);
+        linalg::invert_spd(&noise)
+    };
+    let weights: Vec<Matrix6<f64>> = views.iter().map(weight).collect::<Option<_>>()?;
+    let at = least_squares::fit_weighted(&views, &weights, &fit.hand_eye);
+    let one = |(v, w): (&View, &Matrix6<f64>)| {
+        let r = least_squares::misfit(&at, &v.pair);
+        r.dot(&(w * r))
+    };
+    Some(views.iter().zip(&weights).map(one).sum::<f64>() / views.len() as f64)
+}
+
+/// The mean velocity in place of each: what noise adds to them says nothing.
+pub(super) fn steadied(
+    velocities: &BTreeMap<String, Vector6<f64>>,
+) -> BTreeMap<String, Vector6<f64>> {
+    let mean = velocities.values().sum::<Vector6<f64>>() / velocities.len().max(1) as f64;
+    velocities.keys().map(|name| (name.clone(), mean)).collect()
+}

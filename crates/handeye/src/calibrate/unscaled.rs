@@ -1,0 +1,287 @@
+//! Target poses whose distances are known up to one factor: `measured = scale * metric`.
+//!
+//! A camera that reconstructs the scene, or a target of unknown size, gives rotations and
+//! directions but no metres; the robot's motions do. A first factor comes from the linear system of
+//! Andreff, Horaud and Espiau, over all captures and over small sets of them, the one that most
+//! captures agree with; then it is one more unknown of the joint fit, with no belief beforehand,
+//! which is linearised anew until it stays. Where the mount only turns about one point, or hardly
+//! moves, the factor goes along with the camera's position, and both are called undetermined.
+//!
+//! N. Andreff, R. Horaud and B. Espiau, *Robot hand-eye calibration using structure-from-motion*,
+//! IJRR 20(3), 2001.
+
+use std::collections::BTreeMap;
+
+use crate::{
+    Calibration, Config, Error, PosePair, Session,
+    calibrate::{
+        self,
+        settle::{self, Captures, Stand},
+    },
+    calibrate_sequence,
+    solve::{FEWEST_POSES, andreff},
+};
+
+/// Calibrates from bare target poses in an unknown unit. The answer, and all poses in the result,
+/// are in metres; `scale` is the factor.
+///
+/// # Errors
+/// As [`calibrate::calibrate`]; also when the session holds pictures, scans or touches, which have a
+/// unit.
+pub fn calibrate_unscaled(session: &Session, config: &Config) -> Result<Calibration, Error> {
+    let bare = session.target.is_none()
+        && session.touches.is_empty()
+        && session.correspondences.is_empty();
+    if !bare {
+        return Err(Error::Invalid(
+            "an unknown scale is for bare target poses: a target of known size, touches and points \
+             have their unit"
+                .into(),
+        ));
+    }
+    calibrate::check(session)?;
+    let session = calibrate::in_order(session);
+    let pairs = pairs(&session);
+    let at = |stand: Stand| Captures {
+        pairs: pairs.iter().map(|p| p.farther(1.0 / stand.scale)).collect(),
+        velocities: None,
+    };
+    let settled = first_scale(&pairs).and_then(|scale| {
+        let start = Stand { offset: 0.0, scale };
+        settle::settle(start, true, session.setup, &config.known, at)
+    });
+    match settled {
+        Ok(settled) => calibrate_at(&session, settled.stand.scale, &BTreeMap::new(), config),
+        Err(error) => Ok(undetermined(&session, &error)),
+    }
+}
+
+fn pairs(session: &Session) -> Vec<PosePair> {
+    let pair = |o: &crate::Observation| {
+        Some(PosePair {
+            anchor_from_mount: session.setup.anchor_from_mount(o.base_from_flange),
+            camera_from_target: o.candidates.first()?.camera_from_target,
+        })
+    };
+    session.observations.iter().filter_map(pair).collect()
+}
+
+/// The result with this factor taken out and free from there on; `times` as in
+/// [`calibrate_sequence`].
+pub(crate) fn calibrate_at(
+    session: &Session,
+    scale: f64,
+    times: &BTreeMap<String, f64>,
+    config: &Config,
+) -> Result<Calibration, Error> {
+    let mut session = session.clone();
+    for pose in session.observations.iter_mut().flat_map(|o| &mut o.candidates) {
+        pose.camera_from_target = pose.camera_from_target.farther(1.0 / scale);
+    }
+    let mut config = config.clone();
+    config.unknown.scale = true;
+    let mut result = calibrate_sequence(&session, times, &config)?;
+    match result.scale_sigma {
+        Some(sigma) => {
+            result.scale = result.scale.map(|s| s * scale);
+            result.scale_sigma = Some(sigma * scale);
+        }
+        None => {
+            result.scale = None;
+            name(&mut result.undetermined, SCALE);
+        }
+    }
+    Ok(result)
+}
+
+/// What is undetermined, in words.
+pub(crate) const SCALE: &str = "scale of the measured distances";
+
+/// Names what is undetermined, once.
+pub(crate) fn name(undetermined: &mut Vec<String>, what: &str) {
+    if !undetermined.iter().any(|u| u == what) {
+        undetermined.push(what.into());
+    }
+}
+
+/// The result without an answer.
+pub(crate) fn undetermined(session: &Session, error: &Error) -> Calibration {
+    let mut result = calibrate::without_answer(session);
+    result.scale = None;
+    result.reasons.push(error.to_string());
+    result.undetermined.extend([SCALE.into(), camera(session)]);
+    result
+}
+
+/// The camera's pose, in words.
+pub(crate) fn camera(session: &Session) -> String {
+    format!("the pose of the camera on the {}", session.setup.mount())
+}
+
+/// Small sets that are drawn; with 40 % wrong captures one in eight sets of four is clean.
+const DRAWS: usize = 60;
+/// Captures in a small set: one more than needed.
+const DRAWN: usize = FEWEST_POSES + 1;
+
+/// `measured / metric` as most captures have it.
+///
+/// # Errors
+/// As [`andreff::solve_with_scale`].
+pub(crate) fn first_scale(pairs: &[PosePair]) -> Result<f64, Error> {
+    let whole = andreff::solve_with_scale(pairs);
+    let sets = draws(pairs.len()).into_iter();
+    let small = sets.filter_map(|set| {
+        let some: Vec<PosePair> = set.into_iter().map(|i| pairs[i]).collect();
+        andreff::solve_with_scale(&some).ok()
+    });
+    let score = |s: &andreff::Scaled| {
+        let metric: Vec<PosePair> = pairs.iter().map(|p| p.farther(s.scale)).collect();
+        settle::misfit(&s.hand_eye, &metric)
+    };
+    let all = whole.clone().ok().into_iter().chain(small);
+    let best = all.map(|s| (score(&s), s)).min_by(|a, b| a.0.total_cmp(&b.0));
+    match best {
+        Some((_, best)) => Ok(1.0 / best.scale),
+        None => whole.map(|s| 1.0 / s.scale),
+    }
+}
+
+/// Small sets spread over all captures: multiples of irrational numbers, without their whole part,
+/// fill the unit interval evenly (H. Weyl, *Math. Annalen* 77, 1916).
+fn draws(n: usize) -> Vec<[usize; DRAWN]> {
+    if n <= DRAWN {
+        return vec![];
+    }
+    let irrational = [2_f64.sqrt(), 3_f64.sqrt(), 5_f64.sqrt(), 7_f64.sqrt()];
+    let draw = |k: usize| {
+        let one = |x: f64| ((k as f64 * x).fract() * n as f64) as usize;
+        let mut set = irrational.map(|x| one(x).min(n - 1));
+        set.sort_unstable();
+        set
+    };
+    let all = (1..=DRAWS).map(draw);
+    all.filter(|s| s.windows(2).all(|w| w[0] != w[1])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        HandEye, Observation, Pose, Setup, Verdict,
+        math::{lie, random::Random},
+        solve::{
+            Method,
+            tests::{exact_pairs, noisy_pairs, pose, truths},
+        },
+    };
+
+    fn session(setup: Setup, pairs: &[PosePair], scale: f64) -> Session {
+        let observation = |(k, p): (usize, &PosePair)| {
+            let robot = match setup {
+                Setup::EyeInHand => p.anchor_from_mount.rename(),
+                Setup::EyeToHand => p.anchor_from_mount.inverse().rename(),
+            };
+            Observation::bare(format!("{k:02}"), robot, p.camera_from_target.farther(scale))
+        };
+        Session::of_captures(setup, pairs.iter().enumerate().map(observation).collect())
+    }
+
+    fn solved(session: &Session) -> Calibration {
+        calibrate_unscaled(session, &Config::default()).unwrap()
+    }
+
+    fn miss(found: &Calibration, truth: &HandEye) -> f64 {
+        found.hand_eye.mount_from_camera.unwrap().distance_to(&truth.mount_from_camera)
+    }
+
+    #[test]
+    fn exact_poses_in_any_unit_give_metres() {
+        for setup in [Setup::EyeInHand, Setup::EyeToHand] {
+            for truth in truths() {
+                for scale in [0.001, 0.3, 1.0, 1000.0] {
+                    let found = solved(&session(setup, &exact_pairs(&truth, 15), scale));
+                    assert_eq!(found.verdict, Verdict::Accepted);
+                    assert!((found.scale.unwrap() / scale - 1.0).abs() < 1e-6);
+                    assert!(miss(&found, &truth) < 1e-6);
+                    let y = found.hand_eye.anchor_from_target.unwrap();
+                    assert!(y.distance_to(&truth.anchor_from_target) < 1e-6);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn under_noise_the_error_of_the_scale_stays_inside_its_sigma() {
+        let (mut squares, trials) = (0.0, 40);
+        for seed in 0..trials {
+            let mut random = Random::new(seed);
+            let mut pairs = exact_pairs(&truths()[0], 20);
+            for pair in &mut pairs {
+                let off = lie::tangent(&(random.normal3() * 2e-3), &(random.normal3() * 2e-3));
+                pair.camera_from_target = pair.camera_from_target.retract(&off);
+            }
+            let found = solved(&session(Setup::EyeInHand, &pairs, 0.2));
+            squares += ((found.scale.unwrap() - 0.2) / found.scale_sigma.unwrap()).powi(2);
+        }
+        let mean = squares / trials as f64;
+        assert!((0.5..1.8).contains(&mean), "{mean}");
+    }
+
+    #[test]
+    fn wrong_captures_do_not_spoil_the_scale() {
+        let mut pairs = noisy_pairs(&truths()[0], 20);
+        for k in [1, 6, 11, 16] {
+            pairs[k].camera_from_target =
+                pose([0.1, 0.2, 0.4 + 0.1 * k as f64], [0.1, 2.0, k as f64]);
+        }
+        let found = solved(&session(Setup::EyeInHand, &pairs, 5.0));
+        assert!((found.scale.unwrap() / 5.0 - 1.0).abs() < 0.02, "{:?}", found.scale);
+        assert_eq!(found.rejected, ["01", "06", "11", "16"]);
+    }
+
+    #[test]
+    fn a_mount_that_only_turns_about_a_point_leaves_the_scale_open() {
+        for noise in [0.0, 5e-4] {
+            let mut random = Random::new(3);
+            let mut pairs = exact_pairs(&truths()[0], 20);
+            for pair in &mut pairs {
+                let mut iso = *pair.anchor_from_mount.iso();
+                iso.translation.vector = nalgebra::Vector3::new(0.5, 0.1, 0.6);
+                pair.anchor_from_mount = Pose::claim(iso);
+                let seen = (pair.anchor_from_mount * truths()[0].mount_from_camera).inverse()
+                    * truths()[0].anchor_from_target;
+                let off = lie::tangent(&(random.normal3() * noise), &(random.normal3() * noise));
+                pair.camera_from_target = seen.retract(&off);
+            }
+            let found = solved(&session(Setup::EyeInHand, &pairs, 2.0));
+            assert_eq!(found.verdict, Verdict::Undetermined, "{noise}: {:?}", found.reasons);
+            assert_eq!((found.scale, found.hand_eye.mount_from_camera), (None, None));
+            assert!(found.undetermined.iter().any(|u| u == SCALE), "{:?}", found.undetermined);
+        }
+    }
+
+    #[test]
+    fn a_method_that_finds_the_scale_reports_its_own() {
+        let pairs = noisy_pairs(&truths()[0], 15);
+        let named = |method: Method| Config { method: Some(method), ..Config::default() };
+        let own = 3.0 / andreff::solve_with_scale(&pairs).unwrap().scale;
+        let metric = session(Setup::EyeInHand, &pairs, 1.0);
+        let session = session(Setup::EyeInHand, &pairs, 3.0);
+        let by = |method| calibrate_unscaled(&session, &named(method)).unwrap().scale.unwrap();
+        assert!((by(Method::AndreffScaled) / own - 1.0).abs() < 1e-9);
+        let likeliest = solved(&session).scale.unwrap();
+        assert!((by(Method::Shah) / likeliest - 1.0).abs() < 1e-12);
+        assert!((likeliest / own - 1.0).abs() > 1e-6);
+        // it takes its factor out even where nobody calls the scale unknown
+        let found = calibrate::calibrate(&metric, &named(Method::AndreffScaled)).unwrap();
+        assert!((found.scale.unwrap() * 3.0 / own - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_order_of_the_captures_does_not_matter() {
+        let one = session(Setup::EyeInHand, &noisy_pairs(&truths()[0], 12), 3.0);
+        let mut other = one.clone();
+        other.observations.reverse();
+        assert_eq!(solved(&one), solved(&other));
+    }
+}

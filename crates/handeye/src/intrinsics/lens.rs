@@ -1,0 +1,197 @@
+//! Radial distortion of a camera that was given without any: the target's own corners tell it.
+//!
+//! A flat target whose corners the pinhole cannot reach shows by how much the lens bends:
+//!
+//! ```text
+//! S(k₁) = Σᵢ min_T Σⱼ |π(k₁, T pⱼ) - uᵢⱼ|²,      σ² = 2 S / (freedom S″)      at the least S
+//! ```
+//!
+//! over the views `i` and their corners `j`, each view with its own pose `T`. `S` is nearly a
+//! parabola in `k₁`, and its least is found as one. Poses of the robot have no part in it. Whether
+//! the term is worth having is decided as for a camera calibrated from its views.
+//!
+//! G. Schwarz, *Estimating the dimension of a model*, 1978.
+
+use crate::detect::target_poses;
+use crate::intrinsics::PRICE;
+use crate::math::linalg::median;
+use crate::{Distortion, ImageCorner, Intrinsics, TargetModel};
+
+/// What the corners say about a lens that was given as free of distortion.
+#[derive(Debug, Clone, Copy)]
+pub struct Bend {
+    /// The given camera with `k1` added.
+    pub intrinsics: Intrinsics,
+    /// Radial distortion, no unit.
+    pub k1: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// Root of the mean squared distance of corners and model as given, px.
+    pub rms_given_px: f64,
+    /// The same with `k1`.
+    pub rms_px: f64,
+}
+
+/// Fewer equations beyond the unknowns prove nothing.
+const FEWEST_FREE: f64 = 10.0;
+/// Distances below this (px) are exact.
+const EXACT_PX: f64 = 1e-3;
+/// Half the width of a parabola; narrower ones would feel a view whose pose is not found.
+const WIDTH: f64 = 0.04;
+/// Parabolas, each about the least of the one before.
+const ROUNDS: usize = 3;
+
+/// The radial distortion that the views prove, if `given` has none and they do.
+pub fn bend(views: &[Vec<ImageCorner>], target: &TargetModel, given: &Intrinsics) -> Option<Bend> {
+    if !is_straight(given) {
+        return None;
+    }
+    let views = Views { corners: views, target, given };
+    let before = views.squares(0.0);
+    let total = |k1: f64| views.squares(k1).iter().sum::<f64>();
+    let corners = before.len() as f64;
+    let freedom = 2.0 * corners - 6.0 * views.used() as f64 - 1.0;
+    if freedom < FEWEST_FREE || median(before).sqrt() < EXACT_PX {
+        return None;
+    }
+    let (k1, curvature) = least(total)?;
+    let (straight, bent) = (total(0.0), total(k1));
+    let gain = corners * (straight / bent).ln();
+    let intrinsics = with_k1(given, k1);
+    let pays = gain > PRICE * corners.ln() && views.is_sound(&intrinsics);
+    let rms = |sum: f64| (sum / corners).sqrt();
+    pays.then(|| Bend {
+        intrinsics,
+        k1,
+        sigma: (2.0 * bent / (freedom * curvature)).sqrt(),
+        rms_given_px: rms(straight),
+        rms_px: rms(bent),
+    })
+}
+
+/// Given without any distortion: not measured, or pictures straightened beforehand.
+fn is_straight(camera: &Intrinsics) -> bool {
+    match camera.distortion {
+        Distortion::None => true,
+        Distortion::BrownConrady(k) => k.iter().all(|k| *k == 0.0),
+        _ => false,
+    }
+}
+
+fn with_k1(given: &Intrinsics, k1: f64) -> Intrinsics {
+    let mut k = [0.0; 12];
+    k[0] = k1;
+    Intrinsics { distortion: Distortion::BrownConrady(k), ..*given }
+}
+
+/// Where `total` is least, and its second derivative there.
+fn least(total: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
+    let (mut at, mut curvature) = (0.0, 0.0);
+    for _ in 0..ROUNDS {
+        let (below, here, above) = (total(at - WIDTH), total(at), total(at + WIDTH));
+        curvature = (below + above - 2.0 * here) / (WIDTH * WIDTH);
+        if !(curvature > 0.0) {
+            return None;
+        }
+        let step = (below - above) / (2.0 * WIDTH) / curvature;
+        at += step.clamp(-2.0 * WIDTH, 2.0 * WIDTH);
+    }
+    Some((at, curvature))
+}
+
+struct Views<'a> {
+    corners: &'a [Vec<ImageCorner>],
+    target: &'a TargetModel,
+    given: &'a Intrinsics,
+}
+
+impl Views<'_> {
+    /// Squared distances (px²) of all corners and the model with this `k1`, each view at its best
+    /// pose.
+    fn squares(&self, k1: f64) -> Vec<f64> {
+        let camera = with_k1(self.given, k1);
+        let of_view = |corners: &Vec<ImageCorner>| -> Option<Vec<f64>> {
+            let posed = target_poses(corners, &[], self.target, &camera).ok()?;
+            let pose = posed.first()?.pose.camera_from_target;
+            let square = |c: &ImageCorner| {
+                let pixel = camera.project(&(pose * self.target.corner(c.id)?).vector())?;
+                Some((pixel - c.pixel).norm_squared())
+            };
+            Some(corners.iter().filter_map(square).collect())
+        };
+        self.corners.iter().filter_map(of_view).flatten().collect()
+    }
+
+    fn used(&self) -> usize {
+        let posed = |c: &&Vec<ImageCorner>| target_poses(c, &[], self.target, self.given).is_ok();
+        self.corners.iter().filter(posed).count()
+    }
+
+    /// The distortion does not fold over where the corners are.
+    fn is_sound(&self, camera: &Intrinsics) -> bool {
+        let mut corners = self.corners.iter().flatten();
+        corners.all(|c| camera.undistort(&c.pixel).is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Camera, Pose, Target, math::random::Random};
+    use nalgebra::{Matrix2, Vector2};
+
+    const SIGMA_PX: f64 = 0.05;
+
+    fn pinhole() -> Intrinsics {
+        Intrinsics::pinhole(640, 480, 600.0, 600.0, 319.5, 239.5)
+    }
+
+    fn tag() -> TargetModel {
+        TargetModel::Tag { dictionary: "DICT_APRILTAG_36h11".into(), id: 1, size_mm: 48.0 }
+    }
+
+    /// Twelve views of a tag in all parts of the picture.
+    fn views(camera: &Intrinsics, seed: u64) -> Vec<Vec<ImageCorner>> {
+        let mut random = Random::new(seed);
+        let mut view = |_| {
+            let turn = [(); 3].map(|()| random.between(-0.5, 0.5));
+            let at = [random.between(-0.08, 0.08), random.between(-0.05, 0.05), 0.24];
+            let pose: Pose<Camera, Target> =
+                Pose::claim(nalgebra::Isometry3::new(at.into(), turn.into()));
+            let corner = |(id, p): (usize, crate::Point<Target>)| {
+                let noise = Vector2::new(random.normal(), random.normal()) * SIGMA_PX;
+                let pixel = camera.project(&(pose * p).vector()).unwrap() + noise;
+                let covariance = Matrix2::identity() * SIGMA_PX * SIGMA_PX;
+                ImageCorner { id: id as u32, pixel, covariance }
+            };
+            tag().corners().into_iter().enumerate().map(corner).collect()
+        };
+        (0..12).map(&mut view).collect()
+    }
+
+    #[test]
+    fn tags_tell_the_distortion_that_was_not_declared() {
+        let (mut sum, count) = (0.0, 60);
+        for seed in 0..count {
+            let found = bend(&views(&with_k1(&pinhole(), 0.1), seed), &tag(), &pinhole()).unwrap();
+            assert!((found.k1 - 0.1).abs() < 0.04, "{found:?}");
+            assert!(found.rms_px < found.rms_given_px, "{found:?}");
+            sum += ((found.k1 - 0.1) / found.sigma).powi(2);
+        }
+        let mean = sum / count as f64;
+        assert!((0.4..2.0).contains(&mean), "{mean}");
+    }
+
+    #[test]
+    fn a_lens_that_does_not_bend_stays_as_given() {
+        let false_alarms =
+            (0..20).filter(|&s| bend(&views(&pinhole(), s), &tag(), &pinhole()).is_some());
+        assert!(false_alarms.count() <= 1);
+    }
+
+    #[test]
+    fn a_declared_distortion_is_believed() {
+        let bent = with_k1(&pinhole(), 0.1);
+        assert!(bend(&views(&bent, 0), &tag(), &with_k1(&pinhole(), 0.02)).is_none());
+    }
+}

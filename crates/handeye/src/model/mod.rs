@@ -1,0 +1,13 @@
+//! What there is in a cell, and what is measured there: cameras, images, scans, targets, robots, observations.
+
+pub mod camera;
+pub mod dictionary;
+pub mod image;
+pub mod kinematics;
+pub mod mesh;
+pub mod observation;
+pub mod print;
+pub mod scan;
+pub mod target;
+pub(crate) mod texture;
+pub mod verdict;

@@ -1,0 +1,232 @@
+//! What was measured: by the robot, by the camera, by touch.
+
+use nalgebra::{Matrix2, Matrix3, Matrix6, Vector2, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::{Anchor, Base, Camera, Flange, Mount, Point, Pose, Target};
+
+/// The two ways to hold a camera. Everything behind `anchor_from_mount` sees only one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Setup {
+    /// Camera on the flange, target fixed to the base.
+    EyeInHand,
+    /// Camera fixed to the base, target on the flange.
+    EyeToHand,
+}
+
+impl Setup {
+    /// The one place where the two setups differ.
+    pub fn anchor_from_mount(self, base_from_flange: Pose<Base, Flange>) -> Pose<Anchor, Mount> {
+        match self {
+            Setup::EyeInHand => base_from_flange.rename(), // anchor = base, mount = flange
+            Setup::EyeToHand => base_from_flange.inverse().rename(), // anchor = flange, mount = base
+        }
+    }
+
+    /// As files call it: `eye-in-hand` or `eye-to-hand`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Setup::EyeInHand => "eye-in-hand",
+            Setup::EyeToHand => "eye-to-hand",
+        }
+    }
+
+    /// The setup of that name.
+    pub fn from_name(name: &str) -> Option<Setup> {
+        [Setup::EyeInHand, Setup::EyeToHand].into_iter().find(|setup| setup.name() == name)
+    }
+
+    /// The user's name of the mount: `flange` or `base`.
+    pub fn mount(self) -> &'static str {
+        match self {
+            Setup::EyeInHand => "flange",
+            Setup::EyeToHand => "base",
+        }
+    }
+
+    /// The user's name of the anchor: `base` or `flange`.
+    pub fn anchor(self) -> &'static str {
+        match self {
+            Setup::EyeInHand => "base",
+            Setup::EyeToHand => "flange",
+        }
+    }
+}
+
+/// A corner of the target in a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImageCorner {
+    /// Which corner of the target.
+    pub id: u32,
+    /// Where, in pixels; the centre of the first pixel is (0, 0).
+    pub pixel: Vector2<f64>,
+    /// Covariance, px².
+    pub covariance: Matrix2<f64>,
+}
+
+/// A corner of the target as a 3D camera measures it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceCorner {
+    /// Which corner of the target.
+    pub id: u32,
+    /// Where, in the camera frame.
+    pub in_camera: Point<Camera>,
+    /// Covariance, m².
+    pub covariance: Matrix3<f64>,
+}
+
+/// The target's pose in one capture, with its covariance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TargetPose {
+    /// Where the target is.
+    pub camera_from_target: Pose<Camera, Target>,
+    /// 6 x 6, rotation (rad) first, perturbed on the right (in the Target frame). `None` when
+    /// nobody told how sure the pose is.
+    pub covariance: Option<Matrix6<f64>>,
+}
+
+/// One robot pose and what the camera saw of the target from there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observation {
+    /// Name of the capture.
+    pub capture: String,
+    /// What the robot reported.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// Values of its joints there (rad, m), from the base outwards; empty where none were recorded.
+    pub joints: Vec<f64>,
+    /// Corners in the picture; empty when only the pose is known.
+    pub corners: Vec<ImageCorner>,
+    /// Corners in the scan; empty without a scan.
+    pub surface: Vec<SurfaceCorner>,
+    /// The target's possible poses, best first: relabelings of a symmetric board and the two
+    /// solutions of a planar one are all here until the robot poses decide between them.
+    pub candidates: Vec<TargetPose>,
+}
+
+impl Observation {
+    /// A capture of which both poses came from elsewhere, of unknown covariance.
+    pub fn bare(
+        capture: String,
+        base_from_flange: Pose<Base, Flange>,
+        camera_from_target: Pose<Camera, Target>,
+    ) -> Self {
+        Self {
+            capture,
+            base_from_flange,
+            joints: vec![],
+            corners: vec![],
+            surface: vec![],
+            candidates: vec![TargetPose { camera_from_target, covariance: None }],
+        }
+    }
+}
+
+/// A board lying still, seen once by the camera and then touched (eye-to-hand), or the fixed board
+/// of the views (eye-in-hand, where it carries no picture of its own).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placement {
+    /// Its name.
+    pub id: String,
+    /// Corners in its picture.
+    pub corners: Vec<ImageCorner>,
+    /// Corners in its scan.
+    pub surface: Vec<SurfaceCorner>,
+    /// The target's possible poses in its picture, as in [`Observation::candidates`].
+    pub candidates: Vec<TargetPose>,
+    /// Why its picture shows no target, where it does not.
+    pub not_seen: Option<String>,
+}
+
+/// The tool tip on a corner of the target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Touch {
+    /// Name of the placement that was touched.
+    pub placement: String,
+    /// Which corner of the target.
+    pub corner: u32,
+    /// Where the tip was.
+    pub in_base: Point<Base>,
+    /// Where the flange was, if it was recorded.
+    pub base_from_flange: Option<Pose<Base, Flange>>,
+    /// Values of the joints there, as in [`Observation::joints`].
+    pub joints: Vec<f64>,
+}
+
+/// One physical point, measured by the camera and known to the robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Correspondence {
+    /// As the camera measures it.
+    pub in_camera: Point<Camera>,
+    /// As the robot knows it: in the base (eye-to-hand) or the flange (eye-in-hand).
+    pub in_mount: Point<Mount>,
+}
+
+/// One capture in the form that the solvers take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PosePair {
+    /// Where the robot was.
+    pub anchor_from_mount: Pose<Anchor, Mount>,
+    /// Where the camera saw the target.
+    pub camera_from_target: Pose<Camera, Target>,
+}
+
+impl PosePair {
+    /// The pair with the camera's distances times `factor`.
+    pub fn farther(&self, factor: f64) -> Self {
+        Self { camera_from_target: self.camera_from_target.farther(factor), ..*self }
+    }
+}
+
+/// What a hand-eye calibration finds: the X and Y of `A X = Y B`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct HandEye {
+    /// The answer: where the camera sits.
+    pub mount_from_camera: Pose<Mount, Camera>,
+    /// Where the target sits.
+    pub anchor_from_target: Pose<Anchor, Target>,
+}
+
+impl HandEye {
+    /// The same two poses, both frames of the target moved: `target_from_new`.
+    pub fn retarget(&self, target_from_new: Pose<Target, Target>) -> Self {
+        Self { anchor_from_target: self.anchor_from_target * target_from_new, ..*self }
+    }
+
+    /// `Y⁻¹ A X B⁻¹`: the loop that is the identity for exact data, in the Target frame.
+    pub fn loop_error(&self, pair: &PosePair) -> Pose<Target, Target> {
+        self.anchor_from_target.inverse()
+            * pair.anchor_from_mount
+            * self.mount_from_camera
+            * pair.camera_from_target
+    }
+
+    /// Angle (rad) and distance (m, at the target's origin) by which a capture's loop fails to close.
+    pub fn loop_misfit(&self, pair: &PosePair) -> (f64, f64) {
+        let e = self.loop_error(pair);
+        (e.iso().rotation.angle(), e.translation().norm())
+    }
+}
+
+/// Edge lengths and centre of the box in which the robot will work.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Workspace {
+    /// One corner, m; in the base (eye-to-hand) or the camera (eye-in-hand).
+    pub minimum: Vector3<f64>,
+    /// The opposite corner, m.
+    pub maximum: Vector3<f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector6;
+
+    #[test]
+    fn the_setups_are_inverses_of_each_other() {
+        let robot = Pose::identity().retract(&Vector6::new(0.1, 0.2, 0.3, 1.0, 2.0, 3.0));
+        let in_hand = Setup::EyeInHand.anchor_from_mount(robot);
+        let to_hand = Setup::EyeToHand.anchor_from_mount(robot);
+        assert!((in_hand.iso() * to_hand.iso()).translation.vector.norm() < 1e-12);
+    }
+}
