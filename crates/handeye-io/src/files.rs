@@ -1,11 +1,12 @@
 //! Reading with limits, natural order of names, patterns, and writing without halves.
 
 use std::{
-    cmp::Ordering,
     fs::{self, File},
     io::{Read, Write},
     path::{Path, PathBuf},
 };
+
+use handeye::model::names::natural;
 
 use crate::error::{Error, Place, malformed};
 
@@ -70,17 +71,6 @@ pub(crate) fn last_number(name: &str) -> Option<u64> {
     digits[start..].parse().ok()
 }
 
-/// Order in which people count: `img_2` before `img_10`.
-pub(crate) fn natural(a: &str, b: &str) -> Ordering {
-    let (a_runs, b_runs) = (runs(a), runs(b));
-    a_runs
-        .iter()
-        .zip(&b_runs)
-        .map(|(x, y)| compare_runs(x, y))
-        .find(|o| o.is_ne())
-        .unwrap_or_else(|| a_runs.len().cmp(&b_runs.len()).then_with(|| a.cmp(b)))
-}
-
 /// Maximal runs of digits and of other characters.
 pub(crate) fn runs(name: &str) -> Vec<&str> {
     let mut runs = Vec::new();
@@ -94,16 +84,6 @@ pub(crate) fn runs(name: &str) -> Vec<&str> {
     }
     runs.push(&name[start..]);
     runs
-}
-
-fn compare_runs(a: &str, b: &str) -> Ordering {
-    let number = |s: &str| s.bytes().all(|c| c.is_ascii_digit()) && !s.is_empty();
-    if number(a) && number(b) {
-        let (a, b) = (a.trim_start_matches('0'), b.trim_start_matches('0'));
-        a.len().cmp(&b.len()).then_with(|| a.cmp(b))
-    } else {
-        a.cmp(b)
-    }
 }
 
 /// Whether a pattern of `*` and `?` covers a name.

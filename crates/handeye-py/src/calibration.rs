@@ -3,10 +3,9 @@
 use std::{collections::BTreeMap, path::PathBuf};
 
 use handeye::{
-    Calibration, Config, Observation, Pose, Session, Stamped, Streams,
-    calibrate::findings,
-    calibrate_sequence, calibrate_streams, calibrate_unscaled,
-    estimate::{KnownPosition, noise::KnownNoise},
+    Calibration, Config, Observation, Pose, Session, Stamped, Streams, calibrate::findings,
+    calibrate_sequence, calibrate_streams, calibrate_unscaled, estimate::noise::KnownNoise,
+    model::session::KnownPosition,
 };
 use handeye_io::{
     Dataset,

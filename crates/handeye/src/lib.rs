@@ -18,9 +18,7 @@ pub use calibrate::result::Calibration;
 pub use calibrate::sequence::calibrate_sequence;
 pub use calibrate::streams::{Stamped, Streams, calibrate_moving, calibrate_streams};
 pub use calibrate::unscaled::calibrate_unscaled;
-pub use calibrate::{
-    AnswerFrame, Config, LensSigma, Session, TargetSize, Unknown, calibrate, unjudged,
-};
+pub use calibrate::{AnswerFrame, Config, Unknown, calibrate, unjudged};
 pub use error::{Error, Warning};
 pub use frame::{
     Anchor, Base, Camera, FirstJoint, Flange, Frame, LastLink, Mount, Point, Pose, Target, Tip,
@@ -34,6 +32,7 @@ pub use model::observation::{
     TargetPose, Touch, Workspace,
 };
 pub use model::scan::Scan;
+pub use model::session::{KnownPosition, LensSigma, Session, TargetSize};
 pub use model::target::TargetModel;
 pub use model::verdict::Verdict;
 /// Vectors, matrices and rotations of this library's functions, in the version that they take.

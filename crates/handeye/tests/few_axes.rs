@@ -7,10 +7,8 @@ use std::collections::BTreeMap;
 
 use handeye::{
     Base, Calibration, Camera, Config, Flange, Method, Observation, Point, Pose, Session, Setup,
-    Target, TargetModel, Touch, Verdict, calibrate, calibrate_sequence,
-    estimate::{KnownNoise, KnownPosition},
-    math::random::Random,
-    simulate::Cell,
+    Target, TargetModel, Touch, Verdict, calibrate, calibrate_sequence, estimate::KnownNoise,
+    math::random::Random, model::session::KnownPosition, simulate::Cell,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 

@@ -4,7 +4,7 @@
 
 use handeye::{
     Base, Camera, Config, Flange, Pose, Session, Setup, Target, Verdict, calibrate,
-    estimate::KnownPosition,
+    model::session::KnownPosition,
     simulate::{Cell, Truth},
 };
 use nalgebra::{Isometry3, Vector3};

@@ -23,6 +23,8 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering},
 };
 
+use handeye::model::names::natural;
+
 use crate::{
     error::{Error, unusable},
     files,
@@ -130,7 +132,7 @@ fn parts(folder: &Path) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return vec![] };
     let mut all: Vec<PathBuf> = entries.flatten().map(|e| e.path()).collect();
     all.retain(|p| p.is_file() && has_ending(p));
-    all.sort_by(|a, b| files::natural(&a.to_string_lossy(), &b.to_string_lossy()));
+    all.sort_by(|a, b| natural(&a.to_string_lossy(), &b.to_string_lossy()));
     all
 }
 

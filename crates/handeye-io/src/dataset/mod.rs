@@ -16,7 +16,8 @@ use std::path::{Path, PathBuf};
 use handeye::{
     AnswerFrame, Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics,
     LensSigma, Pose, Scan, Setup, Target, TargetModel, TargetSize, Touch, Warning, Workspace,
-    estimate::KnownPosition, intrinsics::LensModel, model::kinematics::Arm,
+    intrinsics::LensModel,
+    model::{kinematics::Arm, session::KnownPosition},
 };
 use serde::Deserialize;
 

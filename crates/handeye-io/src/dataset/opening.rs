@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use handeye::{
     AnswerFrame, Base, Camera, Flange, Intrinsics, LensSigma, Pose, Setup, Target, TargetModel,
-    TargetSize, Touch, Warning, Workspace, estimate::KnownPosition,
+    TargetSize, Touch, Warning, Workspace, model::session::KnownPosition,
 };
 use nalgebra::Vector3;
 

@@ -5,10 +5,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use handeye::model::names::natural;
+
 use crate::{
     MANIFEST,
     error::Error,
-    files::{extension, matches, natural, runs},
+    files::{extension, matches, runs},
 };
 
 /// Folders deeper than this are not looked into.

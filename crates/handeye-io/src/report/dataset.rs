@@ -2,7 +2,8 @@
 
 use handeye::{
     Calibration, Observation, Session,
-    calibrate::{natural, relabelling, result::CaptureResult},
+    calibrate::{relabelling, result::CaptureResult},
+    model::names::natural,
 };
 
 use super::{MarkedCorner, Picture, Report, html};

@@ -7,9 +7,11 @@
 use std::path::Path;
 
 use super::{Cell, Layout, Record, lines::ID_NAMES};
+use handeye::model::names::natural;
+
 use crate::{
     error::{Error, Place, malformed, nearest},
-    files::{is_pattern, matches, natural},
+    files::{is_pattern, matches},
     tree::Tree,
 };
 

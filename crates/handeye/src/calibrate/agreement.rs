@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::{Config, Session, doubt, gate, movement, rejected};
+use super::{Config, doubt, gate, movement, rejected};
+use crate::model::session::Session;
 use crate::{
     Error, Observation, Pose, PosePair, Target, Warning,
     calibrate::result::{Calibration, CaptureResult},

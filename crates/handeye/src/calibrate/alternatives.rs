@@ -22,9 +22,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    Session, alike,
+    alike,
     prior::{self, Component, Declared, is_shared},
 };
+use crate::model::session::Session;
 use crate::{
     Error, HandEye,
     estimate::{self, JointFit, KnownNoise, Problem},

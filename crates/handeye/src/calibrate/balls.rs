@@ -5,11 +5,12 @@
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
 use super::{
-    Config, Session, agreement,
+    Config, agreement,
     movement::{self, Recorded, Row},
     verdict,
     workpiece::workspace_volume,
 };
+use crate::model::session::Session;
 use crate::{
     Camera, Mount, Observation, Pose, PosePair, Warning,
     calibrate::result::{Answer, BudgetEntry, Calibration, Candidate, PoseCovariance, rows},

@@ -1,6 +1,7 @@
 //! Misfit of every capture and touch, and which way round the target lies.
 
-use super::{Session, agreement::Views, joint::Joint};
+use super::{agreement::Views, joint::Joint};
+use crate::model::session::Session;
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
     TargetPose, Touch, Warning,

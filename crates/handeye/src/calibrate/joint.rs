@@ -4,12 +4,12 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::{
-    Session,
     agreement::Views,
     alternatives::{Alternatives, Averaged},
     boards::Boards,
     prior::Declared,
 };
+use crate::model::session::Session;
 use crate::{
     TargetModel, Warning,
     calibrate::result::{Calibration, TipResult},

@@ -50,11 +50,10 @@ mod workpiece;
 mod wrong_touches;
 
 use crate::{
-    Camera, Correspondence, Error, Intrinsics, Mount, Observation, Placement, Pose, Setup,
-    TargetModel, Touch, Workspace,
+    Camera, Error, Mount, Pose, Session, Setup, TargetModel,
     calibrate::result::{Answer, Calibration, UNJUDGED},
-    estimate::{KnownPosition, evaluate::Misfit, noise::KnownNoise, touches},
-    model::{kinematics::Arm, verdict::Verdict},
+    estimate::{evaluate::Misfit, noise::KnownNoise, touches},
+    model::verdict::Verdict,
     register::IcpConfig,
     solve::Method,
 };
@@ -62,82 +61,6 @@ use crate::{
 pub use captures::relabelling;
 use optics::Optics;
 pub use unknown::Unknown;
-
-/// Everything that was measured in one cell.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Session {
-    /// Who carries the camera.
-    pub setup: Setup,
-    /// What the camera looked at; `None` for bare poses or points.
-    pub target: Option<TargetModel>,
-    /// How well the target's size is known.
-    pub target_size: TargetSize,
-    /// The camera, where pictures were used.
-    pub camera: Option<Intrinsics>,
-    /// How well the camera's lens is known, where that was stated.
-    pub lens_sigma: Option<LensSigma>,
-    /// Whether the camera was calibrated from these very views.
-    pub camera_from_views: bool,
-    /// Captures, in any order.
-    pub observations: Vec<Observation>,
-    /// Boards lying in the cell (eye-to-hand).
-    pub placements: Vec<Placement>,
-    /// Touched corners.
-    pub touches: Vec<Touch>,
-    /// Points known to camera and robot, where that is all there is.
-    pub correspondences: Vec<Correspondence>,
-    /// Where the answer will be used, in the base (eye-to-hand) or the camera (eye-in-hand).
-    pub workspace: Option<Workspace>,
-    /// What is known of the camera's place on the mount.
-    pub known_position: Option<KnownPosition>,
-    /// The arm as its maker describes it, where that is known.
-    pub arm: Option<Arm>,
-}
-
-/// How well the size of a target is known beforehand.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum TargetSize {
-    /// As declared, unless the printer scaled it or nobody measured it: the data may say otherwise.
-    #[default]
-    Printed,
-    /// It was measured, with this standard deviation as a share of the size: data that say otherwise are wrong.
-    Measured(f64),
-}
-
-/// Standard deviations of a given lens, as its calibration states them: data that say otherwise are wrong.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct LensSigma {
-    /// Of the focal length, px.
-    pub focal_px: Option<f64>,
-    /// Of the principal point, px per axis.
-    pub center_px: Option<f64>,
-}
-
-impl Session {
-    /// What the poses of the target were read from, in a word for people.
-    pub(crate) fn read_from(&self) -> &'static str {
-        if self.target.is_some() { "picture" } else { "target pose" }
-    }
-
-    /// Captures alone: no target model, camera, touches, or anything else that was measured.
-    pub fn of_captures(setup: Setup, observations: Vec<Observation>) -> Self {
-        Self {
-            setup,
-            target: None,
-            target_size: TargetSize::default(),
-            camera: None,
-            lens_sigma: None,
-            camera_from_views: false,
-            observations,
-            placements: vec![],
-            touches: vec![],
-            correspondences: vec![],
-            workspace: None,
-            known_position: None,
-            arm: None,
-        }
-    }
-}
 
 /// What the user wants of a calibration.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -175,7 +98,7 @@ const FORMAT: &str = "handeye-calibration-1";
 /// [`Error::Invalid`] when the session holds nothing to calibrate from.
 pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Error> {
     check(session)?;
-    let mut session = in_order(session);
+    let mut session = session.in_order();
     let repeated = repeated::take_out(&mut session);
     let mut result = calibrate_distinct(session, config);
     repeated.report(&mut result);
@@ -274,51 +197,6 @@ fn from_views(
     captures::report_captures(&views, result);
     if let Some(moved) = views.movement {
         movement::apply(moved, result);
-    }
-}
-
-/// Captures and touches in the order of their names, whatever order they came in.
-pub(crate) fn in_order(session: &Session) -> Session {
-    let mut session = session.clone();
-    session.observations.sort_by(|a, b| natural(&a.capture, &b.capture));
-    session.placements.sort_by(|a, b| natural(&a.id, &b.id));
-    let at = |t: &Touch| t.in_base.vector();
-    session.touches.sort_by(|a, b| {
-        natural(&a.placement, &b.placement).then(a.corner.cmp(&b.corner)).then_with(|| {
-            at(a).as_slice().partial_cmp(at(b).as_slice()).unwrap_or(std::cmp::Ordering::Equal)
-        })
-    });
-    let key = |c: &Correspondence| c.in_camera.vector();
-    session.correspondences.sort_by(|a, b| {
-        key(a).as_slice().partial_cmp(key(b).as_slice()).unwrap_or(std::cmp::Ordering::Equal)
-    });
-    session
-}
-
-/// Order of names in which `img_2` comes before `img_10`.
-pub fn natural(a: &str, b: &str) -> std::cmp::Ordering {
-    let (mut a, mut b) = (a.chars().peekable(), b.chars().peekable());
-    loop {
-        let order = match (a.peek(), b.peek()) {
-            (None, None) => return std::cmp::Ordering::Equal,
-            (None, _) => return std::cmp::Ordering::Less,
-            (_, None) => return std::cmp::Ordering::Greater,
-            (Some(x), Some(y)) if x.is_ascii_digit() && y.is_ascii_digit() => {
-                let number = |it: &mut std::iter::Peekable<std::str::Chars>| {
-                    let mut digits = String::new();
-                    while let Some(c) = it.next_if(char::is_ascii_digit) {
-                        digits.push(c);
-                    }
-                    let value = digits.trim_start_matches('0').to_owned();
-                    (value.len(), value, digits.len())
-                };
-                number(&mut a).cmp(&number(&mut b))
-            }
-            (Some(_), Some(_)) => a.next().cmp(&b.next()),
-        };
-        if order != std::cmp::Ordering::Equal {
-            return order;
-        }
     }
 }
 

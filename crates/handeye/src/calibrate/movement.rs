@@ -22,7 +22,8 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
 
-use super::{Session, agreement::Captures, gate::IMPROBABLE};
+use super::{agreement::Captures, gate::IMPROBABLE};
+use crate::model::session::Session;
 use crate::{
     Anchor, Calibration, Mount, Pose, Setup, Verdict, Warning,
     calibrate::result::{CaptureResult, Movement, MovementKind, matrix, rows},

@@ -13,7 +13,8 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3};
 
-use super::{AnswerFrame, Session, scans::seen_planes};
+use super::{AnswerFrame, scans::seen_planes};
+use crate::model::session::Session;
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Mount, Pose, SurfaceCorner, TargetPose, Warning,
     calibrate::result::{matrix, rows},

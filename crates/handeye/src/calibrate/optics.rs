@@ -8,13 +8,14 @@
 use nalgebra::{DMatrix, Matrix3, Matrix6, SVector, Vector2, Vector3, Vector6};
 
 use super::{
-    Config, Session,
+    Config,
     agreement::Views,
     alternatives::Alternatives,
     captures,
     joint::views_problem,
     prior::{Declared, SIZE, unknown_depth, unknown_lens, unknown_shape, unknown_size},
 };
+use crate::model::session::Session;
 use crate::{
     Camera, ImageCorner, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel,
     Warning,

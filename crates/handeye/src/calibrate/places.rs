@@ -15,7 +15,8 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::{Session, repeated::Uncounted};
+use super::repeated::Uncounted;
+use crate::model::session::Session;
 use crate::{
     Calibration, HandEye, Observation, PosePair,
     math::{lie, statistics},

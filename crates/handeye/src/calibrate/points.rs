@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Session, workpiece::workspace_volume};
+use super::workpiece::workspace_volume;
+use crate::model::session::Session;
 use crate::{
     Camera, Error, Mount, Pose, Warning,
     calibrate::result::{Answer, Calibration, Candidate, PoseCovariance, rows},

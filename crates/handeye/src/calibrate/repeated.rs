@@ -1,7 +1,8 @@
 //! Captures that repeat one another: what the robot misses at a place, it misses in all of them. Of each place one
 //! counts; as independent captures they would promise an accuracy that nobody has measured.
 
-use super::{Session, agreement, natural};
+use super::agreement;
+use crate::model::{names::natural, session::Session};
 use crate::{Observation, Warning, calibrate::result::Calibration};
 
 /// Robot poses this close are one place: rad and m. Nobody moves by less; what a robot reads of itself varies by less.

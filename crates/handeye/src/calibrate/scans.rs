@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Session, captures::relabelling, optics};
+use super::{captures::relabelling, optics};
+use crate::model::session::Session;
 use crate::{
     Camera, Observation, Pose, SurfaceCorner, Target, TargetModel, Warning,
     calibrate::result::{

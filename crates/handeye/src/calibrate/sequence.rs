@@ -90,7 +90,7 @@ pub fn calibrate_sequence(
     config: &Config,
 ) -> Result<Calibration, Error> {
     calibrate::check(session)?;
-    let mut session = calibrate::in_order(session);
+    let mut session = session.in_order();
     let repeated = repeated::take_out(&mut session);
     let mut result = of_distinct(&session, times, config)?;
     repeated.report(&mut result);
@@ -117,7 +117,7 @@ fn of_distinct(
 }
 
 fn in_order(session: &Session, times: &BTreeMap<String, f64>) -> Session {
-    let mut session = calibrate::in_order(session);
+    let mut session = session.in_order();
     let time = |name: &String| times.get(name).copied().unwrap_or(f64::INFINITY);
     session.observations.sort_by(|a, b| time(&a.capture).total_cmp(&time(&b.capture)));
     session
@@ -150,7 +150,7 @@ fn with_drift(
         return Ok((sequence.side == Side::Camera).then(|| loose(&found, plain)));
     }
     let steady = without(session, &sequence, &found);
-    let mut result = calibrate::calibrate_distinct(calibrate::in_order(&steady), config);
+    let mut result = calibrate::calibrate_distinct(steady.in_order(), config);
     if result.hand_eye.mount_from_camera.is_none() {
         return Ok(None);
     }

@@ -12,9 +12,10 @@
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::{
-    AnswerFrame, Session,
+    AnswerFrame,
     offset::{self, Found},
 };
+use crate::model::session::Session;
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
     TargetPose, Verdict, Warning,

@@ -40,7 +40,7 @@ pub fn calibrate_unscaled(session: &Session, config: &Config) -> Result<Calibrat
         ));
     }
     calibrate::check(session)?;
-    let session = calibrate::in_order(session);
+    let session = session.in_order();
     let pairs = pairs(&session);
     let at = |stand: Stand| Captures {
         pairs: pairs.iter().map(|p| p.farther(1.0 / stand.scale)).collect(),

@@ -1,6 +1,7 @@
 //! Whether the answer can be used.
 
-use super::{Config, Session, agreement::Views, prior::SIZE};
+use super::{Config, agreement::Views, prior::SIZE};
+use crate::model::session::Session;
 use crate::{
     Camera, Mount, Pose, TargetSize, Warning,
     calibrate::result::{Answer, Calibration, Determined, Scale},

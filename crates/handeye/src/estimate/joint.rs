@@ -28,7 +28,7 @@
 //! D. Harville, *Maximum likelihood approaches to variance component estimation*, JASA 72, 1977;
 //! M. Ulrich and M. Hillemann, *Uncertainty-aware hand-eye calibration*, IEEE T-RO 40, 2024.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Vector3};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::{
     extra::{Extra, ExtraKind},
@@ -38,7 +38,7 @@ use super::{
 };
 use crate::solve::least_squares::{self, Matrix12, View};
 use crate::{
-    Camera, Error, HandEye, Mount, Pose, Setup,
+    Error, HandEye, KnownPosition, Setup,
     math::{lie, linalg},
 };
 
@@ -55,24 +55,6 @@ pub struct Problem {
     pub extras: Vec<Extra>,
     /// What the user knows of where the camera sits.
     pub known_position: Option<KnownPosition>,
-}
-
-/// The camera's position along one direction, as measured by other means.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KnownPosition {
-    /// The direction, in the mount; of unit length.
-    pub axis: Vector3<f64>,
-    /// The position along it (m).
-    pub value_m: f64,
-    /// Its standard deviation (m).
-    pub sigma_m: f64,
-}
-
-impl KnownPosition {
-    /// Misfit of an answer in standard deviations.
-    pub(super) fn misfit(&self, x: &Pose<Mount, Camera>) -> f64 {
-        (self.axis.dot(&x.translation()) - self.value_m) / self.sigma_m
-    }
 }
 
 /// The answer, and how sure it is.

@@ -17,6 +17,6 @@ pub mod touched;
 pub mod touches;
 
 pub use extra::{Extra, ExtraKind};
-pub use joint::{JointFit, KnownPosition, Problem, fit_joint, fit_views};
+pub use joint::{JointFit, Problem, fit_joint, fit_views};
 pub use noise::{KnownNoise, NoiseModel, Sigma, Source};
 pub use touched::{TouchedBoard, TouchedCorner};

@@ -217,6 +217,25 @@ pub struct Workspace {
     pub maximum: Vector3<f64>,
 }
 
+impl PosePair {
+    /// `R_A`.
+    pub(crate) fn r_a(&self) -> Matrix3<f64> {
+        self.anchor_from_mount.rotation()
+    }
+    /// `t_A`, m.
+    pub(crate) fn t_a(&self) -> Vector3<f64> {
+        self.anchor_from_mount.translation()
+    }
+    /// `R_B` of `B = target_from_camera`.
+    pub(crate) fn r_b(&self) -> Matrix3<f64> {
+        self.camera_from_target.rotation().transpose()
+    }
+    /// `t_B` of `B = target_from_camera`, m.
+    pub(crate) fn t_b(&self) -> Vector3<f64> {
+        self.camera_from_target.inverse().translation()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -21,7 +21,12 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, Vector4};
 
-use super::{check, jacobi, kronecker, moments, moments::Translations, open, place};
+use super::{
+    jacobi, kronecker, moments,
+    moments::Translations,
+    motions::check,
+    shared::{open, place},
+};
 use crate::{Error, HandEye, PosePair};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {

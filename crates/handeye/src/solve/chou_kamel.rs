@@ -19,7 +19,11 @@
 
 use nalgebra::Matrix4;
 
-use super::{jacobi, moments, moments::Translations, open, place};
+use super::{
+    jacobi, moments,
+    moments::Translations,
+    shared::{open, place},
+};
 use crate::{Error, HandEye, PosePair};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {

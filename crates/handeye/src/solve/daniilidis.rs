@@ -24,7 +24,7 @@ use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, SVector, Vector3, Vector4};
 use super::{
     jacobi, moments,
     moments::{Seen, product},
-    open, place,
+    shared::{open, place},
 };
 use crate::{Error, HandEye, PosePair};
 

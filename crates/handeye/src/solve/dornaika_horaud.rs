@@ -14,7 +14,7 @@
 //! F. Dornaika and R. Horaud, *Simultaneous robot-world and hand-eye calibration*, IEEE T-RA
 //! 14(4), 1998.
 
-use super::{jacobi, moments, open, zhuang::with_positions};
+use super::{jacobi, moments, shared::open, zhuang::with_positions};
 use crate::{Error, HandEye, PosePair};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {

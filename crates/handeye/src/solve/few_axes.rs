@@ -17,7 +17,7 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
 
-use super::{jacobi, motions, place_target};
+use super::{jacobi, motions, shared::place_target};
 use crate::{
     HandEye, Pose, PosePair,
     math::{lie, linalg},

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::{few_axes, motions, motions::Motion, place_target};
+use super::{few_axes, motions, motions::Motion, shared::place_target};
 use crate::{
     HandEye, Pose, PosePair,
     math::{lie, linalg},

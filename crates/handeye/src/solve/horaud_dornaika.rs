@@ -21,7 +21,7 @@ use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, UnitQuaternion, Vector3, Ve
 use super::{
     jacobi, moments,
     moments::{Seen, Translations},
-    open, place,
+    shared::{open, place},
 };
 use crate::{Error, HandEye, PosePair, math::lie};
 

@@ -4,7 +4,7 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::{jacobi, moments, open};
+use super::{jacobi, moments, shared::open};
 use crate::{Error, PosePair};
 
 /// Adds `b ⊗ a`.

@@ -17,7 +17,7 @@
 
 use nalgebra::{Isometry3, Matrix3, SMatrix};
 
-use super::{jacobi, kronecker, kronecker::Centred, moments, open};
+use super::{jacobi, kronecker, kronecker::Centred, moments, shared::open};
 use crate::{Error, HandEye, Pose, PosePair};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {

@@ -21,7 +21,8 @@ use nalgebra::Matrix4;
 
 use super::{
     daniilidis::{Products, from_dual},
-    jacobi, moments, open, place,
+    jacobi, moments,
+    shared::{open, place},
 };
 use crate::{Error, HandEye, PosePair};
 

@@ -24,16 +24,18 @@ pub mod motions;
 mod park_martin;
 pub mod points;
 mod shah;
+mod shared;
 mod shiu_ahmad;
 mod tabb;
 mod tsai_lenz;
 mod wu;
 mod zhuang;
 
+use crate::{Error, HandEye, PosePair};
 pub use least_squares::View;
-use nalgebra::{Isometry3, Matrix3, Vector3};
-
-use crate::{Error, HandEye, Pose, PosePair, math::linalg};
+pub(crate) use motions::check;
+pub(crate) use shared::too_few;
+pub use shared::{FEWEST_POSES, place_target};
 
 /// A published closed form.
 ///
@@ -162,9 +164,6 @@ impl Method {
     }
 }
 
-/// Fewest captures that can fix the answer: two motions about different axes.
-pub const FEWEST_POSES: usize = 3;
-
 /// Solves `A X = Y B` over all pairs with one published method.
 ///
 /// # Errors
@@ -198,77 +197,11 @@ pub fn solve(pairs: &[PosePair], method: Method) -> Result<HandEye, Error> {
     }
 }
 
-/// An answer that is left open, and by what.
-fn open(what: &str) -> Error {
-    Error::NotDetermined { what: what.into() }
-}
-
-/// The answer whose camera is at `x`; the target where it fits best.
-fn place(pairs: &[PosePair], x: Isometry3<f64>) -> HandEye {
-    place_target(pairs, &Pose::claim(x))
-}
-
-pub(crate) fn too_few(found: usize) -> Error {
-    Error::TooFewPoses {
-        found,
-        needed: FEWEST_POSES,
-        advice: "take 10 to 15, the robot tilted by 30 degrees and more about two axes".into(),
-    }
-}
-
-pub(crate) fn check(pairs: &[PosePair]) -> Result<(), Error> {
-    if pairs.len() < FEWEST_POSES {
-        return Err(too_few(pairs.len()));
-    }
-    let finite = |p: &PosePair| p.anchor_from_mount.is_finite() && p.camera_from_target.is_finite();
-    match pairs.iter().position(|p| !finite(p)) {
-        Some(i) => Err(Error::NotFinite { what: format!("pose pair {}", i + 1) }),
-        None => motions::check_axes(pairs),
-    }
-}
-
-impl PosePair {
-    /// `R_A`.
-    pub(crate) fn r_a(&self) -> Matrix3<f64> {
-        self.anchor_from_mount.rotation()
-    }
-    /// `t_A`, m.
-    pub(crate) fn t_a(&self) -> Vector3<f64> {
-        self.anchor_from_mount.translation()
-    }
-    /// `R_B` of `B = target_from_camera`.
-    pub(crate) fn r_b(&self) -> Matrix3<f64> {
-        self.camera_from_target.rotation().transpose()
-    }
-    /// `t_B` of `B = target_from_camera`, m.
-    pub(crate) fn t_b(&self) -> Vector3<f64> {
-        self.camera_from_target.inverse().translation()
-    }
-}
-
-/// The target's place that fits best once the camera's is known: the mean of `A X B⁻¹`.
-pub fn place_target(
-    pairs: &[PosePair],
-    mount_from_camera: &Pose<crate::Mount, crate::Camera>,
-) -> HandEye {
-    let seen: Vec<_> = pairs
-        .iter()
-        .map(|p| p.anchor_from_mount * *mount_from_camera * p.camera_from_target)
-        .collect();
-    let rotation = linalg::mean_rotation(seen.iter().map(|y| &y.iso().rotation));
-    let translation =
-        seen.iter().map(|y| y.translation()).sum::<Vector3<f64>>() / seen.len().max(1) as f64;
-    HandEye {
-        mount_from_camera: *mount_from_camera,
-        anchor_from_target: Pose::claim(Isometry3::from_parts(translation.into(), rotation)),
-    }
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::{Anchor, Mount};
-    use nalgebra::Vector6;
+    use crate::{Anchor, Mount, Pose};
+    use nalgebra::{Isometry3, Vector3, Vector6};
     use std::f64::consts::PI;
 
     pub(crate) fn pose<A, B>(t: [f64; 3], axis_angle: [f64; 3]) -> Pose<A, B> {

@@ -17,7 +17,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, UnitQuaternion, Vector3, Vector4};
 
-use super::jacobi;
+use super::{jacobi, shared::open};
 use crate::{Error, PosePair};
 
 /// A capture seen from the first one.
@@ -315,7 +315,7 @@ pub(super) fn with_position(
 ) -> Result<Isometry3<f64>, Error> {
     let t = motions
         .solve(&rotation.to_rotation_matrix().into_inner())
-        .ok_or_else(|| super::open("the motions do not fix the camera's position"))?;
+        .ok_or_else(|| open("the motions do not fix the camera's position"))?;
     Ok(Isometry3::from_parts(t.into(), rotation))
 }
 

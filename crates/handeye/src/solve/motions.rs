@@ -4,7 +4,10 @@
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
-use super::{jacobi, moments};
+use super::{
+    jacobi, moments,
+    shared::{FEWEST_POSES, too_few},
+};
 use crate::{Error, PosePair, math::lie};
 
 /// One relative motion, seen by the robot and by the camera.
@@ -93,5 +96,17 @@ pub(super) fn check_axes(pairs: &[PosePair]) -> Result<(), Error> {
                 axis.x, axis.y, axis.z
             ),
         }),
+    }
+}
+
+/// Refuses what no method can solve.
+pub(crate) fn check(pairs: &[PosePair]) -> Result<(), Error> {
+    if pairs.len() < FEWEST_POSES {
+        return Err(too_few(pairs.len()));
+    }
+    let finite = |p: &PosePair| p.anchor_from_mount.is_finite() && p.camera_from_target.is_finite();
+    match pairs.iter().position(|p| !finite(p)) {
+        Some(i) => Err(Error::NotFinite { what: format!("pose pair {}", i + 1) }),
+        None => check_axes(pairs),
     }
 }

@@ -19,7 +19,7 @@ use nalgebra::Matrix3;
 use super::{
     jacobi, moments,
     moments::{Seen, Translations},
-    open, place,
+    shared::{open, place},
 };
 use crate::{Error, HandEye, PosePair};
 

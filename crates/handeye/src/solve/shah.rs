@@ -20,7 +20,7 @@
 
 use nalgebra::{Isometry3, Matrix3, SMatrix, UnitQuaternion};
 
-use super::{jacobi, kronecker, kronecker::Centred, open};
+use super::{jacobi, kronecker, kronecker::Centred, shared::open};
 use crate::{Error, HandEye, Pose, PosePair};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {

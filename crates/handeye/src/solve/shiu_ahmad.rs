@@ -20,7 +20,11 @@
 
 use nalgebra::{Matrix2, Matrix3, UnitQuaternion, Vector2, Vector3};
 
-use super::{moments, moments::Translations, open, place};
+use super::{
+    moments,
+    moments::Translations,
+    shared::{open, place},
+};
 use crate::{Error, HandEye, PosePair};
 
 /// Motions whose half-angle has a sine below this share of the largest have no axis to speak of.

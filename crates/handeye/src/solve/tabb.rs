@@ -21,7 +21,8 @@ use nalgebra::{Isometry3, Matrix3, SMatrix, UnitQuaternion, Vector3};
 use super::{
     horaud_dornaika::{turning, weighted},
     kronecker::{self, Centred},
-    moments, open, shah,
+    moments, shah,
+    shared::open,
 };
 use crate::{Error, HandEye, Pose, PosePair, math::lie};
 

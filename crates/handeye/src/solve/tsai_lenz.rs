@@ -21,7 +21,7 @@ use nalgebra::{Matrix3, Matrix4, UnitQuaternion, Vector3, Vector4};
 use super::{
     jacobi, moments,
     moments::{Seen, Translations},
-    open, place,
+    shared::{open, place},
 };
 use crate::{Error, HandEye, PosePair};
 

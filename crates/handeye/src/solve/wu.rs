@@ -32,7 +32,7 @@ use super::{
     daniilidis::from_dual,
     jacobi,
     moments::{self, Seen},
-    open, place,
+    shared::{open, place},
 };
 use crate::{Error, HandEye, PosePair};
 

@@ -23,7 +23,7 @@ use super::{
     jacobi,
     kronecker::Centred,
     moments::{self, between, product, vector},
-    open,
+    shared::open,
 };
 use crate::{Error, HandEye, Pose, PosePair};
 

@@ -1,0 +1,121 @@
+//! Everything that was measured in one cell, and what is known beforehand.
+
+use nalgebra::Vector3;
+
+use super::{kinematics::Arm, names::natural, target::TargetModel};
+use crate::{
+    Camera, Correspondence, Intrinsics, Mount, Observation, Placement, Pose, Setup, Touch,
+    Workspace,
+};
+
+/// Everything that was measured in one cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Session {
+    /// Who carries the camera.
+    pub setup: Setup,
+    /// What the camera looked at; `None` for bare poses or points.
+    pub target: Option<TargetModel>,
+    /// How well the target's size is known.
+    pub target_size: TargetSize,
+    /// The camera, where pictures were used.
+    pub camera: Option<Intrinsics>,
+    /// How well the camera's lens is known, where that was stated.
+    pub lens_sigma: Option<LensSigma>,
+    /// Whether the camera was calibrated from these very views.
+    pub camera_from_views: bool,
+    /// Captures, in any order.
+    pub observations: Vec<Observation>,
+    /// Boards lying in the cell (eye-to-hand).
+    pub placements: Vec<Placement>,
+    /// Touched corners.
+    pub touches: Vec<Touch>,
+    /// Points known to camera and robot, where that is all there is.
+    pub correspondences: Vec<Correspondence>,
+    /// Where the answer will be used, in the base (eye-to-hand) or the camera (eye-in-hand).
+    pub workspace: Option<Workspace>,
+    /// What is known of the camera's place on the mount.
+    pub known_position: Option<KnownPosition>,
+    /// The arm as its maker describes it, where that is known.
+    pub arm: Option<Arm>,
+}
+
+/// How well the size of a target is known beforehand.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum TargetSize {
+    /// As declared, unless the printer scaled it or nobody measured it: the data may say otherwise.
+    #[default]
+    Printed,
+    /// It was measured, with this standard deviation as a share of the size: data that say otherwise are wrong.
+    Measured(f64),
+}
+
+/// Standard deviations of a given lens, as its calibration states them: data that say otherwise are wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LensSigma {
+    /// Of the focal length, px.
+    pub focal_px: Option<f64>,
+    /// Of the principal point, px per axis.
+    pub center_px: Option<f64>,
+}
+
+impl Session {
+    /// What the poses of the target were read from, in a word for people.
+    pub(crate) fn read_from(&self) -> &'static str {
+        if self.target.is_some() { "picture" } else { "target pose" }
+    }
+
+    /// Captures alone: no target model, camera, touches, or anything else that was measured.
+    pub fn of_captures(setup: Setup, observations: Vec<Observation>) -> Self {
+        Self {
+            setup,
+            target: None,
+            target_size: TargetSize::default(),
+            camera: None,
+            lens_sigma: None,
+            camera_from_views: false,
+            observations,
+            placements: vec![],
+            touches: vec![],
+            correspondences: vec![],
+            workspace: None,
+            known_position: None,
+            arm: None,
+        }
+    }
+
+    /// Captures and touches in the order of their names, whatever order they came in.
+    pub(crate) fn in_order(&self) -> Self {
+        let mut session = self.clone();
+        session.observations.sort_by(|a, b| natural(&a.capture, &b.capture));
+        session.placements.sort_by(|a, b| natural(&a.id, &b.id));
+        let at = |t: &Touch| t.in_base.vector();
+        session.touches.sort_by(|a, b| {
+            natural(&a.placement, &b.placement).then(a.corner.cmp(&b.corner)).then_with(|| {
+                at(a).as_slice().partial_cmp(at(b).as_slice()).unwrap_or(std::cmp::Ordering::Equal)
+            })
+        });
+        let key = |c: &Correspondence| c.in_camera.vector();
+        session.correspondences.sort_by(|a, b| {
+            key(a).as_slice().partial_cmp(key(b).as_slice()).unwrap_or(std::cmp::Ordering::Equal)
+        });
+        session
+    }
+}
+
+/// The camera's position along one direction, as measured by other means.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownPosition {
+    /// The direction, in the mount; of unit length.
+    pub axis: Vector3<f64>,
+    /// The position along it (m).
+    pub value_m: f64,
+    /// Its standard deviation (m).
+    pub sigma_m: f64,
+}
+
+impl KnownPosition {
+    /// Misfit of an answer in standard deviations.
+    pub(crate) fn misfit(&self, x: &Pose<Mount, Camera>) -> f64 {
+        (self.axis.dot(&x.translation()) - self.value_m) / self.sigma_m
+    }
+}
