@@ -3,14 +3,13 @@
 use nalgebra::Vector3;
 
 use super::{Config, doubt, gate, movement, rejected};
-use crate::model::session::Session;
 use crate::{
     Error, Observation, Pose, PosePair, Target, Warning,
     calibrate::result::{Calibration, CaptureResult},
     estimate::evaluate,
     math::linalg::median,
     mistakes::{self, Convention},
-    model::verdict::Verdict,
+    model::{session::Session, verdict::Verdict},
     solve::{
         View,
         consensus::{self, Consensus, Readings},

@@ -25,10 +25,10 @@ use super::{
     alike,
     prior::{self, Component, Declared, is_shared},
 };
-use crate::model::session::Session;
 use crate::{
     Error, HandEye,
     estimate::{self, JointFit, KnownNoise, Problem},
+    model::session::Session,
 };
 
 /// A component of less weight than this changes neither mean nor covariance.

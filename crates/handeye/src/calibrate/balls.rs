@@ -10,7 +10,6 @@ use super::{
     verdict,
     workpiece::workspace_volume,
 };
-use crate::model::session::Session;
 use crate::{
     Camera, Mount, Observation, Pose, PosePair, Warning,
     calibrate::result::{Answer, BudgetEntry, Calibration, Candidate, PoseCovariance, rows},
@@ -21,7 +20,7 @@ use crate::{
     },
     math::linalg::median,
     mistakes,
-    model::verdict::Verdict,
+    model::{session::Session, verdict::Verdict},
     solve::points::{self, PointFit, PointView},
 };
 

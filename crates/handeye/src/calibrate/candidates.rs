@@ -21,7 +21,6 @@ use super::{
 };
 use registered::stored_registration;
 
-use crate::solve::View;
 use crate::{
     Camera, HandEye, Mount, Pose, PosePair, Warning,
     calibrate::result::{Answer, Calibration, Candidate, PoseCovariance, WITH_ARM, rows},
@@ -32,7 +31,7 @@ use crate::{
         touches::{self, TouchPairs},
     },
     mistakes,
-    solve::{self, Method, consensus::Consensus, least_squares::Matrix12},
+    solve::{self, Method, View, consensus::Consensus, least_squares::Matrix12},
 };
 
 /// Makes and judges all candidates, chooses one, and reports the touches. With the views comes the

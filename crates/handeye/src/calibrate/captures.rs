@@ -1,7 +1,6 @@
 //! Misfit of every capture and touch, and which way round the target lies.
 
 use super::{agreement::Views, joint::Joint};
-use crate::model::session::Session;
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
     TargetPose, Touch, Warning,
@@ -15,6 +14,7 @@ use crate::{
         touches::{self, TouchPairs},
     },
     math::lie,
+    model::session::Session,
     solve::View,
 };
 

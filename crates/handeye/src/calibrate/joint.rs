@@ -9,7 +9,6 @@ use super::{
     boards::Boards,
     prior::Declared,
 };
-use crate::model::session::Session;
 use crate::{
     TargetModel, Warning,
     calibrate::result::{Calibration, TipResult},
@@ -19,6 +18,7 @@ use crate::{
         joint,
     },
     math::statistics,
+    model::session::Session,
     solve::View,
 };
 

@@ -23,12 +23,12 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
 
 use super::{agreement::Captures, gate::IMPROBABLE};
-use crate::model::session::Session;
 use crate::{
     Anchor, Calibration, Mount, Pose, Setup, Verdict, Warning,
     calibrate::result::{CaptureResult, Movement, MovementKind, matrix, rows},
     estimate::JointFit,
     math::{lie, statistics},
+    model::session::Session,
     register::rigid_fit::point_jacobian,
     solve::{consensus::Consensus, least_squares},
 };

@@ -14,7 +14,6 @@
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3};
 
 use super::{AnswerFrame, scans::seen_planes};
-use crate::model::session::Session;
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Mount, Pose, SurfaceCorner, TargetPose, Warning,
     calibrate::result::{matrix, rows},
@@ -22,6 +21,7 @@ use crate::{
     estimate::predict,
     math::{lie, linalg::median},
     mistakes::frames::{Frames, Part, frames},
+    model::session::Session,
 };
 
 /// Offsets that move no point of the target by more than this are none, m.

@@ -15,7 +15,6 @@ use super::{
     joint::views_problem,
     prior::{Declared, SIZE, unknown_depth, unknown_lens, unknown_shape, unknown_size},
 };
-use crate::model::session::Session;
 use crate::{
     Camera, ImageCorner, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel,
     Warning,
@@ -28,7 +27,7 @@ use crate::{
         },
     },
     estimate::{Extra, ExtraKind, JointFit},
-    model::camera::PARAMETERS,
+    model::{camera::PARAMETERS, session::Session},
     register::rigid_fit::point_jacobian,
     solve::View,
 };

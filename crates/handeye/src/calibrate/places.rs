@@ -16,10 +16,10 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::repeated::Uncounted;
-use crate::model::session::Session;
 use crate::{
     Calibration, HandEye, Observation, PosePair,
     math::{lie, statistics},
+    model::session::Session,
     solve::least_squares,
 };
 

@@ -3,7 +3,6 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::workpiece::workspace_volume;
-use crate::model::session::Session;
 use crate::{
     Camera, Error, Mount, Pose, Warning,
     calibrate::result::{Answer, Calibration, Candidate, PoseCovariance, rows},
@@ -12,7 +11,7 @@ use crate::{
         predict::{self, Volume},
         touches::{self, Registration, TouchPairs},
     },
-    model::verdict::Verdict,
+    model::{session::Session, verdict::Verdict},
 };
 
 pub(super) fn from_points(session: &Session, result: &mut Calibration) {

@@ -3,11 +3,11 @@
 //! Each is a mixture of normal distributions about what was declared: what a careful user has, and what goes wrong. The
 //! components of a session are all combinations that are not too unlikely.
 
-use crate::model::session::{LensSigma, Session, TargetSize};
 use crate::{
     Distortion, Intrinsics, TargetModel,
     detect::sight::{CLOCK, DEPTH_BIAS, DEPTH_SCALE, LENS, PRINT, TARGET_SCALE},
     estimate::{Extra, ExtraKind, Problem},
+    model::session::{LensSigma, Session, TargetSize},
 };
 
 /// The target's size, as a share of the declared one.

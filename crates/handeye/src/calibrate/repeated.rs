@@ -2,8 +2,11 @@
 //! counts; as independent captures they would promise an accuracy that nobody has measured.
 
 use super::agreement;
-use crate::model::{names::natural, session::Session};
-use crate::{Observation, Warning, calibrate::result::Calibration};
+use crate::{
+    Observation, Warning,
+    calibrate::result::Calibration,
+    model::{names::natural, session::Session},
+};
 
 /// Robot poses this close are one place: rad and m. Nobody moves by less; what a robot reads of itself varies by less.
 const SAME_PLACE: (f64, f64) = (3e-4, 1e-4);

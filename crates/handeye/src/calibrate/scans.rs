@@ -3,7 +3,6 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::{captures::relabelling, optics};
-use crate::model::session::Session;
 use crate::{
     Camera, Observation, Pose, SurfaceCorner, Target, TargetModel, Warning,
     calibrate::result::{
@@ -14,6 +13,7 @@ use crate::{
         flatness::{Bend, Felt, Flatness, flatness},
         frames::{Frames, Part, TwoPlanes, frames, plane_of_points, plane_of_pose},
     },
+    model::session::Session,
 };
 
 /// One capture with its scan's corners under the names that the chosen reading gives them.

@@ -15,7 +15,6 @@ use super::{
     AnswerFrame,
     offset::{self, Found},
 };
-use crate::model::session::Session;
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
     TargetPose, Verdict, Warning,
@@ -25,6 +24,7 @@ use crate::{
     },
     estimate::predict,
     math::{lie, statistics},
+    model::session::Session,
     register,
 };
 

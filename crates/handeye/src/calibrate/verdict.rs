@@ -1,14 +1,13 @@
 //! Whether the answer can be used.
 
 use super::{Config, agreement::Views, prior::SIZE};
-use crate::model::session::Session;
 use crate::{
     Camera, Mount, Pose, TargetSize, Warning,
     calibrate::result::{Answer, Calibration, Determined, Scale},
     estimate::{JointFit, noise::Source},
     math::statistics,
     mistakes,
-    model::verdict::Verdict,
+    model::{session::Session, verdict::Verdict},
     quaternion_xyzw,
 };
 

@@ -1,14 +1,14 @@
 //! A target found in a picture: which corner of it each one in the picture is.
 
-use super::checkerboard;
-use super::circles;
-use super::coded::{Coded, coded};
-use super::grid::Grid;
-use super::mesh;
-use super::pyramid::{Scaled, smoothed};
-use super::strays::without_strays;
-use super::tag;
-use super::tags;
+use super::{
+    checkerboard, circles,
+    coded::{Coded, coded},
+    grid::Grid,
+    mesh,
+    pyramid::{Scaled, smoothed},
+    strays::without_strays,
+    tag, tags,
+};
 use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel};
 
 /// Why no target was found.

@@ -8,11 +8,13 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
-use super::board::{NotFound, Outcome};
-use super::fits::{Fits, corner, sorted};
-use super::grid::Grid;
-use super::markers::bilinear;
-use super::partial;
+use super::{
+    board::{NotFound, Outcome},
+    fits::{Fits, corner, sorted},
+    grid::Grid,
+    markers::bilinear,
+    partial,
+};
 use crate::{GrayImage, TargetModel};
 
 /// Of a board in full extent this share of the corners must be fitted.

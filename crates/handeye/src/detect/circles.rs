@@ -15,9 +15,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::board::NotFound;
-use super::pyramid::Scaled;
-use super::view::{Sighting, View};
+use super::{
+    board::NotFound,
+    pyramid::Scaled,
+    view::{Sighting, View},
+};
 use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel, math::linalg::median};
 use blobs::Blob;
 use ellipse::{Ellipse, Rough};

@@ -7,14 +7,15 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
-use super::board::{NotFound, Outcome, worth};
-use super::fits::{Fits, corner, sorted};
-use super::grid::Grid;
-use super::homography;
-use super::markers::{self, Dictionary};
-use super::tags::Board;
-use crate::model::print::marker_of_square;
-use crate::{GrayImage, ImageCorner, TargetModel};
+use super::{
+    board::{NotFound, Outcome, worth},
+    fits::{Fits, corner, sorted},
+    grid::Grid,
+    homography,
+    markers::{self, Dictionary},
+    tags::Board,
+};
+use crate::{GrayImage, ImageCorner, TargetModel, model::print::marker_of_square};
 
 /// Fewer corners do not determine a pose.
 const FEWEST_CORNERS: usize = 4;

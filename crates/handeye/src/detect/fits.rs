@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
-use super::grid::Grid;
-use super::subpixel::{self, FittedCorner, NearCorner, RoughCorner};
+use super::{
+    grid::Grid,
+    subpixel::{self, FittedCorner, NearCorner, RoughCorner},
+};
 use crate::{GrayImage, ImageCorner, math::linalg::median};
 
 /// Measured corners by label.

@@ -9,8 +9,10 @@ use std::collections::{BTreeMap, VecDeque};
 
 use nalgebra::Vector2;
 
-use super::crossings::{Circle, Crossing, crossings, sample};
-use super::grid::Grid;
+use super::{
+    crossings::{Circle, Crossing, crossings, sample},
+    grid::Grid,
+};
 use crate::GrayImage;
 
 /// Distance from the edge at which its sides are seen, px.

@@ -7,9 +7,11 @@
 
 use nalgebra::Vector2;
 
-use super::checkerboard::{first_square_brightness, turned};
-use super::grid::Grid;
-use super::markers::bilinear;
+use super::{
+    checkerboard::{first_square_brightness, turned},
+    grid::Grid,
+    markers::bilinear,
+};
 use crate::{GrayImage, TargetModel};
 
 /// Fewer corners are no part of a board.

@@ -26,8 +26,9 @@ pub(crate) use fit::moved;
 pub use start::two_rotations;
 pub use symmetry::{relabelled, symmetry_turn, with_symmetries};
 
-use crate::math::linalg::median;
-use crate::{Error, ImageCorner, Intrinsics, SurfaceCorner, TargetModel, TargetPose};
+use crate::{
+    Error, ImageCorner, Intrinsics, SurfaceCorner, TargetModel, TargetPose, math::linalg::median,
+};
 
 /// A pose of the target and how well it explains the picture.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,8 +9,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::view::{Sighting, View};
-use crate::math::linalg::median;
-use crate::{ImageCorner, Intrinsics, TargetModel};
+use crate::{ImageCorner, Intrinsics, TargetModel, math::linalg::median};
 
 /// Fewer corners leave nothing beside the homography's eight numbers.
 const FEWEST_CORNERS: usize = 6;

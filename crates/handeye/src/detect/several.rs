@@ -2,9 +2,11 @@
 
 use nalgebra::Vector2;
 
-use super::board::{self, Outcome};
-use super::grid::Grid;
-use super::strays::without_strays;
+use super::{
+    board::{self, Outcome},
+    grid::Grid,
+    strays::without_strays,
+};
 use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel};
 
 /// A corner of a grid is one of a board that was found when it lies this near to it, over the least

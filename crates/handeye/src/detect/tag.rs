@@ -14,10 +14,12 @@ mod whole;
 
 use nalgebra::{Matrix3, Vector2};
 
-use super::board::NotFound;
-use super::homography;
-use super::markers::{Cells, Dictionary, Greys};
-use super::pyramid::{Scaled, smoothed, stretched};
+use super::{
+    board::NotFound,
+    homography,
+    markers::{Cells, Dictionary, Greys},
+    pyramid::{Scaled, smoothed, stretched},
+};
 use crate::{GrayImage, ImageCorner};
 use edge::{Surroundings, is_crowded, is_roomy};
 pub(super) use quads::Quad;

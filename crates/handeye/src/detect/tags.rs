@@ -10,13 +10,14 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::board::{NotFound, Outcome};
-use super::fits::sorted;
-use super::homography;
-use super::tag::{Level, Levels, Print, Quad, SeenTag};
-use super::view::{Sighting, View};
-use crate::model::target::PlacedTag;
-use crate::{GrayImage, ImageCorner, TargetModel};
+use super::{
+    board::{NotFound, Outcome},
+    fits::sorted,
+    homography,
+    tag::{Level, Levels, Print, Quad, SeenTag},
+    view::{Sighting, View},
+};
+use crate::{GrayImage, ImageCorner, TargetModel, model::target::PlacedTag};
 
 /// A tag belongs to a group when its corners are this near to where they should be, in its sides:
 /// the next tag is more than one side away.

@@ -23,8 +23,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, SMatrix, SVector, Vector2};
 
-use crate::Intrinsics;
-use crate::detect::homography;
+use crate::{Intrinsics, detect::homography};
 
 /// A corner, or a circle's centre, on the board and in the picture.
 #[derive(Debug, Clone, Copy)]

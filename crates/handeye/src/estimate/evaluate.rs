@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::solve::least_squares;
 use crate::{
     Error, HandEye, Intrinsics, Observation, PosePair, Setup, TargetModel,
     estimate::predict::Volume,
-    solve::{self, Method, View, motions},
+    solve::{self, Method, View, least_squares, motions},
 };
 
 /// Misfit in rotation and translation.

@@ -36,10 +36,10 @@ use super::{
     system::{State, Steps, System},
     touched::{self, TouchRows, TouchedBoard},
 };
-use crate::solve::least_squares::{self, Matrix12, View};
 use crate::{
     Error, HandEye, KnownPosition, Setup,
     math::{lie, linalg},
+    solve::least_squares::{self, Matrix12, View},
 };
 
 /// All that the fit rests on.

@@ -3,13 +3,20 @@
 
 use nalgebra::{DMatrix, Isometry3, Matrix6, SMatrix, SVector, Vector2, Vector3, Vector6};
 
-use super::lens_model::{Free, NAMES};
-use super::{CameraCalibration, FEWEST_CORNERS, FEWEST_VIEWS, PRICE, ViewFit, undetermined};
-use crate::detect::target_poses;
-use crate::math::lie::{self, hat};
-use crate::math::linalg::median;
-use crate::model::camera::LENS_PARAMETERS;
-use crate::{Distortion, Error, ImageCorner, Intrinsics, Pose, TargetModel, Warning};
+use super::{
+    CameraCalibration, FEWEST_CORNERS, FEWEST_VIEWS, PRICE, ViewFit,
+    lens_model::{Free, NAMES},
+    undetermined,
+};
+use crate::{
+    Distortion, Error, ImageCorner, Intrinsics, Pose, TargetModel, Warning,
+    detect::target_poses,
+    math::{
+        lie::{self, hat},
+        linalg::median,
+    },
+    model::camera::LENS_PARAMETERS,
+};
 
 /// A focal length less sure than this share of it is not determined by the views.
 const FOCAL_UNSURE: f64 = 0.05;

@@ -12,10 +12,10 @@
 //!
 //! G. Schwarz, *Estimating the dimension of a model*, 1978.
 
-use crate::detect::target_poses;
-use crate::intrinsics::PRICE;
-use crate::math::linalg::median;
-use crate::{Distortion, ImageCorner, Intrinsics, TargetModel};
+use crate::{
+    Distortion, ImageCorner, Intrinsics, TargetModel, detect::target_poses, intrinsics::PRICE,
+    math::linalg::median,
+};
 
 /// What the corners say about a lens that was given as free of distortion.
 #[derive(Debug, Clone, Copy)]

@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::camera::LENS_PARAMETERS;
-use crate::{Distortion, Intrinsics};
+use crate::{Distortion, Intrinsics, model::camera::LENS_PARAMETERS};
 
 /// The model of a lens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -29,8 +29,9 @@ use nalgebra::{DMatrix, DVector};
 
 pub use lens_model::LensModel;
 
-use crate::math::statistics;
-use crate::{Camera, Error, ImageCorner, Intrinsics, Pose, Target, TargetModel, Warning};
+use crate::{
+    Camera, Error, ImageCorner, Intrinsics, Pose, Target, TargetModel, Warning, math::statistics,
+};
 use adjustment::Adjustment;
 use lens_model::free_in;
 use start::starts;

@@ -21,11 +21,12 @@
 
 use nalgebra::{Isometry3, Matrix2, Matrix6, SMatrix, SVector, Vector2, Vector3, Vector6};
 
-use crate::detect::{planar_pose::moved, target_poses};
-use crate::math::lie;
-use crate::math::linalg::median;
-use crate::model::camera::LENS_PARAMETERS;
-use crate::{Distortion, ImageCorner, Intrinsics, TargetModel};
+use crate::{
+    Distortion, ImageCorner, Intrinsics, TargetModel,
+    detect::{planar_pose::moved, target_poses},
+    math::{lie, linalg::median},
+    model::camera::LENS_PARAMETERS,
+};
 
 /// How far all corners lie from where the given camera has them.
 #[derive(Debug, Clone, Copy)]

@@ -3,8 +3,7 @@
 use nalgebra::{Matrix3, SMatrix, SVector, Vector2};
 
 use super::LensModel;
-use crate::detect::homography;
-use crate::{ImageCorner, Intrinsics, TargetModel};
+use crate::{ImageCorner, Intrinsics, TargetModel, detect::homography};
 
 /// Focal length of a common lens, in picture widths: the start when there is no closed one.
 const COMMON_FOCAL: f64 = 1.2;

@@ -1,8 +1,12 @@
-use super::adjustment::{Corner, Shared, linearised, residual, root_mean};
-use super::*;
-use crate::math::random::Random;
-use crate::model::camera::LENS_PARAMETERS;
-use crate::{Distortion, math::lie};
+use super::{
+    adjustment::{Corner, Shared, linearised, residual, root_mean},
+    *,
+};
+use crate::{
+    Distortion,
+    math::{lie, random::Random},
+    model::camera::LENS_PARAMETERS,
+};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3, Vector6};
 
 const BROWN: [f64; 12] = [-0.28, 0.11, 6e-4, -4e-4, -0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];

@@ -8,9 +8,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::Vector3;
 
-use crate::math::random::Random;
 use crate::{
     Base, Flange, Pose,
+    math::random::Random,
     model::kinematics::{Arm, DhConvention, Joint},
 };
 

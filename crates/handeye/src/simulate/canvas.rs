@@ -2,8 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::Optics;
-use super::psf::Kernel;
+use super::{Optics, psf::Kernel};
 use crate::model::texture::{Nearby, Texture};
 
 /// A rectangle of pixels, right and bottom excluded.

@@ -14,10 +14,9 @@ use super::{
     recording::{Recording, Truth, placement_name},
     robot_error::{Robot, SystematicError},
 };
-use crate::math::random::Random;
 use crate::{
     Anchor, Base, Camera, Error, Flange, HandEye, Intrinsics, Mount, Point, Pose, Session, Setup,
-    Target, TargetModel, Touch,
+    Target, TargetModel, Touch, math::random::Random,
 };
 
 /// How wrong everything is that measures.

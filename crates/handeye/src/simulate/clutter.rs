@@ -4,10 +4,12 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use super::canvas::{Canvas, Window};
-use super::{Conditions, Optics, render::develop};
-use crate::GrayImage;
-use crate::math::random::Random;
+use super::{
+    Conditions, Optics,
+    canvas::{Canvas, Window},
+    render::develop,
+};
+use crate::{GrayImage, math::random::Random};
 
 /// A background.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

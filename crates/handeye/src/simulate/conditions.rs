@@ -3,8 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 
 use super::{Clutter, Optics, Scene, clutter::noise_at};
-use crate::math::random::Random;
-use crate::{Camera, Point, Pose, Target, TargetModel};
+use crate::{Camera, Point, Pose, Target, TargetModel, math::random::Random};
 
 /// How light, print and surroundings differ from a flat, faultless, evenly lit board alone.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -5,8 +5,10 @@
 
 use nalgebra::{Isometry3, Rotation3, UnitQuaternion, Vector3};
 
-use crate::math::random::Random;
-use crate::{Base, Camera, Flange, ImageCorner, Observation, Point, Pose, Session, Target, detect};
+use crate::{
+    Base, Camera, Flange, ImageCorner, Observation, Point, Pose, Session, Target, detect,
+    math::random::Random,
+};
 
 /// One kind of mistake.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

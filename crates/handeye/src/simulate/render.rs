@@ -8,13 +8,16 @@
 
 use nalgebra::{Rotation3, Vector2, Vector3};
 
-use super::Conditions;
-use super::canvas::{Canvas, Window};
-use super::conditions::{Cover, Glow, Paper, WHITEST, meet_bent, on_paper, texture_of};
-use super::psf::Kernel;
-use crate::math::random::Random;
-use crate::model::texture::Texture;
-use crate::{Camera, GrayImage, Intrinsics, Point, Pose, Scan, Target, TargetModel};
+use super::{
+    Conditions,
+    canvas::{Canvas, Window},
+    conditions::{Cover, Glow, Paper, WHITEST, meet_bent, on_paper, texture_of},
+    psf::Kernel,
+};
+use crate::{
+    Camera, GrayImage, Intrinsics, Point, Pose, Scan, Target, TargetModel, math::random::Random,
+    model::texture::Texture,
+};
 
 /// A board in front of a camera.
 #[derive(Debug, Clone)]

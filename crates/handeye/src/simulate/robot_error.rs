@@ -9,8 +9,10 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::{BuiltArm, CellNoise};
-use crate::math::random::Random;
-use crate::{Base, Flange, Pose, math::lie};
+use crate::{
+    Base, Flange, Pose,
+    math::{lie, random::Random},
+};
 
 /// Shortest and longest wave of the error over the workspace, m.
 const WAVE_M: (f64, f64) = (0.8, 2.0);

@@ -2,8 +2,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use crate::math::random::Random;
-use crate::{Intrinsics, Scan};
+use crate::{Intrinsics, Scan, math::random::Random};
 
 /// A simple shape, m.
 #[derive(Debug, Clone, Copy, PartialEq)]

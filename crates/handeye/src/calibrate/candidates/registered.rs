@@ -3,7 +3,6 @@
 use nalgebra::Matrix6;
 
 use super::{Judge, Judged, pairs_of, stored};
-use crate::solve::View;
 use crate::{
     Error, HandEye, Warning,
     calibrate::{
@@ -16,6 +15,7 @@ use crate::{
         touches::{self, Registration, TouchPairs},
     },
     solve,
+    solve::View,
 };
 
 impl Judge<'_> {

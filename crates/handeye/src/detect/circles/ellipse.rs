@@ -20,10 +20,14 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use nalgebra::{Matrix2, SVector, Vector2};
 
-use crate::GrayImage;
-use crate::detect::erf::erf;
-use crate::detect::levenberg::{Bounded, Descent, Linearised, descend};
-use crate::detect::saturated::share_within;
+use crate::{
+    GrayImage,
+    detect::{
+        erf::erf,
+        levenberg::{Bounded, Descent, Linearised, descend},
+        saturated::share_within,
+    },
+};
 
 /// An ellipse known to about a pixel.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,6 @@
 use super::*;
-use crate::{Distortion, Pose};
 use crate::{
+    Distortion, Pose,
     math::random::Random,
     simulate::{Optics, Scene},
 };

@@ -3,11 +3,11 @@ use std::collections::BTreeMap;
 use nalgebra::{Isometry3, Matrix2, Vector3};
 
 use super::*;
-use crate::detect::detect;
-use crate::model::target::AprilTagFamily;
-use crate::{Intrinsics, Pose};
 use crate::{
+    Intrinsics, Pose,
+    detect::detect,
     math::random::Random,
+    model::target::AprilTagFamily,
     simulate::{Conditions, Occlusion, Optics, Scene, Shape},
 };
 

@@ -5,12 +5,18 @@ use nalgebra::{
     Vector3, Vector6,
 };
 
-use super::PosedTarget;
-use super::start::{translation, two_rotations};
-use crate::detect::homography;
-use crate::math::lie::{self, hat};
-use crate::math::linalg::median;
-use crate::{Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, TargetModel, TargetPose};
+use super::{
+    PosedTarget,
+    start::{translation, two_rotations},
+};
+use crate::{
+    Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, TargetModel, TargetPose,
+    detect::homography,
+    math::{
+        lie::{self, hat},
+        linalg::median,
+    },
+};
 
 /// Huber's bound: beyond this many standard deviations a corner pulls with constant force.
 const HUBER: f64 = 1.5;

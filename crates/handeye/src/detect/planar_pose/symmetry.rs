@@ -3,8 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::PosedTarget;
-use crate::math::lie;
-use crate::{ImageCorner, Pose, Target, TargetModel, TargetPose};
+use crate::{ImageCorner, Pose, Target, TargetModel, TargetPose, math::lie};
 
 /// The poses under every labelling that looks the same, see [`TargetModel::symmetries`]: for each
 /// pose the given labelling first.

@@ -1,6 +1,5 @@
 use super::*;
-use crate::math::random::Random;
-use crate::{Camera, Distortion, Pose, Target};
+use crate::{Camera, Distortion, Pose, Target, math::random::Random};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3, Vector6};
 
 #[test]

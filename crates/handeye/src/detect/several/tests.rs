@@ -3,8 +3,10 @@ use std::collections::BTreeMap;
 use nalgebra::{Isometry3, Vector3};
 
 use super::*;
-use crate::Pose;
-use crate::simulate::{Optics, Scene};
+use crate::{
+    Pose,
+    simulate::{Optics, Scene},
+};
 
 const WIDTH: usize = 640;
 const HEIGHT: usize = 480;

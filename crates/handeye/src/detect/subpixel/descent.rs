@@ -2,11 +2,15 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::disc::{Disc, FEWEST_PIXELS};
-use super::model::{Model, Parameters, products, residuals};
-use super::{FittedCorner, RoughCorner};
-use crate::detect::levenberg::{Bounded, Descent, Linearised, ROUNDING_VARIANCE, descend};
-use crate::math::gram::place;
+use super::{
+    FittedCorner, RoughCorner,
+    disc::{Disc, FEWEST_PIXELS},
+    model::{Model, Parameters, products, residuals},
+};
+use crate::{
+    detect::levenberg::{Bounded, Descent, Linearised, ROUNDING_VARIANCE, descend},
+    math::gram::place,
+};
 
 /// No pixel of a disc is more columns or rows away from its middle.
 const MOST_ACROSS: i32 = 16;

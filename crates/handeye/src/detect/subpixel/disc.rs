@@ -4,10 +4,8 @@ use std::ops::Range;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::model::Light;
-use super::{REACH, RoughCorner, Unfit};
-use crate::GrayImage;
-use crate::detect::saturated::is_saturated;
+use super::{REACH, RoughCorner, Unfit, model::Light};
+use crate::{GrayImage, detect::saturated::is_saturated};
 
 /// Fewer pixels than this do not determine nine parameters.
 pub(super) const FEWEST_PIXELS: usize = 14;

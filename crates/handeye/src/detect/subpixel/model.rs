@@ -6,9 +6,10 @@ use multiversion::multiversion;
 use nalgebra::SVector;
 
 use super::disc::{Disc, LANES, Lane, Pixels};
-use crate::detect::erf::erf;
-use crate::detect::saturated::share_within;
-use crate::math::gram::{accumulate, pairs};
+use crate::{
+    detect::{erf::erf, saturated::share_within},
+    math::gram::{accumulate, pairs},
+};
 
 pub(super) type Parameters = SVector<f64, 9>;
 

@@ -1,8 +1,10 @@
-use super::disc::{LANES, Pixels};
-use super::model::{Light, Model};
-use super::*;
-use crate::{Intrinsics, Pose, TargetModel};
+use super::{
+    disc::{LANES, Pixels},
+    model::{Light, Model},
+    *,
+};
 use crate::{
+    Intrinsics, Pose, TargetModel,
     math::random::Random,
     simulate::{Optics, Scene},
 };

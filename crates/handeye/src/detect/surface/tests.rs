@@ -3,8 +3,8 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::*;
-use crate::{Point, Pose, TargetModel};
 use crate::{
+    Point, Pose, TargetModel,
     math::random::Random,
     simulate::{Conditions, DepthSensor, Optics, PrintErrors, Scene},
 };

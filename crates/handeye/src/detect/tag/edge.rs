@@ -13,10 +13,14 @@ mod model;
 use nalgebra::{Matrix2, Vector2};
 
 use super::quads::Quad;
-use crate::GrayImage;
-use crate::detect::levenberg::{Bounded, Descent, Linearised, descend};
-use crate::detect::saturated::is_saturated;
-use crate::math::gram::place;
+use crate::{
+    GrayImage,
+    detect::{
+        levenberg::{Bounded, Descent, Linearised, descend},
+        saturated::is_saturated,
+    },
+    math::gram::place,
+};
 pub(super) use model::Parameters;
 use model::{LANES, Model, Pixels, products};
 

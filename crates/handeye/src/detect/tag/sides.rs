@@ -5,8 +5,10 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::edge::{Line, Parameters, Place, Surroundings, is_crowded, side};
-use super::quads::{Quad, area};
+use super::{
+    edge::{Line, Parameters, Place, Surroundings, is_crowded, side},
+    quads::{Quad, area},
+};
 use crate::{GrayImage, ImageCorner};
 
 /// Blur of a common picture, px, before it is measured.

@@ -29,13 +29,19 @@ use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
 use multiversion::multiversion;
 use nalgebra::{Matrix2, Matrix3, RowVector2, SVector, Vector2};
 
-use super::quads::{Quad, area};
-use super::sides::is_inside;
-use crate::detect::erf::erf;
-use crate::detect::homography;
-use crate::detect::levenberg::{Bounded, Descent, Linearised, descend};
-use crate::detect::saturated::share_within;
-use crate::{GrayImage, ImageCorner};
+use super::{
+    quads::{Quad, area},
+    sides::is_inside,
+};
+use crate::{
+    GrayImage, ImageCorner,
+    detect::{
+        erf::erf,
+        homography,
+        levenberg::{Bounded, Descent, Linearised, descend},
+        saturated::share_within,
+    },
+};
 
 /// Lines between cells along a side, at most, and room for more.
 pub(super) const LINES: usize = 16;

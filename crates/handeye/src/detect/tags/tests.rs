@@ -3,9 +3,9 @@ use std::collections::BTreeMap;
 use nalgebra::{Isometry3, Vector2, Vector3};
 
 use super::*;
-use crate::detect::detect;
-use crate::{Camera, Distortion, Intrinsics, Pose, Target};
 use crate::{
+    Camera, Distortion, Intrinsics, Pose, Target,
+    detect::detect,
     math::random::Random,
     simulate::{Conditions, Occlusion, Optics, Scene, Shape},
 };

@@ -37,8 +37,11 @@ use super::{
     joint,
     noise::{self, KnownNoise, NoiseModel, Source},
 };
-use crate::solve::least_squares::{self, View};
-use crate::{Error, HandEye, Setup, detect::sight::TARGET_SCALE};
+use crate::{
+    Error, HandEye, Setup,
+    detect::sight::TARGET_SCALE,
+    solve::least_squares::{self, View},
+};
 use kalman::{covariance, filter, lines, smooth};
 use search::{FIRST_STEP, Search};
 

@@ -20,8 +20,11 @@ use super::{
     noise::{NoiseModel, Source},
     touched::{self, TouchRows, TouchedBoard},
 };
-use crate::solve::least_squares::{self, Vector12};
-use crate::{HandEye, math::linalg};
+use crate::{
+    HandEye,
+    math::linalg,
+    solve::least_squares::{self, Vector12},
+};
 pub(crate) use groups::Steps;
 use sights::Sights;
 use views::{SeenMount, ViewNoise, divide};

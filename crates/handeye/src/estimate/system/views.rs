@@ -11,8 +11,11 @@ use super::{
     },
     State, System, Variances,
 };
-use crate::solve::least_squares::{self, View};
-use crate::{HandEye, Setup, math::lie};
+use crate::{
+    HandEye, Setup,
+    math::lie,
+    solve::least_squares::{self, View},
+};
 
 /// What a view's six equations were divided by, and the noise's factor, divided likewise.
 pub(super) struct ViewNoise {

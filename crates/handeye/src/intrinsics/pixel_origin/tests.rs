@@ -1,6 +1,5 @@
 use super::*;
-use crate::math::random::Random;
-use crate::{Camera, Point, Pose, Target};
+use crate::{Camera, Point, Pose, Target, math::random::Random};
 
 /// Sessions in which no alarm may be raised, for each camera and noise.
 const SESSIONS: u64 = 17;

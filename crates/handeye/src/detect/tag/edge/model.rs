@@ -5,9 +5,10 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use multiversion::multiversion;
 use nalgebra::SVector;
 
-use crate::detect::erf::erf;
-use crate::detect::saturated::share_within;
-use crate::math::gram::{accumulate, pairs};
+use crate::{
+    detect::{erf::erf, saturated::share_within},
+    math::gram::{accumulate, pairs},
+};
 
 pub(in super::super) type Parameters = SVector<f64, 6>;
 
