@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use handeye::mistakes::explain::Score;
+use handeye::mistakes::score::Score;
 use handeye_io::{
     MANIFEST,
     checkup::{self, Checkup, Explanation},

@@ -14,7 +14,7 @@ use handeye::{
     calibrate::result::{SceneKind, ScenePair, SceneResult},
     register::{
         DenseConfig, Stop, Surface, register_surfaces,
-        scene::{self, Link, Placed},
+        scene::{self, Placed, graph::Link},
     },
 };
 use nalgebra::Isometry3;

@@ -9,15 +9,12 @@ use std::{
 
 use handeye::{
     Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
-    calibrate::{
-        findings::{Finding, Severity},
-        result::{
-            Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BoardDeviation, BudgetEntry,
-            CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep, ColourStepResult,
-            DepthResult, Determined, FlatnessResult, FramesResult, Movement, MovementKind,
-            PoseCovariance, Scale, ScanResult, SceneKind, ScenePair, SceneResult, TipResult,
-            TouchResult,
-        },
+    calibrate::result::{
+        Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BoardDeviation, BudgetEntry,
+        CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep, ColourStepResult,
+        DepthResult, Determined, Finding, FlatnessResult, FramesResult, Movement, MovementKind,
+        PoseCovariance, Scale, ScanResult, SceneKind, ScenePair, SceneResult, Severity, TipResult,
+        TouchResult,
     },
     estimate::{
         certify::Certificate,

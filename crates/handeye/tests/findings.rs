@@ -2,7 +2,10 @@
 
 use handeye::{
     Calibration, Pose, Setup, Verdict, Warning,
-    calibrate::findings::{Severity, findings, reservation},
+    calibrate::{
+        findings::{findings, reservation},
+        result::Severity,
+    },
     unjudged,
 };
 

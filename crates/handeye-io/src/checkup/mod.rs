@@ -11,7 +11,10 @@ use std::path::Path;
 
 use handeye::{
     Base, Flange, Pose, Session, Setup, Target, TargetModel, Warning,
-    mistakes::explain::{self, Diagnosis, Fault, Finding, Score},
+    mistakes::{
+        explain::{self, Diagnosis},
+        score::{self, Fault, Finding, Score},
+    },
     solve::consensus::Readings,
 };
 use nalgebra::{Isometry3, Vector3};
@@ -178,7 +181,7 @@ fn examine(dataset: &Dataset, measured: &Measured) -> Result<Checkup, Error> {
         (0..dataset.captures.len()).partition(|&i| !session.observations[i].candidates.is_empty());
     let name = |i: &usize| session.observations[*i].capture.clone();
     let basic = basic_mistake(dataset, measured)?;
-    if seen.len() < explain::FEWEST && basic.is_none() {
+    if seen.len() < score::FEWEST && basic.is_none() {
         return Err(too_few(dataset, seen.len(), measured.not_found.first()));
     }
     let mut checkup = match basic {
@@ -308,7 +311,7 @@ pub(crate) fn diagnosis(dataset: &Dataset, measured: &Measured) -> Option<String
 fn too_few(dataset: &Dataset, seen: usize, reason: Option<&(String, String)>) -> Error {
     let what = format!(
         "the target was seen in {seen} captures, {} are needed to contradict a mistake",
-        explain::FEWEST
+        score::FEWEST
     );
     let advice = reason.map_or("add captures".into(), |(capture, why)| {
         let which = match dataset.shape {
@@ -426,7 +429,7 @@ fn candidates(case: &Case, finding: &Finding) -> Vec<Explanation> {
             vec![target, robot]
         }
         Fault::TargetMoved(..) | Fault::CameraMoved(..) | Fault::RobotStill(_)
-            if own.captures.len() + explain::FEWEST <= case.names.len() =>
+            if own.captures.len() + score::FEWEST <= case.names.len() =>
         {
             let changes = amend::excluding(&case.text, &own.captures);
             vec![Explanation { changes, ..own }]
@@ -449,7 +452,7 @@ fn directions(case: &Case, robot: Explanation, k: usize) -> Vec<Explanation> {
         Setup::EyeInHand => (Setup::EyeInHand, Setup::EyeToHand),
         Setup::EyeToHand => (Setup::EyeToHand, Setup::EyeInHand),
     };
-    let Some((_, found)) = explain::scored(&case.readings[k]) else { return vec![robot] };
+    let Some((_, found)) = score::scored(&case.readings[k]) else { return vec![robot] };
     let camera = found.hand_eye.mount_from_camera.translation().norm();
     let target = found.hand_eye.anchor_from_target.translation().norm();
     // what rides on the flange if the setup is as declared, and if it is the other one

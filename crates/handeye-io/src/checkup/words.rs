@@ -2,10 +2,7 @@
 
 use handeye::{
     Setup,
-    mistakes::{
-        self, TargetScale,
-        explain::{Fault, Order},
-    },
+    mistakes::{self, TargetScale, explain::Order, score::Fault},
 };
 
 use super::Case;

@@ -23,8 +23,8 @@ use std::fmt::Write;
 use handeye::{
     Base, Calibration, Intrinsics, Point, Setup, TargetModel, Verdict,
     calibrate::{
-        findings::{self, Severity},
-        result::{Candidate, CaptureResult},
+        findings::{self},
+        result::{Candidate, CaptureResult, Severity},
     },
 };
 
@@ -187,7 +187,7 @@ fn found(c: &Calibration) -> String {
     let of_warnings = all.iter().filter(|f| {
         !c.reasons.contains(&f.message) && c.warnings.iter().any(|w| w.message == f.message)
     });
-    let item = |f: &findings::Finding| {
+    let item = |f: &handeye::calibrate::result::Finding| {
         let class = match f.severity {
             Severity::Info => "info",
             Severity::ChangesAnswer => "changes",

@@ -7,7 +7,9 @@ use crate::{
     math::linalg::median,
     mistakes::{
         self, TargetScale,
-        explain::{self, Fault, Order},
+        explain::{self, Order},
+        score,
+        score::Fault,
     },
     model::verdict::Verdict,
     solve::consensus::{self, Consensus, Readings},
@@ -84,7 +86,7 @@ pub(super) fn suspect_order(
     if found.is_some_and(|f| agrees_well(readings, f)) {
         return false;
     }
-    let in_order = |s: &explain::Score| {
+    let in_order = |s: &score::Score| {
         2 * s.agree > n && s.translation_mm < IN_ORDER.0 && s.rotation_deg < IN_ORDER.1
     };
     let diagnosis = explain::explain(readings, &[]);

@@ -7,36 +7,10 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
-
-use crate::{calibrate::result::Calibration, model::verdict::Verdict};
-
-/// What a finding does to the answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Severity {
-    /// Worth knowing; the answer is as it would be without.
-    Info,
-    /// The answer is another one because of it: what was declared or measured was corrected or rejected.
-    ChangesAnswer,
-    /// There is no answer to use because of it.
-    Rejects,
-}
-
-/// Something that was found beside the answer.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Finding {
-    /// Short fixed name, for programs: that of the warning, or `rejected` and `undetermined` for reasons.
-    pub code: String,
-    /// What it does to the answer.
-    pub severity: Severity,
-    /// What was seen and where, with its numbers.
-    pub message: String,
-    /// What to do; `None` where the message says it.
-    pub advice: Option<String>,
-    /// Its numbers, by name with unit.
-    pub data: BTreeMap<String, f64>,
-}
+use crate::{
+    calibrate::result::{Calibration, Finding, Severity},
+    model::verdict::Verdict,
+};
 
 /// What is known of a code.
 struct Row {

@@ -2,12 +2,13 @@
 
 mod scans;
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
     Anchor, Base, Camera, Flange, Intrinsics, Mount, Pose, Setup, Target, Verdict, Warning,
-    calibrate::findings::Finding,
     estimate::{
         certify::Certificate,
         evaluate::{Diversity, Misfit},
@@ -434,4 +435,31 @@ impl Calibration {
     pub fn exit_code(&self) -> u8 {
         if self.verdict == Verdict::Accepted { 0 } else { 3 }
     }
+}
+
+/// What a finding does to the answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Severity {
+    /// Worth knowing; the answer is as it would be without.
+    Info,
+    /// The answer is another one because of it: what was declared or measured was corrected or rejected.
+    ChangesAnswer,
+    /// There is no answer to use because of it.
+    Rejects,
+}
+
+/// Something that was found beside the answer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// Short fixed name, for programs: that of the warning, or `rejected` and `undetermined` for reasons.
+    pub code: String,
+    /// What it does to the answer.
+    pub severity: Severity,
+    /// What was seen and where, with its numbers.
+    pub message: String,
+    /// What to do; `None` where the message says it.
+    pub advice: Option<String>,
+    /// Its numbers, by name with unit.
+    pub data: BTreeMap<String, f64>,
 }

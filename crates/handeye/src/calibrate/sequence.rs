@@ -21,7 +21,10 @@ use crate::{
     detect::sight::{CLOCK, TARGET_SCALE},
     estimate::{
         Extra, ExtraKind, JointFit,
-        drift::{self, DriftFit, Free, Sequence, Side},
+        drift::{
+            self, DriftFit, Free,
+            sequence::{Sequence, Side},
+        },
         evaluate::{self, Misfit},
         predict::{self, PredictedTre},
         touches,
@@ -290,7 +293,7 @@ fn neighbours_alike(sequence: &Sequence, used: &[bool], near: &JointFit) -> bool
 }
 
 fn held_out(found: &DriftFit, used: &[bool]) -> Misfit {
-    let one = |(v, used): (&drift::Slow, &bool)| {
+    let one = |(v, used): (&drift::sequence::Slow, &bool)| {
         used.then(|| (lie::omega(&v.left_out).norm(), lie::nu(&v.left_out).norm()))
     };
     evaluate::rms(&found.views.iter().zip(used).map(one).collect::<Vec<_>>())

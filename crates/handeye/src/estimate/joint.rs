@@ -33,56 +33,19 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use super::{
     extra::{Extra, ExtraKind},
     noise::{KnownNoise, NoiseModel, Source},
-    system::{State, Steps, System},
+    system::Steps,
     touched::{self, TouchRows, TouchedBoard},
 };
 use crate::{
-    Error, HandEye, KnownPosition, Setup,
+    Error, HandEye, Setup,
+    estimate::{
+        noise::LEAST_SIGMA,
+        problem::{JointFit, Problem},
+        system::state::{State, System},
+    },
     math::{lie, linalg},
     solve::least_squares::{self, Matrix12, View},
 };
-
-/// All that the fit rests on.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Problem {
-    /// Who carries the camera.
-    pub setup: Setup,
-    /// Captures.
-    pub views: Vec<View>,
-    /// Touched boards.
-    pub boards: Vec<TouchedBoard>,
-    /// What is free beside `X` and `Y`.
-    pub extras: Vec<Extra>,
-    /// What the user knows of where the camera sits.
-    pub known_position: Option<KnownPosition>,
-}
-
-/// The answer, and how sure it is.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JointFit {
-    /// Both poses.
-    pub hand_eye: HandEye,
-    /// What else was free.
-    pub extras: Vec<Extra>,
-    /// The values of the extras.
-    pub values: DVector<f64>,
-    /// Covariance of `(X, Y, extras)`; `None` where a direction is free.
-    pub covariance: Option<DMatrix<f64>>,
-    /// Information of `(X, Y, extras)`.
-    pub information: DMatrix<f64>,
-    /// Gradient of half the cost by `(X, Y, extras)`; zero to within the last step.
-    pub gradient: DVector<f64>,
-    /// Noise of each source, per axis.
-    pub noise: NoiseModel,
-    /// `Σ rᵀ V⁻¹ r`.
-    pub chi_squared: f64,
-    /// Equations minus unknowns.
-    pub degrees_of_freedom: f64,
-    /// The cost that was minimised, priors included.
-    pub cost: f64,
-    /// Logarithm of the restricted likelihood, up to a constant.
-    pub log_likelihood: f64,
-}
 
 /// Most rounds of step and noise update.
 const MOST_ROUNDS: usize = 100;
@@ -97,9 +60,6 @@ const FAR: f64 = 1.0;
 pub(super) const PRIOR_VIEWS: f64 = 2.0;
 /// Touches' worth of prior belief in the first level of their noise.
 pub(super) const PRIOR_TOUCHES: f64 = 2.0;
-/// Least standard deviation (rad, m): far below any instrument, and far enough above rounding that
-/// the rounding of large information does not pass for information on what is free.
-pub(super) const LEAST_SIGMA: f64 = 1e-7;
 /// Weight of rotation against translation in the fit whose misfit gives the first noise level,
 /// m per rad.
 const FIRST_WEIGHT: f64 = 0.3;

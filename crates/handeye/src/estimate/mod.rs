@@ -12,11 +12,13 @@ pub mod extra;
 pub mod joint;
 pub mod noise;
 pub mod predict;
+pub mod problem;
 mod system;
 pub mod touched;
 pub mod touches;
 
 pub use extra::{Extra, ExtraKind};
-pub use joint::{JointFit, Problem, fit_joint, fit_views};
+pub use joint::{fit_joint, fit_views};
 pub use noise::{KnownNoise, NoiseModel, Sigma, Source};
+pub use problem::{JointFit, Problem};
 pub use touched::{TouchedBoard, TouchedCorner};

@@ -13,7 +13,6 @@
 use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix};
 use serde::{Deserialize, Serialize};
 
-use super::joint::LEAST_SIGMA;
 use crate::{HandEye, PosePair, Setup, math::lie, solve::View};
 
 /// One source of error.
@@ -246,3 +245,7 @@ pub(super) fn covariance(
 pub(super) const LEAST_ROTATION: f64 = 1e-9;
 /// Floor of the position noise, m.
 pub(super) const LEAST_POSITION: f64 = 1e-9;
+
+/// Least standard deviation (rad, m): far below any instrument, and far enough above rounding that
+/// the rounding of large information does not pass for information on what is free.
+pub(super) const LEAST_SIGMA: f64 = 1e-7;

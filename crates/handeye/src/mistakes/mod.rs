@@ -4,6 +4,7 @@
 pub mod explain;
 pub mod flatness;
 pub mod frames;
+pub mod score;
 mod size;
 mod strays;
 

@@ -2,14 +2,11 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3};
 
-use super::{
-    TargetScale,
-    explain::{FEWEST, Fault, Finding, REACH, Score, pair, reach, scored},
-    strays::same_robot,
-};
+use super::{TargetScale, strays::same_robot};
 use crate::{
     HandEye, PosePair, TargetModel,
     math::{linalg, statistics},
+    mistakes::score::{FEWEST, Fault, Finding, REACH, Score, pair, reach, scored},
     solve::{
         self, Method,
         consensus::{self, Consensus, Readings},

@@ -1,12 +1,10 @@
 //! Captures that do not belong: exchanged, moved, standing still, repeated.
 
-use super::{
-    exchanged,
-    explain::{FEWEST, Fault, Finding, pair, scored},
-};
+use super::exchanged;
 use crate::{
     HandEye, PosePair,
     math::linalg::median,
+    mistakes::score::{FEWEST, Fault, Finding, pair, scored},
     solve::consensus::{Consensus, Readings},
 };
 

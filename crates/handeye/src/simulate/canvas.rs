@@ -3,7 +3,10 @@
 use nalgebra::Vector2;
 
 use super::{Optics, psf::Kernel};
-use crate::model::texture::{Nearby, Texture};
+use crate::{
+    model::texture::{Nearby, Texture},
+    simulate::psf::CELLS,
+};
 
 /// A rectangle of pixels, right and bottom excluded.
 #[derive(Clone, Copy)]
@@ -51,10 +54,6 @@ impl Window {
         })
     }
 }
-
-/// Cells along each side of a pixel. What the optics do to an edge is exact where it lies on a border
-/// of cells, and linear in its place between two.
-pub(super) const CELLS: usize = 4;
 
 /// The scene on the cells of a window.
 pub(super) struct Canvas {

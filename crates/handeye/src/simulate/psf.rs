@@ -7,7 +7,7 @@
 
 use nalgebra::Vector2;
 
-use super::{Optics, canvas::CELLS};
+use super::Optics;
 
 /// Points of the cloud per cell and direction.
 const FINENESS: f64 = 8.0;
@@ -144,6 +144,10 @@ fn cubic(x: f64) -> f64 {
         0.0
     }
 }
+
+/// Cells along each side of a pixel. What the optics do to an edge is exact where it lies on a border
+/// of cells, and linear in its place between two.
+pub(super) const CELLS: usize = 4;
 
 #[cfg(test)]
 mod tests {

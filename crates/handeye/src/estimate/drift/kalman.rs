@@ -2,16 +2,14 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, SMatrix, SVector, Vector6};
 
-use super::{
-    super::{
-        extra::ExtraKind,
-        noise::{self, COLUMNS, Factor, Source},
-    },
-    Drift, EXTRAS, Levels, Sequence, Side, Slow,
+use super::super::{
+    extra::ExtraKind,
+    noise::{self, COLUMNS, Factor, Source},
 };
 use crate::{
     HandEye,
     detect::sight::Sight,
+    estimate::drift::sequence::{Drift, EXTRAS, Levels, Sequence, Side, Slow},
     math::{lie, linalg},
     solve::least_squares,
 };

@@ -28,63 +28,26 @@
 
 mod kalman;
 mod search;
+pub mod sequence;
 
-use nalgebra::{DMatrix, DVector, SVector, Vector6};
+use nalgebra::{DMatrix, DVector, SVector};
 
 use super::{
     JointFit, Problem,
     extra::{Extra, ExtraKind},
-    joint,
-    noise::{self, KnownNoise, NoiseModel, Source},
+    noise::{self, KnownNoise, Source},
 };
 use crate::{
-    Error, HandEye, Setup,
+    Error, HandEye,
     detect::sight::TARGET_SCALE,
-    solve::least_squares::{self, View},
+    estimate::drift::{
+        search::Climb,
+        sequence::{Drift, EXTRAS, Levels, Sequence, Slow},
+    },
+    solve::least_squares::{self},
 };
 use kalman::{covariance, filter, lines, smooth};
 use search::{FIRST_STEP, Search};
-
-/// What gives way, and so in whose axes drift is slow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// The target, the odometry or the robot: slow in the axes of the target.
-    Target,
-    /// The camera in its holder: slow in its own axes.
-    Camera,
-}
-
-/// Views in the order in which they were taken.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sequence {
-    /// Who carries the camera.
-    pub setup: Setup,
-    /// What drifts.
-    pub side: Side,
-    /// All of them, those that are not used too.
-    pub views: Vec<View>,
-    /// Time from the view before to each, in mean intervals; that of the first is not used.
-    pub after: Vec<f64>,
-    /// What is free beside `X` and `Y`; parameters of the camera only, two at most.
-    pub extras: Vec<Extra>,
-}
-
-/// How the slow part of the error moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drift {
-    /// Turn in one interval, rad per axis.
-    pub rotation: f64,
-    /// Shift in one interval, m per axis.
-    pub position: f64,
-    /// Change of the unit of distances in one interval, as a part of it.
-    pub scale: f64,
-    /// After how many intervals it is forgotten.
-    pub memory: f64,
-}
-
-impl Drift {
-    const NONE: Self = Self { rotation: 0.0, position: 0.0, scale: 0.0, memory: 1.0 };
-}
 
 /// What may drift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,26 +71,10 @@ pub struct DriftFit {
     pub views: Vec<Slow>,
 }
 
-/// One view of a sequence.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Slow {
-    /// The slow part of its misfit, perturbing `camera_from_target` on the right.
-    pub drift: Vector6<f64>,
-    /// Its misfit where drift is told by the other views alone (rotation, rad; position, m).
-    pub left_out: Vector6<f64>,
-    /// The square of that in units of its standard deviation; six on average.
-    pub surprise: f64,
-}
-
-/// Largest number of extras.
-const EXTRAS: usize = 2;
 /// Rounds of noise and step.
 const MOST_ROUNDS: usize = 8;
 /// The unknowns have converged when the squared step, in units of the information, is below this.
 const STEP: f64 = 1e-5;
-/// Belief in the logarithm of each standard deviation beforehand: a factor of ten either way.
-const BELIEF: f64 = 2.3;
-
 /// Fits `(X, Y, extras)`, the noise and the drift that is `free` to the views that are `used`.
 /// `near` is a fit of about the same without drift.
 ///
@@ -171,42 +118,6 @@ fn check(sequence: &Sequence, used: &[bool]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Where the noise stands: logarithms of the standard deviations, and of the memory.
-#[derive(Clone)]
-struct Levels {
-    noise: NoiseModel,
-    drift: Drift,
-    free: bool,
-}
-
-impl Levels {
-    /// What is free, as logarithms.
-    fn get(&self, known: &KnownNoise) -> Vec<f64> {
-        let free = |s: &&noise::Sigma| known.sigma(s.source).is_none();
-        let mut all: Vec<f64> =
-            self.noise.sigmas.iter().filter(free).map(|s| s.sigma.ln()).collect();
-        if self.free {
-            let d = &self.drift;
-            all.extend([d.memory.ln(), d.rotation.ln(), d.position.ln()]);
-            all.extend((d.scale > 0.0).then(|| d.scale.ln()));
-        }
-        all
-    }
-
-    fn set(&mut self, values: &[f64], known: &KnownNoise) {
-        let mut values = values.iter().map(|v| v.exp());
-        for s in self.noise.sigmas.iter_mut().filter(|s| known.sigma(s.source).is_none()) {
-            s.sigma = values.next().unwrap_or(s.sigma);
-        }
-        let d = &mut self.drift;
-        for value in [&mut d.memory, &mut d.rotation, &mut d.position, &mut d.scale] {
-            *value = values.next().unwrap_or(*value);
-        }
-    }
-}
-
-/// Longest and shortest memory, in intervals.
-const MEMORY: (f64, f64) = (0.5, 1e4);
 /// Drift of the unit, per interval, to begin with.
 const FIRST_SCALE: f64 = 1e-3;
 
@@ -227,7 +138,7 @@ fn starts(
     let n = used.iter().filter(|u| **u).count() as f64;
     let level = |of: [Source; 2]| {
         let sum: f64 = of.iter().filter_map(|s| near.noise.sigma(*s)).map(|s| s * s).sum();
-        sum.sqrt().max(joint::LEAST_SIGMA)
+        sum.sqrt().max(noise::LEAST_SIGMA)
     };
     let rotation = level([Source::RobotRotation, Source::CameraTilt]);
     let position = level([Source::RobotPosition, Source::CameraLateral]);
@@ -236,7 +147,7 @@ fn starts(
         .map(|(kept, moved)| {
             let mut start = white.clone();
             for s in start.noise.sigmas.iter_mut().filter(|s| known.sigma(s.source).is_none()) {
-                s.sigma = (s.sigma * kept).max(joint::LEAST_SIGMA);
+                s.sigma = (s.sigma * kept).max(noise::LEAST_SIGMA);
             }
             // a walk that strays by the misfit over a third of the sequence
             let step = moved * (3.0 / n).sqrt();
@@ -253,14 +164,6 @@ fn starts(
 
 fn scaled(sequence: &Sequence) -> bool {
     sequence.extras.iter().any(|e| e.kind == ExtraKind::Camera(TARGET_SCALE))
-}
-
-/// Where a fit has arrived.
-struct Climb {
-    hand_eye: HandEye,
-    values: DVector<f64>,
-    levels: Levels,
-    log_likelihood: f64,
 }
 
 /// Noise and unknowns in turn, until neither moves; from the start that soon is the likeliest.

@@ -3,9 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    super::{joint, noise::KnownNoise},
-    BELIEF, Climb, Levels, MEMORY, Sequence,
+    super::noise::{self, KnownNoise},
     kalman::{Line, filter},
+};
+use crate::{
+    HandEye,
+    estimate::drift::sequence::{BELIEF, Levels, MEMORY, Sequence},
 };
 
 /// Steps of the search for the likeliest noise.
@@ -103,7 +106,7 @@ fn shortened(
 ) -> Option<(DVector<f64>, f64)> {
     for _ in 0..SHORTER {
         let mut next = x + &step;
-        next.iter_mut().for_each(|v| *v = v.max(joint::LEAST_SIGMA.ln()));
+        next.iter_mut().for_each(|v| *v = v.max(noise::LEAST_SIGMA.ln()));
         if let Some(k) = memory {
             next[k] = next[k].clamp(MEMORY.0.ln(), MEMORY.1.ln());
         }
@@ -114,4 +117,12 @@ fn shortened(
         step *= 0.3;
     }
     None
+}
+
+/// Where a fit has arrived.
+pub(crate) struct Climb {
+    pub(super) hand_eye: HandEye,
+    pub(super) values: DVector<f64>,
+    pub(super) levels: Levels,
+    pub(super) log_likelihood: f64,
 }

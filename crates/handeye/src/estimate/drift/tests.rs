@@ -1,9 +1,12 @@
 use super::{kalman::*, *};
 use crate::{
-    PosePair,
-    estimate::noise::Sigma,
+    PosePair, Setup,
+    estimate::{NoiseModel, drift::sequence::Side, noise::Sigma},
     math::{lie, linalg, random::Random},
-    solve::tests::{exact_pairs, truths},
+    solve::{
+        View,
+        tests::{exact_pairs, truths},
+    },
 };
 
 /// Steps of a walk and white noise, rad and m.

@@ -2,11 +2,11 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::{
-    super::{Problem, extra::ExtraKind},
-    State, System,
+use super::super::{Problem, extra::ExtraKind};
+use crate::{
+    estimate::system::state::{State, System},
+    math::linalg,
 };
-use crate::math::linalg;
 
 /// What leaving out a group of views does.
 pub(crate) struct Steps {

@@ -8,49 +8,27 @@ mod groups;
 mod regressors;
 mod reml;
 mod sights;
+pub(super) mod state;
 mod views;
 
 use std::ops::AddAssign;
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::{
     JointFit, Problem,
     extra::Extra,
-    noise::{NoiseModel, Source},
-    touched::{self, TouchRows, TouchedBoard},
+    noise::NoiseModel,
+    touched::{self, TouchedBoard},
 };
 use crate::{
-    HandEye,
+    estimate::system::state::{BoardBlock, State, System, Variances},
     math::linalg,
-    solve::least_squares::{self, Vector12},
+    solve::least_squares::{self},
 };
 pub(crate) use groups::Steps;
 use sights::Sights;
 use views::{SeenMount, ViewNoise, divide};
-
-/// Where the fit stands.
-#[derive(Debug, Clone)]
-pub(super) struct State {
-    pub hand_eye: HandEye,
-    pub values: DVector<f64>,
-    pub noise: NoiseModel,
-}
-
-impl State {
-    pub fn new(problem: &Problem, hand_eye: HandEye, noise: NoiseModel) -> Self {
-        Self { hand_eye, values: DVector::zeros(problem.extras.len()), noise }
-    }
-
-    fn moved(&self, step: &DVector<f64>) -> Self {
-        let twelve = Vector12::from_fn(|i, _| step[i]);
-        Self {
-            hand_eye: least_squares::moved(&self.hand_eye, &twelve),
-            values: &self.values + step.rows(12, self.values.len()),
-            noise: self.noise.clone(),
-        }
-    }
-}
 
 /// A step shorter than this, squared and in units of the information, needs no check: the model is
 /// as good as linear there.
@@ -59,28 +37,6 @@ const NEAR: f64 = 1e-2;
 /// Standard deviation (rad, m) of what nothing determines: far beyond any answer, and yet a number
 /// that the algebra can work with. No measurement notices it.
 const FREE_SIGMA: f64 = 10.0;
-
-struct BoardBlock {
-    rows: TouchRows,
-    cholesky: Cholesky<f64, Dyn>,
-}
-
-/// Normal equations at one point.
-pub(super) struct System {
-    pub h: DMatrix<f64>,
-    pub g: DVector<f64>,
-    cost: f64,
-    cost_of_sights: f64,
-    log_determinant: f64,
-    sights: Sights,
-    /// Six rows a view, divided by the root of their covariance.
-    jacobian: DMatrix<f64>,
-    residual: DVector<f64>,
-    views: Vec<ViewNoise>,
-    boards: Vec<BoardBlock>,
-}
-
-type Variances = [f64; Source::ALL.len()];
 
 impl System {
     pub fn at(problem: &Problem, state: &State) -> Self {

@@ -15,8 +15,11 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::{FREE_SIGMA, NoiseModel, System, views::divide};
-use crate::math::{lie, linalg};
+use super::{FREE_SIGMA, NoiseModel, views::divide};
+use crate::{
+    estimate::system::state::System,
+    math::{lie, linalg},
+};
 
 /// Columns of a view's factor that are the robot's.
 const OF_ROBOT: usize = 6;

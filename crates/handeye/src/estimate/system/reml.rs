@@ -6,13 +6,18 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
 
 use super::{
     super::{
-        joint::{LEAST_SIGMA, PRIOR_TOUCHES, PRIOR_VIEWS},
+        joint::{PRIOR_TOUCHES, PRIOR_VIEWS},
         noise::{KnownNoise, NoiseModel, Sigma, Source},
     },
-    BoardBlock, System,
     views::ViewNoise,
 };
-use crate::math::linalg;
+use crate::{
+    estimate::{
+        noise::LEAST_SIGMA,
+        system::state::{BoardBlock, System},
+    },
+    math::linalg,
+};
 
 impl System {
     /// One step of Fisher's scoring on every component that is not known; the largest relative

@@ -2,10 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{
-    super::{Problem, extra::ExtraKind, noise::Source},
-    Variances,
-};
+use super::super::{Problem, extra::ExtraKind, noise::Source};
+use crate::estimate::system::state::Variances;
 
 /// `Σ (cᵀ S c + 2 sᵀ c)/θ_picture`.
 pub(super) struct Sights {

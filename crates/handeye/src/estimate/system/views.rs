@@ -2,17 +2,15 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::{
-    super::{
-        Problem,
-        extra::{self, Extra, ExtraKind},
-        noise::{self, COLUMNS, Factor, Source},
-        touched,
-    },
-    State, System, Variances,
+use super::super::{
+    Problem,
+    extra::{self, Extra, ExtraKind},
+    noise::{self, COLUMNS, Factor, Source},
+    touched,
 };
 use crate::{
     HandEye, Setup,
+    estimate::system::state::{State, System, Variances},
     math::lie,
     solve::least_squares::{self, View},
 };

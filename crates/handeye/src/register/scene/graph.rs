@@ -9,8 +9,10 @@
 
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix6, Vector6};
 
-use super::Link;
-use crate::math::{lie, linalg};
+use crate::{
+    math::{lie, linalg},
+    register::Dense,
+};
 
 /// Most steps.
 const MOST_STEPS: usize = 30;
@@ -230,6 +232,19 @@ fn step(
         }
     }
     Some((&inverse * right, inverse))
+}
+
+/// Two scans of the scene, and how the first lies in the second.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Which scan was moved.
+    pub source: usize,
+    /// Onto which.
+    pub target: usize,
+    /// Their registration.
+    pub found: Dense,
+    /// Why it does not count; `None` where it does.
+    pub left_out: Option<String>,
 }
 
 #[cfg(test)]

@@ -10,14 +10,14 @@
 //! one adjustment over all of them places every scan in the scene (`graph`). The scene's frame is that of
 //! the first scan that is placed. What comes out are poses of a target, with their covariances.
 
-mod graph;
+pub mod graph;
 mod motions;
 
 use nalgebra::{Isometry3, Matrix6};
 
 use crate::{
     Camera, Pose, Target, TargetPose, Verdict,
-    register::{Dense, DenseConfig, Surface, register_surfaces},
+    register::{Dense, DenseConfig, Surface, register_surfaces, scene::graph::Link},
 };
 use motions::Motion;
 
@@ -29,19 +29,6 @@ const OVERLAP: f64 = 0.15;
 const PARTNERS: usize = 8;
 /// Windows that predict the overlap.
 const ASKED: f64 = 300.0;
-
-/// Two scans of the scene, and how the first lies in the second.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Link {
-    /// Which scan was moved.
-    pub source: usize,
-    /// Onto which.
-    pub target: usize,
-    /// Their registration.
-    pub found: Dense,
-    /// Why it does not count; `None` where it does.
-    pub left_out: Option<String>,
-}
 
 /// Where scans lie in their scene.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,0 +1,57 @@
+//! The equations of a fit at one point.
+
+use crate::{
+    HandEye,
+    estimate::{
+        NoiseModel, Problem, Source,
+        system::{Sights, ViewNoise},
+        touched::TouchRows,
+    },
+    solve::{least_squares, least_squares::Vector12},
+};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// Where the fit stands.
+#[derive(Debug, Clone)]
+pub(crate) struct State {
+    pub hand_eye: HandEye,
+    pub values: DVector<f64>,
+    pub noise: NoiseModel,
+}
+
+impl State {
+    pub fn new(problem: &Problem, hand_eye: HandEye, noise: NoiseModel) -> Self {
+        Self { hand_eye, values: DVector::zeros(problem.extras.len()), noise }
+    }
+
+    pub(super) fn moved(&self, step: &DVector<f64>) -> Self {
+        let twelve = Vector12::from_fn(|i, _| step[i]);
+        Self {
+            hand_eye: least_squares::moved(&self.hand_eye, &twelve),
+            values: &self.values + step.rows(12, self.values.len()),
+            noise: self.noise.clone(),
+        }
+    }
+}
+
+/// Normal equations at one point.
+pub(crate) struct System {
+    pub h: DMatrix<f64>,
+    pub g: DVector<f64>,
+    pub(super) cost: f64,
+    pub(super) cost_of_sights: f64,
+    pub(super) log_determinant: f64,
+    pub(super) sights: Sights,
+    /// Six rows a view, divided by the root of their covariance.
+    pub(super) jacobian: DMatrix<f64>,
+    pub(super) residual: DVector<f64>,
+    pub(super) views: Vec<ViewNoise>,
+    pub(super) boards: Vec<BoardBlock>,
+}
+
+pub(crate) struct BoardBlock {
+    pub(super) rows: TouchRows,
+    pub(super) cholesky: Cholesky<f64, Dyn>,
+}
+
+pub(crate) type Variances = [f64; Source::ALL.len()];
