@@ -2,7 +2,10 @@
 
 use handeye::{
     Setup,
-    mistakes::{self, TargetScale, explain::Order, score::Fault},
+    mistakes::{
+        self, TargetScale,
+        score::{Fault, Order},
+    },
 };
 
 use super::Case;

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use handeye::{
     Distortion, Intrinsics,
-    simulate::{Cell, Recording, recording::placement_name},
+    simulate::{Cell, Recording, cell::placement_name},
 };
 use serde_json::{Value, json};
 

@@ -16,7 +16,7 @@ use std::{
 
 use handeye::{
     Base, Camera, Flange, ImageCorner, Pose, Target,
-    simulate::{Recording, recording::placement_name},
+    simulate::{Recording, cell::placement_name},
 };
 use serde_json::{Map, Value, json};
 

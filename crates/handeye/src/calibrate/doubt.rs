@@ -7,9 +7,9 @@ use crate::{
     math::linalg::median,
     mistakes::{
         self, TargetScale,
-        explain::{self, Order},
+        explain::{self},
         score,
-        score::Fault,
+        score::{Fault, Order},
     },
     model::verdict::Verdict,
     solve::consensus::{self, Consensus, Readings},

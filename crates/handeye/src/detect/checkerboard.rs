@@ -6,16 +6,18 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Vector2;
-
 use super::{
-    board::{NotFound, Outcome},
     fits::{Fits, corner, sorted},
     grid::Grid,
-    markers::bilinear,
     partial,
 };
-use crate::{GrayImage, TargetModel};
+use crate::{
+    GrayImage, TargetModel,
+    detect::{
+        outcome::{NotFound, Outcome},
+        partial::{first_square_brightness, turned},
+    },
+};
 
 /// Of a board in full extent this share of the corners must be fitted.
 const FITTED_SHARE: f64 = 0.8;
@@ -140,27 +142,6 @@ fn turns_of_board(
         near.map_or(f64::INFINITY, |(_, p)| p.x + p.y)
     };
     allowed.into_iter().min_by(|&a, &b| from_top_left(a).total_cmp(&from_top_left(b)))
-}
-
-/// A label of a grid of `size`, after quarter turns.
-pub(super) fn turned(label: (i32, i32), size: (i32, i32), turns: usize) -> (i32, i32) {
-    let quarter = |((i, j), (width, height)): ((i32, i32), (i32, i32))| {
-        ((height - 1 - j, i), (height, width))
-    };
-    (0..turns).fold((label, size), |at, _| quarter(at)).0
-}
-
-/// Grey of the squares with the colour of the one outside of corner (0, 0), minus that of the
-/// others.
-pub(super) fn first_square_brightness(image: &GrayImage, grid: &Grid) -> f64 {
-    let one = |(&(i, j), p): (&(i32, i32), &Vector2<f64>)| {
-        let (u, v) = (grid.step((i, j), (1, 0))?, grid.step((i, j), (0, 1))?);
-        let grey = |a: f64, b: f64| bilinear(image, &(p + (u * a + v * b) * 0.35));
-        let own = grey(-1.0, -1.0)? + grey(1.0, 1.0)?;
-        let other = grey(1.0, -1.0)? + grey(-1.0, 1.0)?;
-        Some(if (i + j) % 2 == 0 { own - other } else { other - own })
-    };
-    grid.corners.iter().filter_map(one).sum()
 }
 
 /// Adds corners that the finder missed: inside the grid, and rows at its rim while it is smaller

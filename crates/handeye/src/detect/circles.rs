@@ -16,11 +16,13 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix2, Vector2};
 
 use super::{
-    board::NotFound,
     pyramid::Scaled,
     view::{Sighting, View},
 };
-use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel, math::linalg::median};
+use crate::{
+    GrayImage, ImageCorner, Intrinsics, TargetModel, detect::outcome::NotFound,
+    math::linalg::median,
+};
 use blobs::Blob;
 use ellipse::{Ellipse, Rough};
 use lattice::{Board, Lattice};

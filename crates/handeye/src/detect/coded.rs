@@ -8,14 +8,17 @@ use std::collections::BTreeMap;
 use nalgebra::Vector2;
 
 use super::{
-    board::{NotFound, Outcome, worth},
     fits::{Fits, corner, sorted},
     grid::Grid,
     homography,
     markers::{self, Dictionary},
     tags::Board,
 };
-use crate::{GrayImage, ImageCorner, TargetModel, model::print::marker_of_square};
+use crate::{
+    GrayImage, ImageCorner, TargetModel,
+    detect::outcome::{NotFound, Outcome, worth},
+    model::print::marker_of_square,
+};
 
 /// Fewer corners do not determine a pose.
 const FEWEST_CORNERS: usize = 4;

@@ -18,6 +18,7 @@ pub mod homography;
 mod levenberg;
 pub mod markers;
 mod mesh;
+mod outcome;
 mod partial;
 pub mod planar_pose;
 mod pyramid;
@@ -33,7 +34,8 @@ pub mod tag;
 mod tags;
 mod view;
 
-pub use board::{NotFound, detect, detect_with};
+pub use board::{detect, detect_with};
+pub use outcome::NotFound;
 pub use planar_pose::{
     PosedTarget, relabelled, symmetry_turn, target_poses, target_poses_with, typical_excess,
     with_symmetries,

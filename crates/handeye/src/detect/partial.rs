@@ -7,11 +7,7 @@
 
 use nalgebra::Vector2;
 
-use super::{
-    checkerboard::{first_square_brightness, turned},
-    grid::Grid,
-    markers::bilinear,
-};
+use super::{grid::Grid, markers::bilinear};
 use crate::{GrayImage, TargetModel};
 
 /// Fewer corners are no part of a board.
@@ -137,6 +133,27 @@ fn ends(
     let margin = near(grey(MARGIN, SQUARE)?, white) && near(grey(MARGIN, -SQUARE)?, white);
     let middle = 0.5 * (black + white);
     Some(margin && grey(LAST.0, side)? < middle && grey(LAST.1, side)? > middle)
+}
+
+/// Grey of the squares with the colour of the one outside of corner (0, 0), minus that of the
+/// others.
+pub(crate) fn first_square_brightness(image: &GrayImage, grid: &Grid) -> f64 {
+    let one = |(&(i, j), p): (&(i32, i32), &Vector2<f64>)| {
+        let (u, v) = (grid.step((i, j), (1, 0))?, grid.step((i, j), (0, 1))?);
+        let grey = |a: f64, b: f64| bilinear(image, &(p + (u * a + v * b) * 0.35));
+        let own = grey(-1.0, -1.0)? + grey(1.0, 1.0)?;
+        let other = grey(1.0, -1.0)? + grey(-1.0, 1.0)?;
+        Some(if (i + j) % 2 == 0 { own - other } else { other - own })
+    };
+    grid.corners.iter().filter_map(one).sum()
+}
+
+/// A label of a grid of `size`, after quarter turns.
+pub(crate) fn turned(label: (i32, i32), size: (i32, i32), turns: usize) -> (i32, i32) {
+    let quarter = |((i, j), (width, height)): ((i32, i32), (i32, i32))| {
+        ((height - 1 - j, i), (height, width))
+    };
+    (0..turns).fold((label, size), |at, _| quarter(at)).0
 }
 
 #[cfg(test)]

@@ -3,11 +3,11 @@
 use nalgebra::Vector2;
 
 use super::{
-    board::{self, Outcome},
+    board::{self},
     grid::Grid,
     strays::without_strays,
 };
-use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel};
+use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel, detect::outcome::Outcome};
 
 /// A corner of a grid is one of a board that was found when it lies this near to it, over the least
 /// distance between that board's corners.

@@ -6,8 +6,8 @@
 
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 
-use super::{board::Outcome, residuals::residuals};
-use crate::{ImageCorner, Intrinsics, TargetModel, math::linalg::median};
+use super::residuals::residuals;
+use crate::{ImageCorner, Intrinsics, TargetModel, detect::outcome::Outcome, math::linalg::median};
 
 /// Fewer corners do not tell which of them is wrong.
 const FEWEST: usize = 13;

@@ -15,12 +15,11 @@ mod whole;
 use nalgebra::{Matrix3, Vector2};
 
 use super::{
-    board::NotFound,
     homography,
     markers::{Cells, Dictionary, Greys},
     pyramid::{Scaled, smoothed, stretched},
 };
-use crate::{GrayImage, ImageCorner};
+use crate::{GrayImage, ImageCorner, detect::outcome::NotFound};
 use edge::{Surroundings, is_crowded, is_roomy};
 pub(super) use quads::Quad;
 use quads::{area, quads};

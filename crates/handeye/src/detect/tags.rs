@@ -11,13 +11,16 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix2, Vector2};
 
 use super::{
-    board::{NotFound, Outcome},
     fits::sorted,
     homography,
     tag::{Level, Levels, Print, Quad, SeenTag},
     view::{Sighting, View},
 };
-use crate::{GrayImage, ImageCorner, TargetModel, model::target::PlacedTag};
+use crate::{
+    GrayImage, ImageCorner, TargetModel,
+    detect::outcome::{NotFound, Outcome},
+    model::target::PlacedTag,
+};
 
 /// A tag belongs to a group when its corners are this near to where they should be, in its sides:
 /// the next tag is more than one side away.

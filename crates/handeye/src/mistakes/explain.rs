@@ -30,7 +30,7 @@ use crate::{
     PosePair,
     math::{lie, linalg::median},
     mistakes::score::{
-        FEWEST, Fault, Finding, Score, UNIT_ANGLE, UNIT_DISTANCE, combined, pair, scored,
+        FEWEST, Fault, Finding, Order, Score, UNIT_ANGLE, UNIT_DISTANCE, combined, pair, scored,
     },
     solve::{self, Method, consensus::Readings, few_axes, motions},
 };
@@ -39,29 +39,6 @@ use crate::{
 pub const EXPLAINS: f64 = 1.0 / 3.0;
 /// Explanations whose scores differ by less than this factor cannot be told apart.
 pub const ALIKE: f64 = 1.5;
-/// Median misfit beyond which captures agree on nothing: twice that of the poorest measured cell that is
-/// known to be in order. degrees and mm.
-pub const BELIEVABLE: (f64, f64) = (2.5, 15.0);
-
-/// How the order of one list against the other is wrong.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Order {
-    /// Picture `i` belongs to robot pose `i + k`, counted round.
-    Shifted(usize),
-    /// The last picture belongs to the first robot pose.
-    Reversed,
-}
-
-impl Order {
-    /// Robot pose of picture `i` of `n`.
-    pub fn robot_of(self, i: usize, n: usize) -> usize {
-        match self {
-            Order::Shifted(k) => (i + k) % n,
-            Order::Reversed => n - 1 - i,
-        }
-    }
-}
-
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {

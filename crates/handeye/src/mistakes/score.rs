@@ -2,11 +2,7 @@
 
 use crate::{
     HandEye, PosePair,
-    mistakes::{
-        TargetScale,
-        explain::{BELIEVABLE, Order},
-        median,
-    },
+    mistakes::{TargetScale, median},
     solve::{
         consensus,
         consensus::{Consensus, Readings},
@@ -111,3 +107,26 @@ pub(crate) fn combined(errors: &[(f64, f64)]) -> f64 {
 pub fn reach(captures: &[Readings]) -> f64 {
     captures.iter().map(|c| c.anchor_from_mount.translation().norm()).fold(0.0, f64::max)
 }
+
+/// How the order of one list against the other is wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// Picture `i` belongs to robot pose `i + k`, counted round.
+    Shifted(usize),
+    /// The last picture belongs to the first robot pose.
+    Reversed,
+}
+
+impl Order {
+    /// Robot pose of picture `i` of `n`.
+    pub fn robot_of(self, i: usize, n: usize) -> usize {
+        match self {
+            Order::Shifted(k) => (i + k) % n,
+            Order::Reversed => n - 1 - i,
+        }
+    }
+}
+
+/// Median misfit beyond which captures agree on nothing: twice that of the poorest measured cell that is
+/// known to be in order. degrees and mm.
+pub const BELIEVABLE: (f64, f64) = (2.5, 15.0);

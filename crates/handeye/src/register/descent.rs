@@ -20,7 +20,6 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Matrix3, Matrix6, Translation3, UnitQuaternion, Vector3, Vector6};
 
 use super::{
-    dense::{DenseConfig, DenseMethod},
     icp::Stop,
     pair::{LEAST, Match, jacobian},
     patch::Patch,
@@ -29,6 +28,7 @@ use super::{
 use crate::{
     Error,
     math::{linalg, parallel},
+    register::options::{DenseConfig, DenseMethod},
 };
 
 /// Normals of a match are within 30 degrees.

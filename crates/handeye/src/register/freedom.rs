@@ -19,14 +19,16 @@
 use nalgebra::{Isometry3, Matrix3, Matrix6, SymmetricEigen, Vector3, Vector6};
 
 use super::{
-    dense::DenseMethod,
     descent::{Descent, nothing},
     pair::Match,
     patch::Patch,
 };
-use crate::math::{
-    gram::{pairs, place},
-    lie, linalg,
+use crate::{
+    math::{
+        gram::{pairs, place},
+        lie, linalg,
+    },
+    register::options::DenseMethod,
 };
 
 /// Directions with less than so many times the information of noise alone are not determined.

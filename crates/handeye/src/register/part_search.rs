@@ -8,13 +8,18 @@
 use nalgebra::{Isometry3, UnitQuaternion};
 
 use super::{
-    dense::{Dense, DenseConfig, add_reasons, refined},
     descent::Descent,
     rivals,
     search::{Evidence, Place, Search},
     surface::Surface,
 };
-use crate::{Error, Verdict};
+use crate::{
+    Error, Verdict,
+    register::{
+        finish::{Dense, add_reasons, refined},
+        options::DenseConfig,
+    },
+};
 
 /// Matches are looked for within so many times the spread of a window.
 const NEARBY: f64 = 3.0;

@@ -9,13 +9,12 @@
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
-    dense::DenseConfig,
     descent::{Descent, FEWEST, Reached},
     pair::LEAST,
     patch::Patch,
     surface::Surface,
 };
-use crate::{Error, math::parallel};
+use crate::{Error, math::parallel, register::options::DenseConfig};
 
 /// Windows that are looked at first, from every start.
 const TRIED: f64 = 500.0;

@@ -11,12 +11,11 @@ use super::{
     DepthSensor, Optics, PrintErrors,
     arm::{ArmErrors, BuiltArm, usual_arm},
     conditions::{Paper, on_paper},
-    recording::{Recording, Truth, placement_name},
     robot_error::{Robot, SystematicError},
 };
 use crate::{
-    Anchor, Base, Camera, Error, Flange, HandEye, Intrinsics, Mount, Point, Pose, Session, Setup,
-    Target, TargetModel, Touch, math::random::Random,
+    Anchor, Base, Camera, Error, Flange, HandEye, Intrinsics, Mount, Point, Pose, Setup, Target,
+    TargetModel, Touch, math::random::Random,
 };
 
 /// How wrong everything is that measures.
@@ -138,8 +137,8 @@ const TOOL_TILT_RAD: f64 = 0.3;
 // each kind of noise has random numbers of its own: more captures leave the touches as they are
 const VIEWS: u64 = 1;
 const LYING: u64 = 2;
-const TOOL: u64 = 3;
-const ROBOT: u64 = 4;
+pub(super) const TOOL: u64 = 3;
+pub(super) const ROBOT: u64 = 4;
 const PROBE: u64 = 5;
 pub(super) const CORNERS: u64 = 6;
 pub(super) const PICTURES: u64 = 7;
@@ -177,37 +176,6 @@ impl Cell {
         }
     }
 
-    /// Sends the robot to all captures and touches; errors come from `seed`.
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] when the board does not fit into the picture, or is no board.
-    pub fn record(&self, seed: u64) -> Result<Recording<'_>, Error> {
-        self.target.check()?;
-        self.intrinsics.check()?;
-        let camera_from_target = self.views()?;
-        let base_from_flange: Vec<Pose<Base, Flange>> =
-            camera_from_target[..self.captures].iter().map(|v| self.robot_at(v)).collect();
-        let mut robot = random(seed, ROBOT, 0);
-        let arm = self.robot();
-        let says = |p| arm.reported(p, &self.noise, &mut robot);
-        let reported = base_from_flange.iter().map(says).collect::<Option<Vec<_>>>();
-        let (reported, joints) = reported.ok_or_else(out_of_reach)?.into_iter().unzip();
-        let tip_error = direction(&mut random(self.seed, TOOL, 0)) * self.noise.tip_m;
-        let hand_eye = self.hand_eye;
-        let truth = Truth { hand_eye, camera_from_target, base_from_flange, tip_error };
-        let touches = self.touch_all(&truth, seed).ok_or_else(out_of_reach)?;
-        Ok(Recording { cell: self, base_from_flange: reported, joints, touches, truth, seed })
-    }
-
-    /// A session with corners that are projected, not detected in pictures: quick.
-    ///
-    /// # Errors
-    /// As [`Cell::record`].
-    pub fn session(&self, seed: u64) -> Result<(Session, Truth), Error> {
-        let recording = self.record(seed)?;
-        Ok((recording.session(), recording.truth))
-    }
-
     /// Intrinsics of the scans.
     pub fn scan_intrinsics(&self) -> Intrinsics {
         if self.scan_scale == 1.0 {
@@ -218,7 +186,7 @@ impl Cell {
     }
 
     /// Where the target is seen in captures and placements.
-    fn views(&self) -> Result<Vec<Pose<Camera, Target>>, Error> {
+    pub(super) fn views(&self) -> Result<Vec<Pose<Camera, Target>>, Error> {
         let lying = Viewing { tilt_rad: LYING_TILT_RAD.min(self.viewing.tilt_rad), ..self.viewing };
         let view = |k: usize| self.view(&self.viewing, &mut random(self.seed, VIEWS, k));
         let placed = |k: usize| self.view(&lying, &mut random(self.seed, LYING, k));
@@ -291,7 +259,7 @@ impl Cell {
     }
 
     /// `A = Y B X⁻¹`: where the robot is when the camera sees the target so.
-    fn robot_at(&self, camera_from_target: &Pose<Camera, Target>) -> Pose<Base, Flange> {
+    pub(super) fn robot_at(&self, camera_from_target: &Pose<Camera, Target>) -> Pose<Base, Flange> {
         let HandEye { mount_from_camera, anchor_from_target } = self.hand_eye;
         let anchor_from_mount: Pose<Anchor, Mount> =
             anchor_from_target * camera_from_target.inverse() * mount_from_camera.inverse();
@@ -300,7 +268,7 @@ impl Cell {
     }
 
     /// What is wrong with the robot.
-    fn robot(&self) -> Robot {
+    pub(super) fn robot(&self) -> Robot {
         let systematic = SystematicError::draw(&self.noise, random(self.seed, ARM, 0));
         Robot { systematic, arm: self.built_arm() }
     }
@@ -318,7 +286,7 @@ impl Cell {
         PrintErrors { bend_mm, scale, ..PrintErrors::default() }
     }
 
-    fn touch_all(&self, truth: &Truth, seed: u64) -> Option<Vec<Touch>> {
+    pub(super) fn touch_all(&self, truth: &Truth, seed: u64) -> Option<Vec<Touch>> {
         let robot = self.robot();
         let corners = spread_corners(&self.target, self.touches);
         let boards = self.touchable(truth);
@@ -400,11 +368,11 @@ fn usual_viewing(setup: Setup) -> Viewing {
     Viewing { nearest_m, farthest_m, tilt_rad, spin_rad }
 }
 
-fn direction(random: &mut Random) -> Vector3<f64> {
+pub(super) fn direction(random: &mut Random) -> Vector3<f64> {
     random.normal3().normalize()
 }
 
-fn out_of_reach() -> Error {
+pub(super) fn out_of_reach() -> Error {
     Error::Invalid(
         "the simulated arm does not reach all views and touches: take another seed".into(),
     )
@@ -431,6 +399,24 @@ fn spread_corners(target: &TargetModel, count: usize) -> Vec<u32> {
         chosen.extend(next);
     }
     chosen.into_iter().map(|k| k as u32).collect()
+}
+
+/// What nobody in a real cell knows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    /// Where camera and target sit.
+    pub hand_eye: HandEye,
+    /// Where the target is in every picture: captures first, then placements.
+    pub camera_from_target: Vec<Pose<Camera, Target>>,
+    /// Where the flange is in every capture.
+    pub base_from_flange: Vec<Pose<Base, Flange>>,
+    /// Tip minus where the robot believes it, in the flange (m).
+    pub tip_error: Vector3<f64>,
+}
+
+/// Name of placement `k`.
+pub fn placement_name(k: usize) -> String {
+    format!("place-{}", k + 1)
 }
 
 #[cfg(test)]

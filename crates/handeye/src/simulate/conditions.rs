@@ -2,8 +2,10 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::{Clutter, Optics, Scene, clutter::noise_at};
-use crate::{Camera, Point, Pose, Target, TargetModel, math::random::Random};
+use super::{Clutter, Optics, Scene};
+use crate::{
+    Camera, Point, Pose, Target, TargetModel, math::random::Random, simulate::pattern::noise_at,
+};
 
 /// How light, print and surroundings differ from a flat, faultless, evenly lit board alone.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -8,22 +8,10 @@ use super::{
     conditions::Paper,
 };
 use crate::{
-    Base, Camera, Flange, GrayImage, HandEye, ImageCorner, Observation, Placement, Point, Pose,
-    Scan, Session, SurfaceCorner, Target, Touch, detect,
+    Base, Error, Flange, GrayImage, ImageCorner, Observation, Placement, Point, Pose, Scan,
+    Session, SurfaceCorner, Touch, detect,
+    simulate::cell::{ROBOT, TOOL, Truth, direction, out_of_reach, placement_name},
 };
-
-/// What nobody in a real cell knows.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Truth {
-    /// Where camera and target sit.
-    pub hand_eye: HandEye,
-    /// Where the target is in every picture: captures first, then placements.
-    pub camera_from_target: Vec<Pose<Camera, Target>>,
-    /// Where the flange is in every capture.
-    pub base_from_flange: Vec<Pose<Base, Flange>>,
-    /// Tip minus where the robot believes it, in the flange (m).
-    pub tip_error: Vector3<f64>,
-}
 
 /// What the robot says in a cell, and the truth behind it. Pictures and scans are made when asked
 /// for, one at a time.
@@ -46,6 +34,39 @@ pub struct Recording<'a> {
 const LEAST_CORNER_PX: f64 = 1e-3;
 /// 3D corners likewise, m.
 const LEAST_DEPTH_M: f64 = 1e-6;
+
+impl Cell {
+    /// Sends the robot to all captures and touches; errors come from `seed`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when the board does not fit into the picture, or is no board.
+    pub fn record(&self, seed: u64) -> Result<Recording<'_>, Error> {
+        self.target.check()?;
+        self.intrinsics.check()?;
+        let camera_from_target = self.views()?;
+        let base_from_flange: Vec<Pose<Base, Flange>> =
+            camera_from_target[..self.captures].iter().map(|v| self.robot_at(v)).collect();
+        let mut robot = random(seed, ROBOT, 0);
+        let arm = self.robot();
+        let says = |p| arm.reported(p, &self.noise, &mut robot);
+        let reported = base_from_flange.iter().map(says).collect::<Option<Vec<_>>>();
+        let (reported, joints) = reported.ok_or_else(out_of_reach)?.into_iter().unzip();
+        let tip_error = direction(&mut random(self.seed, TOOL, 0)) * self.noise.tip_m;
+        let hand_eye = self.hand_eye;
+        let truth = Truth { hand_eye, camera_from_target, base_from_flange, tip_error };
+        let touches = self.touch_all(&truth, seed).ok_or_else(out_of_reach)?;
+        Ok(Recording { cell: self, base_from_flange: reported, joints, touches, truth, seed })
+    }
+
+    /// A session with corners that are projected, not detected in pictures: quick.
+    ///
+    /// # Errors
+    /// As [`Cell::record`].
+    pub fn session(&self, seed: u64) -> Result<(Session, Truth), Error> {
+        let recording = self.record(seed)?;
+        Ok((recording.session(), recording.truth))
+    }
+}
 
 impl Recording<'_> {
     /// Where the robot believes the tip, in the flange.
@@ -164,9 +185,4 @@ impl Recording<'_> {
         detect::target_poses(c, s, target, &self.cell.intrinsics)
             .map_or(vec![], |poses| detect::with_symmetries(&poses, target))
     }
-}
-
-/// Name of placement `k`.
-pub fn placement_name(k: usize) -> String {
-    format!("place-{}", k + 1)
 }

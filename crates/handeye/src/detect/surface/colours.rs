@@ -21,11 +21,13 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use super::{
     Missing, Reason, Window, Windows, lift_all, on_plane,
     plane::{MAD, Plane, TUKEY, tukey},
-    samples::{FEWEST_POINTS, Sample},
+    samples::FEWEST_POINTS,
     step::Step,
 };
 use crate::{
-    ImageCorner, SurfaceCorner, TargetModel, detect::homography, math::linalg::median,
+    ImageCorner, SurfaceCorner, TargetModel,
+    detect::{homography, surface::plane::Sample},
+    math::linalg::median,
     model::texture::Texture,
 };
 

@@ -154,7 +154,7 @@ fn lift_all<T>(
 fn on_plane(
     corner: &ImageCorner,
     window: &Window,
-    samples: &[samples::Sample],
+    samples: &[plane::Sample],
     plane: &Plane,
 ) -> Result<SurfaceCorner, Reason> {
     plane.check(samples, window.radius)?;

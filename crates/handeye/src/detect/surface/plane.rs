@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 
-use super::{Reason, samples::Sample};
+use super::Reason;
 use crate::{
     Point, SurfaceCorner,
     math::{linalg::median, random::Random},
@@ -231,4 +231,13 @@ impl Rays {
         }
         Ok(Self { x: plane.cofactor * x, y: plane.cofactor * y })
     }
+}
+
+/// A measured point and its pixel, counted from the corner (scan px).
+#[derive(Clone, Copy)]
+pub(crate) struct Sample {
+    pub at: Vector2<f64>,
+    pub point: Vector3<f64>,
+    /// Its place in the grid, for the correlation of neighbours.
+    pub cell: (i64, i64),
 }

@@ -8,7 +8,7 @@ use super::{
     Reason,
     plane::{Plane, inflation},
 };
-use crate::{ImageCorner, Intrinsics, Scan};
+use crate::{ImageCorner, Intrinsics, Scan, detect::surface::plane::Sample};
 
 /// Limits of the radius, scan pixels.
 const RADIUS: (f64, f64) = (2.5, 20.0);
@@ -24,15 +24,6 @@ const HOLE: f64 = 0.5;
 const SAME_RATIO: f64 = 0.01;
 /// Side of the buckets (px) that sort an unorganised scan.
 const BUCKET_PX: f64 = 16.0;
-
-/// A measured point and its pixel, counted from the corner (scan px).
-#[derive(Clone, Copy)]
-pub(super) struct Sample {
-    pub at: Vector2<f64>,
-    pub point: Vector3<f64>,
-    /// Its place in the grid, for the correlation of neighbours.
-    pub cell: (i64, i64),
-}
 
 /// Unknowns of a plane.
 const PLANE: f64 = 3.0;

@@ -4,6 +4,7 @@ use super::*;
 use crate::{
     Intrinsics,
     math::{lie, linalg, random::Random},
+    register::DenseMethod,
     simulate::{Room, Solid, Thing},
 };
 
