@@ -352,3 +352,49 @@ fn a_calibration_that_is_rejected_does_not_pass_by_its_touches() {
     let page = folder.read("report/verify.html");
     assert!(page.contains("own verdict is rejected"), "the report says so");
 }
+
+/// A cell that was simulated with these options, small enough to be quick; whether squares are declared 2 % too small.
+fn small_cell(options: &[&str], is_wrong: bool) -> Folder {
+    let folder = Folder::new();
+    let usual =
+        ["simulate", "cell", "--quiet", "--touches", "0", "--captures", "10", "--seed", "41"];
+    let small = ["--width", "640", "--height", "400"];
+    let made = handeye(&folder, &[&usual[..], &small[..], options].concat());
+    assert_eq!(made.code, 0, "{}", made.stderr);
+    if is_wrong {
+        let manifest = folder.read("cell/handeye.toml");
+        folder.put("cell/handeye.toml", &manifest.replace("square_mm = 30.0", "square_mm = 29.4"));
+    }
+    folder
+}
+
+#[test]
+fn what_changes_an_answer_is_found_with_scans_too() {
+    let codes = |folder: &Folder| {
+        let run = check(folder, &[]);
+        let found = run.json();
+        let all = found["explanations"].as_array().unwrap();
+        let codes: Vec<String> =
+            all.iter().map(|e| e["code"].as_str().unwrap().to_owned()).collect();
+        (run.code, codes)
+    };
+    let scans = ["--scans", "--scan-scale", "0.5"];
+    assert_eq!(codes(&small_cell(&scans, false)), (0, vec![]));
+    let (code, wrong_size) = codes(&small_cell(&scans, true));
+    assert!(
+        code == 3 && wrong_size.iter().any(|c| c.contains("size") || c == "target-scale"),
+        "{wrong_size:?}"
+    );
+    let (code, shifted) =
+        codes(&small_cell(&[&scans[..], &["--scan-shift-mm", "8"]].concat(), false));
+    assert!(code == 3 && shifted.contains(&"picture-and-scan-disagree".to_owned()), "{shifted:?}");
+}
+
+#[test]
+fn a_bent_board_is_found() {
+    let folder = small_cell(&["--no-images", "--bow-mm", "4"], false);
+    let run = check(&folder, &[]);
+    let found = run.json();
+    let all = found["explanations"].as_array().unwrap();
+    assert!(run.code == 3 && all.iter().any(|e| e["code"] == "board-bent"), "{found}");
+}

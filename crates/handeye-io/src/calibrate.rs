@@ -31,17 +31,7 @@ pub fn calibrate_dataset(
 ) -> Result<(Calibration, Session), Error> {
     check_workspace(dataset)?;
     let measured = measure::measure(dataset, progress)?;
-    let config = Config {
-        known: KnownNoise {
-            robot_rotation_rad: dataset.noise.robot_rotation,
-            robot_position_m: dataset.noise.robot_position,
-            touch_m: dataset.noise.touch,
-            tip_m: dataset.noise.tip,
-        },
-        max_error_mm: dataset.limits.max_error.map(|m| m * 1e3),
-        answer_frame: dataset.answer_frame,
-        ..config.clone()
-    };
+    let config = configured(dataset, config);
     let calibrated = match &dataset.motion {
         Some(motion) => {
             let crate::dataset::Motion { robot, joints, times } = motion;
@@ -60,6 +50,21 @@ pub fn calibrate_dataset(
     let inputs = format!("{manifest}{:?}", measured.session);
     calibration.run_id = Some(run_id(&inputs, &calibration));
     Ok((calibration, measured.session))
+}
+
+/// A configuration with what the manifest says of noise and limits.
+pub(crate) fn configured(dataset: &Dataset, config: &Config) -> Config {
+    Config {
+        known: KnownNoise {
+            robot_rotation_rad: dataset.noise.robot_rotation,
+            robot_position_m: dataset.noise.robot_position,
+            touch_m: dataset.noise.touch,
+            tip_m: dataset.noise.tip,
+        },
+        max_error_mm: dataset.limits.max_error.map(|m| m * 1e3),
+        answer_frame: dataset.answer_frame,
+        ..config.clone()
+    }
 }
 
 fn check_workspace(dataset: &Dataset) -> Result<(), Error> {

@@ -2,6 +2,7 @@
 //! manifest.
 
 mod amend;
+mod judged;
 mod layout;
 mod scan_unit;
 mod touched;
@@ -142,7 +143,14 @@ pub fn check(
     let dataset = Dataset::open_with_root(manifest, root)?;
     cannot_be_checked(&dataset).map_or(Ok(()), Err)?;
     let measured = measure::measure(&dataset, progress)?;
-    examine(&dataset, &measured)
+    let mut found = examine(&dataset, &measured)?;
+    if found.explanations.is_empty() {
+        let judged = judged::found_by_calibration(&dataset, &measured.session);
+        found.ok &= judged.is_empty();
+        found.alike = judged.len().min(1);
+        found.explanations = judged;
+    }
+    Ok(found)
 }
 
 /// Whether mistakes in a dataset can be told apart at all.

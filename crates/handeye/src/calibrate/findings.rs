@@ -163,6 +163,11 @@ const TABLE: &[Row] = &[
     rejects("no-clear-majority", "find out what changed in the session, and take it again"),
 ];
 
+/// A code that does something to an answer, as the table has it.
+pub fn known(code: &str) -> Option<&'static str> {
+    row(code).map(|row| row.code)
+}
+
 fn row(code: &str) -> Option<&'static Row> {
     TABLE.iter().find(|row| row.code == code)
 }

@@ -25,7 +25,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vec
 use super::{agreement::Captures, gate::IMPROBABLE};
 use crate::{
     Anchor, Calibration, Mount, Pose, Setup, Verdict, Warning,
-    calibrate::result::{CaptureResult, Movement, MovementKind, matrix, rows},
+    calibrate::result::{CaptureResult, Movement, MovementKind, TouchResult, matrix, rows},
     estimate::JointFit,
     math::{lie, statistics},
     model::session::Session,
@@ -498,9 +498,7 @@ pub(super) fn answer_of_the_end(
     let Some(m) = &all.movement else { return all };
     let first = session.observations.iter().position(|o| o.capture == m.first);
     let Some(first) = first.filter(|_| runs_to_the_end(m)) else { return all };
-    let mut after = session.clone();
-    after.observations.drain(..first);
-    let mut end = run(&after);
+    let mut end = run(&since(session, first));
     if end.verdict != Verdict::Accepted {
         return not_determined(all);
     }
@@ -512,8 +510,14 @@ pub(super) fn answer_of_the_end(
     let names = before.iter().map(|c| c.id.clone());
     end.rejected = names.chain(end.rejected).collect();
     end.captures = before.into_iter().chain(end.captures).collect();
+    end.touches = all.touches.iter().map(|t| TouchResult { used: false, ..t.clone() }).collect();
+    let touches = if session.touches.is_empty() {
+        ""
+    } else {
+        "; the touches may be older, and are not used"
+    };
     let message = format!(
-        "{}. The answer is where the camera is since capture {}, from the {} captures since then alone",
+        "{}. The answer is where the camera is since capture {}, from the {} captures since then alone{touches}",
         in_words(&Movement { widened_mm: 0.0, ..m.clone() }, session.setup),
         m.first,
         session.observations.len() - first,
@@ -521,6 +525,16 @@ pub(super) fn answer_of_the_end(
     end.warnings.insert(0, Warning::new("camera-moved", message));
     end.movement = all.movement;
     end
+}
+
+/// What was measured from a capture on. Of touches, and of the images of the boards that were touched, nobody knows
+/// when they were taken.
+fn since(session: &Session, first: usize) -> Session {
+    let mut after = session.clone();
+    after.observations.drain(..first);
+    after.placements.clear();
+    after.touches.clear();
+    after
 }
 
 /// Where too few captures were taken since the camera moved, nobody knows where it is.
@@ -638,6 +652,27 @@ mod tests {
                     "seed {seed}: {off}"
                 );
                 assert!(found.captures.len() > found.captures.iter().filter(|c| c.used).count());
+            }
+        }
+    }
+
+    #[test]
+    fn touches_from_before_a_bump_do_not_hold_the_answer_back() {
+        for seed in 0..6 {
+            let cell = Cell { captures: 18, ..Cell::new(SETUP, seed) };
+            let (mut session, truth) = cell.session(seed).unwrap();
+            let by = Isometry3::translation(3e-3, -3.2e-3, 2.4e-3);
+            for o in &mut session.observations[10..] {
+                o.base_from_flange = Pose::<Base, Flange>::claim(by * o.base_from_flange.iso());
+            }
+            let found = calibrate(&session, &Config::default()).unwrap();
+            let now = Pose::claim(by * truth.hand_eye.mount_from_camera.iso());
+            if found.verdict == Verdict::Accepted {
+                let off = found.hand_eye.mount_from_camera.unwrap().distance_to(&now) * 1e3;
+                let stated = found.predicted_tre_mm.as_ref().unwrap().p95;
+                assert!(off < 1.5 * stated, "seed {seed}: {off} {stated} {:?}", found.warnings);
+                let is_of_the_end = found.warnings.iter().any(|w| w.code == "camera-moved");
+                assert!(!is_of_the_end || found.touches.iter().all(|t| !t.used), "seed {seed}");
             }
         }
     }
