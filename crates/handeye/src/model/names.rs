@@ -15,7 +15,7 @@ pub fn natural(a: &str, b: &str) -> std::cmp::Ordering {
                         digits.push(c);
                     }
                     let value = digits.trim_start_matches('0').to_owned();
-                    (value.len(), value, digits.len())
+                    (value.len(), value, std::cmp::Reverse(digits.len()))
                 };
                 number(&mut a).cmp(&number(&mut b))
             }
