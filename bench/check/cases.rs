@@ -181,6 +181,9 @@ struct Declared {
     pixel_origin_corner: bool,
 }
 
+/// Codes that say that something is wrong, but not what.
+const NAMES_NOTHING: [&str; 3] = ["captures-disagree", "no-clear-majority", "rejected"];
+
 /// Plants a mistake in a cell with so many captures and asks for it.
 pub fn ask(mistake: Mistake, seed: u64, captures: usize, folder: &Path) -> Outcome {
     let case = planted(mistake, seed, captures);
@@ -192,7 +195,7 @@ pub fn ask(mistake: Mistake, seed: u64, captures: usize, folder: &Path) -> Outco
     match first {
         [] if found.ok => Outcome::Unnoticed,
         [] => Outcome::Unexplained,
-        [only] if only.code == "captures-disagree" => Outcome::Unexplained,
+        [only] if NAMES_NOTHING.contains(&only.code) => Outcome::Unexplained,
         [only] if is_right(only) => Outcome::Named,
         [other] => Outcome::Wrong(other.code),
         several if several.iter().any(is_right) => Outcome::AmongOthers,
