@@ -12,9 +12,9 @@
 //!
 //! with `w_k` the time between two views and `m` the time after which drift is forgotten, both in
 //! mean intervals: per interval the drift moves by `ρ` (rad) and `τ` (m) in the axes of the camera.
-//! All of that is slow as the target has it ([`Side::Target`]). A camera that moves in its holder is slow
+//! All of that is slow as the target has it ([`sequence::Side::Target`]). A camera that moves in its holder is slow
 //! in its own axes: then misfits, and all that is said above of them, are those in the camera's axes,
-//! `Ad(C_k) r_k` ([`Side::Camera`]).
+//! `Ad(C_k) r_k` ([`sequence::Side::Camera`]).
 //!
 //! As `m` grows, drift becomes a random walk, and the start of it goes along with `Y`. `s_k` is the
 //! same of the unit of distances, `h_k` how the misfit moves with it; only where that is unknown.
