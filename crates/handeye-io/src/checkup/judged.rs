@@ -1,7 +1,10 @@
-//! What the calibration of the dataset finds by itself: a check that says nothing of it would contradict it.
+//! What the calibration of a dataset finds by itself: whether the touches are of the corners that they name, and all
+//! that changes its answer or speaks against it. A check that does not report this would contradict the calibration.
+
+use std::cell::OnceCell;
 
 use handeye::{
-    Config, Session, Verdict, calibrate,
+    Calibration, Config, Session, Verdict, calibrate,
     calibrate::{
         findings,
         result::{Finding, Severity},
@@ -11,27 +14,81 @@ use handeye::{
 use super::Explanation;
 use crate::{Dataset, calibrate::configured};
 
+/// Findings of a calibration that are about its touches, and what to do where no key of the manifest corrects them.
+const ABOUT_TOUCHES: [(&str, &str); 4] = [
+    (
+        "touches-misread",
+        "correct the ids, the units or the placements of [touches], and check again",
+    ),
+    ("tip-off", "calibrate the tool again (`handeye tcp`), or correct the ids of the touches"),
+    ("touch-rejected", "correct the id of that touch, touch the corner again, or remove the line"),
+    (
+        "views-and-touches-disagree",
+        "check placements and frame of the touches; touch where the robot works",
+    ),
+];
+
 /// The code of a reason that has none of its own.
 const REJECTED: &str = "rejected";
 
-/// Findings of a calibration that change its answer or speak against it. Captures that do not determine an answer are
-/// no mistake.
-pub(super) fn found_by_calibration(dataset: &Dataset, session: &Session) -> Vec<Explanation> {
-    let config = configured(dataset, &Config::default());
-    let Ok(result) = calibrate(session, &config) else { return vec![] };
-    let matters = |f: &Finding| match f.severity {
-        Severity::Info => false,
-        Severity::ChangesAnswer => true,
-        Severity::Rejects => result.verdict == Verdict::Rejected,
-    };
-    let explained = |f: Finding| Explanation {
-        code: findings::known(&f.code).unwrap_or(REJECTED),
-        message: f.message,
+/// A dataset and its calibration, which runs when it is asked for, once.
+pub(super) struct Judged<'a> {
+    pub dataset: &'a Dataset,
+    pub session: &'a Session,
+    calibration: OnceCell<Option<Calibration>>,
+}
+
+impl<'a> Judged<'a> {
+    pub fn new(dataset: &'a Dataset, session: &'a Session) -> Self {
+        Self { dataset, session, calibration: OnceCell::new() }
+    }
+
+    fn calibration(&self) -> Option<&Calibration> {
+        let run = || {
+            let config = configured(self.dataset, &Config::default());
+            calibrate(self.session, &config).ok()
+        };
+        self.calibration.get_or_init(run).as_ref()
+    }
+
+    /// What is wrong with the touches, where the captures agree.
+    pub fn wrong_touches(&self) -> Vec<Explanation> {
+        if self.session.touches.is_empty() {
+            return vec![];
+        }
+        let explained = |warning: &handeye::Warning| {
+            let (code, by_hand) = ABOUT_TOUCHES.iter().find(|(code, _)| *code == warning.code)?;
+            Some(by_hand_alone(code, &warning.message, Some((*by_hand).to_owned())))
+        };
+        let warnings = self.calibration().map_or(&[][..], |result| &result.warnings);
+        warnings.iter().filter_map(explained).collect()
+    }
+
+    /// All that changes the answer or speaks against it. Captures that do not determine an answer are no mistake.
+    pub fn findings(&self) -> Vec<Explanation> {
+        let Some(result) = self.calibration() else { return vec![] };
+        let matters = |f: &Finding| match f.severity {
+            Severity::Info => false,
+            Severity::ChangesAnswer => true,
+            Severity::Rejects => result.verdict == Verdict::Rejected,
+        };
+        let explained = |f: Finding| {
+            let code = findings::known(&f.code).unwrap_or(REJECTED);
+            by_hand_alone(code, &f.message, f.advice)
+        };
+        findings::findings(result).into_iter().filter(matters).map(explained).collect()
+    }
+}
+
+/// An explanation that no key of the manifest corrects.
+fn by_hand_alone(code: &'static str, message: &str, by_hand: Option<String>) -> Explanation {
+    Explanation {
+        code,
+        message: message.to_owned(),
         after: None,
         p_value: None,
         captures: vec![],
         changes: vec![],
-        by_hand: f.advice,
-    };
-    findings::findings(&result).into_iter().filter(matters).map(explained).collect()
+        by_hand,
+    }
 }

@@ -5,7 +5,6 @@ mod amend;
 mod judged;
 mod layout;
 mod scan_unit;
-mod touched;
 mod words;
 
 use std::path::Path;
@@ -20,6 +19,8 @@ use handeye::{
 };
 use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
+
+use judged::Judged;
 
 pub use amend::apply;
 
@@ -143,12 +144,12 @@ pub fn check(
     let dataset = Dataset::open_with_root(manifest, root)?;
     cannot_be_checked(&dataset).map_or(Ok(()), Err)?;
     let measured = measure::measure(&dataset, progress)?;
-    let mut found = examine(&dataset, &measured)?;
+    let judged = Judged::new(&dataset, &measured.session);
+    let mut found = examine(&measured, &judged)?;
     if found.explanations.is_empty() {
-        let judged = judged::found_by_calibration(&dataset, &measured.session);
-        found.ok &= judged.is_empty();
-        found.alike = judged.len().min(1);
-        found.explanations = judged;
+        found.explanations = judged.findings();
+        found.ok &= found.explanations.is_empty();
+        found.alike = found.explanations.len().min(1);
     }
     Ok(found)
 }
@@ -182,8 +183,8 @@ fn cannot_be_checked(dataset: &Dataset) -> Option<Error> {
 }
 
 /// Looks for mistakes in what was measured.
-fn examine(dataset: &Dataset, measured: &Measured) -> Result<Checkup, Error> {
-    let session = &measured.session;
+fn examine(measured: &Measured, judged: &Judged) -> Result<Checkup, Error> {
+    let Judged { dataset, session, .. } = *judged;
     let text = files::text(&dataset.manifest)?;
     let (seen, blind): (Vec<usize>, Vec<usize>) =
         (0..dataset.captures.len()).partition(|&i| !session.observations[i].candidates.is_empty());
@@ -200,7 +201,7 @@ fn examine(dataset: &Dataset, measured: &Measured) -> Result<Checkup, Error> {
             let case = case(dataset, session, text, &seen, robot);
             let mut found = checkup(&case, &explain::explain(&case.declared, &case.readings));
             add_layout(&mut found, dataset);
-            add_touches(&mut found, session);
+            add_touches(&mut found, judged);
             found
         }
     };
@@ -278,11 +279,11 @@ fn is_wholesale(explanation: &Explanation) -> bool {
 }
 
 /// Adds what is wrong with the touches, where the captures themselves are in order.
-fn add_touches(found: &mut Checkup, session: &Session) {
+fn add_touches(found: &mut Checkup, judged: &Judged) {
     if found.explanations.iter().any(is_wholesale) {
         return;
     }
-    let touches = touched::wrong_touches(session);
+    let touches = judged.wrong_touches();
     if touches.is_empty() {
         return;
     }
@@ -303,7 +304,7 @@ pub(crate) fn diagnosis(dataset: &Dataset, measured: &Measured) -> Option<String
     if cannot_be_checked(dataset).is_some() {
         return None;
     }
-    let found = examine(dataset, measured).ok()?;
+    let found = examine(measured, &Judged::new(dataset, &measured.session)).ok()?;
     let first = found.explanations.get(..found.alike.max(1))?;
     let is_answer = |e: &Explanation| !SAY_LITTLE.contains(&e.code);
     if first.len() > MOST_ANSWERS || !first.iter().all(is_answer) {

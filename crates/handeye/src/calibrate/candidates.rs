@@ -84,27 +84,38 @@ pub(super) fn estimate<'a>(
     result.advice = budget::advice(whole, best, &workpiece, has_board);
     let judge =
         Judge { views: &views, paired: &trusted, known: config.known, workpiece: &workpiece };
-    let mut candidates = judge.view_candidates(&fit, joint.is_some(), config);
-    candidates.extend(judge.touch_candidates(&fit, config, result));
-    if config.method.is_none() {
-        candidates.extend(joint.as_ref().and_then(|j| judge.joint_candidate(j)));
-        candidates.extend(judge.arm_candidate(&fit));
-    }
-    if let Some(method) = config.method
-        && candidates.is_empty()
-    {
-        named::name_failure(&views, method, result);
-    }
-    choose(candidates, &views, &volume, config, result);
-    if let Some(method) = config.method {
-        named::judge_by_likeliest(&views, &fit, config, result);
-        named::report_scale(&views, method, result);
-    }
+    compare(&judge, (&fit, joint.as_ref()), &volume, config, result);
     map_error(&workpiece, result);
     captures::report_touches(&views, &paired, joint.as_ref(), result);
     let rests_on_arm = result.chosen.as_deref() == Some(WITH_ARM);
     let found = arm.filter(|_| rests_on_arm).map(|a| a.fit);
     Some((views, found))
+}
+
+/// Makes all candidates and chooses one; a method asked for by name is judged alone.
+fn compare(
+    judge: &Judge,
+    (fit, joint): (&JointFit, Option<&Joint>),
+    volume: &Volume,
+    config: &Config,
+    result: &mut Calibration,
+) {
+    let mut candidates = judge.view_candidates(fit, joint.is_some(), config);
+    candidates.extend(judge.touch_candidates(fit, config, result));
+    if config.method.is_none() {
+        candidates.extend(joint.and_then(|j| judge.joint_candidate(j)));
+        candidates.extend(judge.arm_candidate(fit));
+    }
+    if let Some(method) = config.method
+        && candidates.is_empty()
+    {
+        named::name_failure(judge.views, method, result);
+    }
+    choose(candidates, judge.views, volume, config, result);
+    if let Some(method) = config.method {
+        named::judge_by_likeliest(judge.views, fit, config, result);
+        named::report_scale(judge.views, method, result);
+    }
 }
 
 /// The likeliest answer of views alone, and what it says beside both poses.
