@@ -81,11 +81,11 @@ def calibrated(code, answer):
         return failed(code, answer)
     used = [capture["id"] for capture in answer["captures"] if not capture["used"]]
     kept = ("verdict", "chosen", "predicted_tre_mm", "residual", "held_out", "time_offset_s", "scale", "target_scale")
-    told = {key: answer.get(key) for key in kept}
+    made = {key: answer.get(key) for key in kept}
     for key in ("predicted_tre_mm", "target_scale"):
-        if isinstance(told[key], dict):
-            told[key] = {k: v for k, v in told[key].items() if isinstance(v, (int, float))}
-    return {"exit": code, **told, "hand_eye": hand_eye(answer["hand_eye"]), "not_used": used, "undetermined": len(answer["undetermined"]),
+        if isinstance(made[key], dict):
+            made[key] = {k: v for k, v in made[key].items() if isinstance(v, (int, float))}
+    return {"exit": code, **made, "hand_eye": hand_eye(answer["hand_eye"]), "not_used": used, "undetermined": len(answer["undetermined"]),
             "candidates": [c["name"] for c in answer["candidates"]], "warnings": codes(answer["warnings"]),
             "findings": codes(answer.get("findings"))}
 
@@ -134,8 +134,8 @@ class Suite:
             def case(program, folder):
                 folder = folder / "cell"
                 maker(program, folder, seed)
-                told = digest(folder)
-                return {"input": told, "calibrate": calibrated(*answered(program, "calibrate", folder)),
+                of_input = digest(folder)
+                return {"input": of_input, "calibrate": calibrated(*answered(program, "calibrate", folder)),
                         "check": checked(*answered(program, "check", folder))}
 
             return case

@@ -119,6 +119,6 @@ def write(path, kind, seed):
     # a method for A X = Y B and one for A X = X B alike in both setups
     if kind is usual:
         setup = ["eye-in-hand", "eye-to-hand"][seed // 18 % 2]
-    told, options = kind(random.Random(f"{kind.__name__}-{seed}"), setup, seed)
-    path.write_text(json.dumps({"setup": setup, **told}))
+    made, options = kind(random.Random(f"{kind.__name__}-{seed}"), setup, seed)
+    path.write_text(json.dumps({"setup": setup, **made}))
     return options
