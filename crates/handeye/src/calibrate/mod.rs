@@ -26,6 +26,7 @@ mod gate;
 mod joint;
 mod known_position;
 mod masked;
+mod moved;
 mod movement;
 mod named;
 mod offset;
@@ -121,8 +122,8 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
             verdict::conclude(config, &mut result);
             result
         };
-        let mut result = movement::answer_of_the_end(&session, run(&session), run);
-        movement::tell(false, &mut result);
+        let mut result = moved::answer_of_the_end(&session, run(&session), run);
+        moved::tell(false, &mut result);
         return result;
     }
     let run = |session: &Session| {
@@ -138,10 +139,10 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
     if !of_one_place.is_empty() {
         found = run(&session);
     }
-    let mut result = movement::answer_of_the_end(&session, found, run);
+    let mut result = moved::answer_of_the_end(&session, found, run);
     refined::tell(&session, &mut result);
     let bent = scans::report(&session, &mut result);
-    movement::tell(bent, &mut result);
+    moved::tell(bent, &mut result);
     of_one_place.report(&mut result);
     result.warnings.extend(touched_twice);
     result
