@@ -183,13 +183,29 @@ fn squares_are_no_inner_corners() {
 }
 
 #[test]
+fn lists_of_corners_tell_the_layout_as_images_do() {
+    // columns and rows as declared, of a board of 9 x 6
+    for (columns, rows, advice) in [(10, 7, ": count inner corners, not squares"), (6, 9, "")] {
+        let folder = simulated_cell(&["--captures", "8", "--no-images", "--touches", "0"]);
+        is_in_order(&folder);
+        declare(&folder, "columns = 9", &format!("columns = {columns}"));
+        declare(&folder, "rows = 6", &format!("rows = {rows}"));
+        let words =
+            format!("show 9 x 6 inner corners, not {columns} x {rows} as declared{advice} (");
+        is_named(&folder, "target-layout", &words);
+        is_corrected(&folder);
+    }
+}
+
+#[test]
 fn a_charuco_board_whose_sides_are_exchanged_is_named() {
-    for setup in SETUPS {
-        let board = ["--setup", setup, "--touches", "0", "--charuco", "9x6"];
+    for (setup, x, y) in SETUPS.iter().flat_map(|s| [(s, 9, 6), (s, 12, 9)]) {
+        let size = format!("{x}x{y}");
+        let board = ["--setup", setup, "--touches", "0", "--charuco", &size];
         let folder = simulated_cell(&[&SMALL[..], &board].concat());
         is_in_order(&folder);
-        declare(&folder, "squares_x = 9", "squares_x = 6");
-        declare(&folder, "squares_y = 6", "squares_y = 9");
+        declare(&folder, &format!("squares_x = {x}"), &format!("squares_x = {y}"));
+        declare(&folder, &format!("squares_y = {y}"), &format!("squares_y = {x}"));
         is_named(&folder, "target-layout", "squares_x and squares_y are exchanged");
         is_corrected(&folder);
     }
@@ -224,6 +240,33 @@ fn an_aprilgrid_whose_ids_contradict_its_layout_is_named() {
     let words =
         "the images show 6 x 4 tags, not 4 x 6 as declared: tags_x and tags_y are exchanged";
     is_named(&folder, "target-layout", words);
+    is_corrected(&folder);
+}
+
+#[test]
+fn after_a_bump_the_captures_before_it_are_left_out_by_check_and_calibrate_alike() {
+    let folder = simulated_cell(&["--captures", "16", "--no-images", "--touches", "0"]);
+    is_in_order(&folder);
+    // a camera that moves on its flange is the same as a flange that moves the other way
+    rewrite(&folder, "cell/robot.csv", |mut line| {
+        if line[0].parse::<u32>().unwrap() >= 10 {
+            let numbers: Vec<f64> = line[1..].iter().map(|n| n.parse().unwrap()).collect();
+            let moved = rotation(&numbers) * nalgebra::Vector3::x() * 0.008;
+            (0..3).for_each(|k| line[1 + k] = (numbers[k] - moved[k]).to_string());
+        }
+        Some(line)
+    });
+    let run = check(&folder, &[]);
+    let found: Value = serde_json::from_str(&run.stdout).unwrap();
+    let first = &found["explanations"][0];
+    let message = first["message"].as_str().unwrap();
+    assert_eq!((run.code, first["code"].as_str()), (3, Some("camera-moved")), "{message}");
+    assert!(message.contains("was moved on the flange before capture 010"), "{message}");
+    let earlier: Vec<String> = (1..=9).map(|k| format!("\"{k:03}\"")).collect();
+    assert_eq!(first["changes"][0]["value"], format!("[{}]", earlier.join(", ")));
+    let found: Value = serde_json::from_str(&calibrate(&folder).stdout).unwrap();
+    let moved = found["warnings"].to_string();
+    assert!(moved.contains("the camera is since capture 010"), "{moved}");
     is_corrected(&folder);
 }
 

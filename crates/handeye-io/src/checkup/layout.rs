@@ -1,15 +1,19 @@
 //! Whether the images show another layout of the target than the declared one: squares counted for inner corners, sides
 //! exchanged, another dictionary, tags numbered otherwise.
 //!
+//! Where corners were found elsewhere, a pose of the target must explain most of the lists; one of another size, or with
+//! columns and rows exchanged, is tried where none does.
+//!
 //! Where the target is not found, or only small parts of it, a few images are searched for the targets that people
 //! mean when they declare this one. A layout counts when most of these images show it, with clearly more corners than
 //! the declared one. Where the captures contradict one another and nothing else explains it, more corners are enough:
 //! of a board with markers a wrong layout may find a part that looks right.
 
 use handeye::{
-    GrayImage, TargetModel,
-    detect::{self, NotFound},
+    GrayImage, ImageCorner, Intrinsics, TargetModel,
+    detect::{self, NotFound, PosedTarget, target_poses},
 };
+use nalgebra::Vector2;
 
 use super::{Change, Explanation};
 use crate::{Dataset, measure::Measured};
@@ -28,6 +32,14 @@ const CLEARLY_MORE: f64 = 1.5;
 const MORE: f64 = 1.01;
 /// Share of its own corners that another layout must show.
 const LEAST_SHARE: f64 = 0.5;
+/// Lists of corners that are tried.
+const MOST_LISTS: usize = 6;
+/// A list with fewer corners fits too many layouts.
+const FEWEST_LISTED: usize = 8;
+/// A layout explains a list of corners to this share of their spread in the image ...
+const MOST_RESIDUAL: f64 = 0.02;
+/// ... all of them but this share.
+const MOST_LEFT_OUT: f64 = 0.1;
 /// Dictionaries that boards are printed with.
 const DICTIONARIES: [&str; 6] = [
     "DICT_4X4_1000",
@@ -60,7 +72,58 @@ impl Layout {
 /// The layout that the images show in place of the declared one, where that is hardly found.
 pub(super) fn layout_of_missing(dataset: &Dataset, measured: &Measured) -> Option<Explanation> {
     let declared = dataset.target.as_ref()?;
-    in_doubt(dataset, measured, declared).then(|| other_layout(dataset, CLEARLY_MORE))?
+    layout_of_lists(dataset, measured, declared).or_else(|| {
+        in_doubt(dataset, measured, declared).then(|| other_layout(dataset, CLEARLY_MORE))?
+    })
+}
+
+/// The layout that lists of corners have in place of the declared one, where no images tell it.
+fn layout_of_lists(
+    dataset: &Dataset,
+    measured: &Measured,
+    declared: &TargetModel,
+) -> Option<Explanation> {
+    let camera = measured.session.camera.as_ref()?;
+    let with_list = dataset.captures.iter().zip(&measured.session.observations);
+    let lists: Vec<&[ImageCorner]> = with_list
+        .filter(|(capture, o)| capture.corners.is_some() && o.corners.len() >= FEWEST_LISTED)
+        .map(|(_, o)| &o.corners[..])
+        .collect();
+    let lists: Vec<_> = lists.iter().step_by(lists.len().div_ceil(MOST_LISTS).max(1)).collect();
+    let fitting =
+        |target: &TargetModel| lists.iter().filter(|list| fits(list, target, camera)).count();
+    let own = fitting(declared);
+    if lists.is_empty() || is_most(own, lists.len()) {
+        return None;
+    }
+    let (count, layout) = alternatives(declared)
+        .into_iter()
+        .map(|layout| (fitting(&layout.target), layout))
+        .reduce(|best, next| if next.0 > best.0 { next } else { best })?;
+    let words = format!(
+        "{} ({count} of {} lists of corners fit so, as declared {own})",
+        layout.words,
+        lists.len()
+    );
+    is_most(count, lists.len()).then(|| explanation(&layout, words))
+}
+
+fn is_most(count: usize, of: usize) -> bool {
+    count as f64 >= MOST_SHOW * of as f64
+}
+
+/// Whether a pose of the target explains a list of its corners.
+fn fits(list: &[ImageCorner], target: &TargetModel, camera: &Intrinsics) -> bool {
+    let centre = list.iter().map(|c| c.pixel).sum::<Vector2<f64>>() / list.len() as f64;
+    let spread = list.iter().map(|c| (c.pixel - centre).norm_squared()).sum::<f64>();
+    let spread = (spread / list.len() as f64).sqrt();
+    let is_fit = |posed: &PosedTarget| {
+        posed.rms_px < MOST_RESIDUAL * spread
+            && (posed.left_out.len() as f64) < MOST_LEFT_OUT * list.len() as f64
+    };
+    let known = list.iter().all(|corner| target.corner(corner.id).is_some());
+    known
+        && target_poses(list, &[], target, camera).is_ok_and(|all| all.first().is_some_and(is_fit))
 }
 
 /// The layout that the images show in place of the declared one, where the captures contradict one another.
@@ -81,16 +144,17 @@ fn other_layout(dataset: &Dataset, more: f64) -> Option<Explanation> {
         .iter()
         .filter_map(|layout| Some((shown(dataset, layout, &images, &own, more)?, layout)))
         .reduce(|best, next| if next.0.1 > best.0.1 { next } else { best })?;
-    Some(explanation(best.1, best.0.0, &own))
-}
-
-fn explanation(layout: &Layout, images: usize, own: &[usize]) -> Explanation {
     let as_declared = own.iter().filter(|n| **n > 0).count();
-    let message = format!(
-        "{} (found so in {images} of {} images, as declared in {as_declared})",
-        layout.words,
+    let words = format!(
+        "{} (found so in {} of {} images, as declared in {as_declared})",
+        best.1.words,
+        best.0.0,
         own.len()
     );
+    Some(explanation(best.1, words))
+}
+
+fn explanation(layout: &Layout, message: String) -> Explanation {
     let by_hand = layout.changes.is_empty().then(|| "write [target] anew".to_owned());
     Explanation {
         code: "target-layout",
@@ -203,6 +267,7 @@ fn sizes(declared: &TargetModel, columns: u32, rows: u32) -> Vec<Layout> {
     let near = [
         (c.saturating_sub(1), r.saturating_sub(1)),
         (r, c),
+        (r.saturating_sub(1), c.saturating_sub(1)),
         (c + 1, r + 1),
         (c.saturating_sub(1), r),
         (c, r.saturating_sub(1)),

@@ -390,7 +390,7 @@ const MOST_ROBOT_SCALE: f64 = 0.05;
 fn explained(case: &Case, finding: &Finding) -> Vec<Explanation> {
     let mut all = candidates(case, finding);
     for e in all.iter_mut().filter(|e| e.changes.is_empty()) {
-        let left = case.names.len() - e.captures.len();
+        let left = case.names.len() - words::obsolete(case, &finding.fault).len();
         e.by_hand = Some(words::by_hand(&finding.fault, &e.captures, left));
     }
     all
@@ -398,6 +398,7 @@ fn explained(case: &Case, finding: &Finding) -> Vec<Explanation> {
 
 fn candidates(case: &Case, finding: &Finding) -> Vec<Explanation> {
     let fault = &finding.fault;
+    let obsolete = words::obsolete(case, fault);
     let own = Explanation {
         code: words::code(fault),
         message: words::message(case, fault),
@@ -438,9 +439,9 @@ fn candidates(case: &Case, finding: &Finding) -> Vec<Explanation> {
             vec![target, robot]
         }
         Fault::TargetMoved(..) | Fault::CameraMoved(..) | Fault::RobotStill(_)
-            if own.captures.len() + score::FEWEST <= case.names.len() =>
+            if obsolete.len() + score::FEWEST <= case.names.len() =>
         {
-            let changes = amend::excluding(&case.text, &own.captures);
+            let changes = amend::excluding(&case.text, &obsolete);
             vec![Explanation { changes, ..own }]
         }
         _ => vec![own],

@@ -43,6 +43,19 @@ pub(super) fn captures(case: &Case, fault: &Fault) -> Vec<String> {
     }
 }
 
+/// Whether a run of captures that ends with this one shows how things are now.
+fn is_now(case: &Case, last: usize) -> bool {
+    last + 1 == case.names.len()
+}
+
+/// The captures to leave out for a calibration of how things are now.
+pub(super) fn obsolete(case: &Case, fault: &Fault) -> Vec<String> {
+    match fault {
+        Fault::CameraMoved(first, last) if is_now(case, *last) => case.names[..*first].to_vec(),
+        _ => captures(case, fault),
+    }
+}
+
 /// For people.
 pub(super) fn message(case: &Case, fault: &Fault) -> String {
     let names = captures(case, fault).join(", ");
@@ -79,6 +92,12 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
         Fault::TargetMoved(i, j) => format!(
             "the target lay elsewhere during {}: it was moved in the session; leave them out",
             run(*i, *j)
+        ),
+        Fault::CameraMoved(i, j) if is_now(case, *j) => format!(
+            "the camera was moved on the {} before capture {}; leave the captures before that out: the calibration \
+             is to be for where the camera is now",
+            case.setup.mount(),
+            case.names[*i]
         ),
         Fault::CameraMoved(i, j) => format!(
             "the camera sat elsewhere on the {} during {}: it was moved in the session; leave \
@@ -151,7 +170,7 @@ pub(super) fn by_hand(fault: &Fault, captures: &[String], left: usize) -> String
                             have the robot's own scale checked if the size is right"
             .into(),
         Fault::TargetMoved(..) | Fault::CameraMoved(..) | Fault::RobotStill(_) => {
-            format!("only {left} captures would be left without these: take them again")
+            format!("only {left} captures would be left: take them again")
         }
     }
 }

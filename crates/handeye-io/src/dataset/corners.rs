@@ -67,10 +67,9 @@ impl<'a> CornerReading<'a> {
         let n = record.numbers(&columns, "a corner")?;
         let known = self.target.is_none_or(|t| (n[0] as usize) < t.len());
         if n[0] < 0.0 || n[0].fract() != 0.0 || !known {
-            return Err(record.refuse(
-                format!("the target has no corner {}", n[0]),
-                "ids count from 0, row by row",
-            ));
+            return Err(
+                record.refuse(format!("the target has no corner {}", n[0]), self.advice_on_ids())
+            );
         }
         let shift = if self.origin == PixelOrigin::Corner { 0.5 } else { 0.0 };
         let sigma = self.sigma_px.unwrap_or(USUAL_SIGMA_PX);
@@ -79,6 +78,18 @@ impl<'a> CornerReading<'a> {
             pixel: Vector2::new(n[1] - shift, n[2] - shift),
             covariance: Matrix2::identity() * sigma.powi(2),
         })
+    }
+
+    /// What to do about an id that the target has not.
+    fn advice_on_ids(&self) -> String {
+        let declared = self.target.map_or(String::new(), |target| {
+            let (columns, rows) = target.grid();
+            format!(
+                "; as declared the target has {columns} x {rows} corners, 0 to {}",
+                target.len() - 1
+            )
+        });
+        format!("ids count from 0, row by row{declared}: correct [target] or the list")
     }
 
     /// The corners of many captures: a file for each, or one table with a column `capture`.

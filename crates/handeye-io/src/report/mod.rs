@@ -480,7 +480,11 @@ fn budget(c: &Calibration) -> String {
         );
     }
     if let (Some(now), false) = (&c.predicted_tre_mm, c.advice.is_empty()) {
+        let rejected = c.verdict == handeye::Verdict::Rejected;
         let item = |a: &handeye::calibrate::result::Advice| {
+            if rejected {
+                return format!("<li>{}</li>", escape(&a.change)); // what an answer not to be used predicts says nothing
+            }
             let gain = (1.0 - a.predicted_tre_mm / now.rms).max(0.0) * 100.0;
             format!(
                 "<li>{}: <b>{:.2} mm</b> ({gain:.0} % less)</li>",
@@ -489,11 +493,9 @@ fn budget(c: &Calibration) -> String {
             )
         };
         let items: String = c.advice.iter().map(item).collect();
-        let _ = write!(
-            content,
-            "<h3>What would help</h3><p>Predicted now: <b>{:.2} mm</b> RMS. It would be with</p><ul>{items}</ul>",
-            now.rms
-        );
+        let now = format!("<p>Predicted now: <b>{:.2} mm</b> RMS. It would be with</p>", now.rms);
+        let now = if rejected { String::new() } else { now };
+        let _ = write!(content, "<h3>What would help</h3>{now}<ul>{items}</ul>");
     }
     if content.is_empty() { content } else { section("Predicted error", "", &content) }
 }

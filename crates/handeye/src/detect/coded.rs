@@ -31,6 +31,8 @@ const LEAST_CONTRAST: f64 = 12.0;
 const AGREED_PX: f64 = 2.0;
 /// this share of the tag's side.
 const AGREED: f64 = 0.05;
+/// Share of the markers of a grid that must lie on the board as the best placement has them.
+const LEAST_AGREEING: f64 = 0.5;
 /// Markers with more bits than this do not occur by chance: one of them is proof enough.
 const PROOF_BITS: usize = 24;
 
@@ -179,16 +181,25 @@ fn lines(target: &TargetModel) -> [Vec<f64>; 2] {
 impl Coded<'_> {
     pub fn label(&self, image: &GrayImage, grids: &[Grid]) -> Outcome {
         let mut board = Grid::default();
+        let mut contradiction = None;
         for grid in grids {
-            if let Some(placing) = self.placing(image, grid) {
-                let placed = grid.relabel(|k| placing.on_board(k));
-                let inside = placed.corners.into_iter().filter(|(k, _)| self.has(*k));
-                for (label, at) in inside {
-                    board.corners.entry(label).or_insert(at); // larger grids come first
+            let placed = match self.placing(image, grid) {
+                Ok(Some(placing)) => grid.relabel(|k| placing.on_board(k)),
+                Ok(None) => continue,
+                Err(error) => {
+                    contradiction.get_or_insert(error);
+                    continue;
                 }
+            };
+            let inside = placed.corners.into_iter().filter(|(k, _)| self.has(*k));
+            for (label, at) in inside {
+                board.corners.entry(label).or_insert(at); // larger grids come first
             }
         }
         if board.corners.is_empty() {
+            if let Some(error) = contradiction {
+                return Err(error);
+            }
             let corners = grids.first().map_or(0, |g| g.corners.len());
             return Err(NotFound::NoMarkers { corners, dictionary: self.name.clone() });
         }
@@ -253,19 +264,26 @@ impl Coded<'_> {
         }
     }
 
-    /// The placing most markers vote for.
-    fn placing(&self, image: &GrayImage, grid: &Grid) -> Option<Placing> {
-        let mut votes: BTreeMap<Placing, u32> = BTreeMap::new();
+    /// The placement most markers vote for, if enough do; an error where most of those that were read lie elsewhere:
+    /// then the board is another one than declared, and a part that fits does so by chance.
+    fn placing(&self, image: &GrayImage, grid: &Grid) -> Result<Option<Placing>, NotFound> {
+        let mut votes: BTreeMap<Placing, usize> = BTreeMap::new();
         for &cell in grid.corners.keys() {
             if let Some(placing) = self.vote(image, grid, cell) {
                 *votes.entry(placing).or_default() += 1;
             }
         }
-        let (&placing, &most) = votes.iter().max_by_key(|(_, n)| **n)?;
+        let Some((&placing, &most)) = votes.iter().max_by_key(|(_, n)| **n) else {
+            return Ok(None);
+        };
+        let read = votes.values().sum::<usize>();
+        if (most as f64) < LEAST_AGREEING * read as f64 {
+            return Err(NotFound::OtherLayout { read, agreeing: most });
+        }
         let second = votes.iter().filter(|(p, _)| **p != placing).map(|(_, n)| *n).max();
         let bits = self.dictionary.side().pow(2);
         let enough = most > second.unwrap_or(0) && (most > 1 || bits > PROOF_BITS);
-        enough.then_some(placing)
+        Ok(enough.then_some(placing))
     }
 
     /// Reads the marker in the cell right below a corner.

@@ -62,6 +62,17 @@ pub enum NotFound {
         /// The declared dictionary.
         dictionary: String,
     },
+    /// A grid whose markers are the board's, at other places than the declared ones.
+    #[error(
+        "{read} markers of the board were read, and at most {agreeing} of them lie as declared: check the numbers \
+         of squares or tags (x and y may be exchanged), first_id and legacy"
+    )]
+    OtherLayout {
+        /// Markers that were read.
+        read: usize,
+        /// Markers that the best placement of the board explains.
+        agreeing: usize,
+    },
     /// No dark square with the tag's bits in it.
     #[error("no tag {id} of {dictionary}: check dictionary and id; it needs white around it")]
     NoTag {
@@ -119,6 +130,7 @@ pub(crate) fn worth(outcome: &Outcome) -> (u32, usize) {
         Ok(corners) => (2, corners.len()),
         Err(NotFound::TooFew { found, .. } | NotFound::PartOfBoard { found, .. }) => (1, *found),
         Err(NotFound::NoMarkers { corners, .. }) => (1, *corners),
+        Err(NotFound::OtherLayout { read, .. }) => (1, *read),
         Err(NotFound::OtherSize { columns, rows, .. }) => (1, (columns * rows) as usize),
         Err(_) => (0, 0),
     }
