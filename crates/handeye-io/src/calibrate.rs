@@ -7,6 +7,7 @@ use handeye::{
     calibrate::{findings, result::SceneKind},
     calibrate_moving,
     estimate::noise::KnownNoise,
+    findings::{CameraFinding, Finding, FramesFinding},
 };
 
 use crate::{
@@ -89,14 +90,14 @@ fn check_workspace(dataset: &Dataset) -> Result<(), Error> {
     Err(unusable(&dataset.manifest, what))
 }
 
-/// What scans in another unit look like beside that.
-const OF_ANOTHER_UNIT: [&str; 5] = [
-    "picture-and-scan-disagree",
-    "picture-and-scan-scale",
-    "picture-and-scan-tilt",
-    "picture-and-scan-shift",
-    "depth-off",
-];
+/// Whether scans in another unit look like this.
+fn is_of_another_unit(warning: &Warning) -> bool {
+    match warning.finding.as_deref() {
+        Some(Finding::Frames(found)) => !matches!(found, FramesFinding::NotSeparable),
+        Some(Finding::Camera(found)) => matches!(found, CameraFinding::DepthOff { .. }),
+        _ => false,
+    }
+}
 
 /// Refuses what rests on another layout of the target, or on scans in another unit: a few captures may fit by chance,
 /// and scans would be dropped for images alone. Says whether there is such a mistake.
@@ -109,7 +110,7 @@ fn refuse_basic_mistake(
     calibration.verdict = Verdict::Rejected;
     calibration.undetermined.clear();
     calibration.reasons = vec![found.sentence()];
-    calibration.warnings.retain(|w| !OF_ANOTHER_UNIT.contains(&w.code.as_str()));
+    calibration.warnings.retain(|w| !is_of_another_unit(w));
     Ok(true)
 }
 
@@ -154,13 +155,14 @@ fn explain(calibration: &mut Calibration, measured: &Measured) {
 /// A camera calibrated from the views is refined with the robot's poses: what is printed is what was used.
 fn name_camera_used(calibration: &mut Calibration) {
     let Some(used) = calibration.camera.map(|c| c.intrinsics) else { return };
-    let code = "camera-calibrated-from-views";
-    let Some(warning) = calibration.warnings.iter_mut().find(|w| w.code == code) else { return };
-    warning.message += &format!(
-        ". The answer uses the camera refined with the robot's poses: fx = {:.2} px, fy = {:.2} px, cx = {:.2} px, \
-         cy = {:.2} px",
-        used.fx, used.fy, used.cx, used.cy
-    );
+    for warning in &mut calibration.warnings {
+        if let Some(Finding::Camera(CameraFinding::CalibratedFromViews { calibrated, .. })) =
+            warning.finding.as_deref()
+        {
+            let (calibrated, used) = (*calibrated, Some(used));
+            *warning = CameraFinding::CalibratedFromViews { calibrated, used }.into();
+        }
+    }
 }
 
 /// Says first what most captures miss.

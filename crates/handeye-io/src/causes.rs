@@ -3,49 +3,93 @@
 //! once more as if it were a fault of its own.
 
 use handeye::{
-    Calibration, Intrinsics, Session, calibrate::result::ScanResult, math::linalg::median,
+    Calibration, Intrinsics, Session, Warning,
+    calibrate::result::ScanResult,
+    findings::{CameraFinding, Finding, FramesFinding, TargetFinding},
+    math::linalg::median,
     mistakes::flatness,
 };
 
-/// Warnings that a cause explains, and their words beside it.
-const EFFECTS: [(&str, &str); 5] = [
-    ("camera-refined", "another lens than the one given"),
-    ("depth-off", "depth that is off"),
-    ("picture-and-scan-scale", "scans of another scale than pictures"),
-    ("picture-and-scan-tilt", "scans turned against pictures"),
-    ("picture-and-scan-shift", "scans shifted against pictures"),
-];
+/// What a cause can look like beside itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Effect {
+    Intrinsics,
+    Depth,
+    Scale,
+    Tilt,
+    Shift,
+}
+
+impl Effect {
+    fn of(warning: &Warning) -> Option<Self> {
+        match warning.finding.as_deref()? {
+            Finding::Camera(CameraFinding::Refined { .. }) => Some(Self::Intrinsics),
+            Finding::Camera(CameraFinding::DepthOff { .. }) => Some(Self::Depth),
+            Finding::Frames(FramesFinding::Scale { .. }) => Some(Self::Scale),
+            Finding::Frames(FramesFinding::Tilt(_)) => Some(Self::Tilt),
+            Finding::Frames(FramesFinding::Shift(_)) => Some(Self::Shift),
+            _ => None,
+        }
+    }
+
+    /// In words beside its cause.
+    fn in_words(self) -> &'static str {
+        match self {
+            Self::Intrinsics => "another lens than the one given",
+            Self::Depth => "depth that is off",
+            Self::Scale => "scans of another scale than pictures",
+            Self::Tilt => "scans turned against pictures",
+            Self::Shift => "scans shifted against pictures",
+        }
+    }
+}
+
+/// How far a cause moves what it explains, mm.
+fn cause_mm(warning: &Warning, scans: &ScanResult) -> Option<f64> {
+    match warning.finding.as_deref()? {
+        Finding::Target(TargetFinding::NotFlat { .. }) => {
+            Some(scans.flatness.as_ref()?.peak_to_valley_mm)
+        }
+        Finding::Camera(CameraFinding::DepthByColour { .. }) => {
+            Some(scans.colour_step.as_ref()?.black_minus_white_mm.abs())
+        }
+        _ => None,
+    }
+}
 
 /// Says with a cause what it explains, and only there.
 pub(crate) fn tell(result: &mut Calibration, session: &Session) {
     let Some(scans) = result.scans.clone() else { return };
-    let bend = scans.flatness.as_ref().map_or(0.0, |f| f.peak_to_valley_mm);
-    let step = scans.colour_step.as_ref().map_or(0.0, |s| s.black_minus_white_mm.abs());
-    for (cause, size_mm) in [("board-not-flat", bend), ("depth-by-colour", step)] {
-        let Some(at) = result.warnings.iter().position(|w| w.code == cause) else { continue };
-        let explained: Vec<(&str, &str)> = EFFECTS
-            .into_iter()
-            .filter(|(code, _)| result.warnings.iter().any(|w| w.code == *code))
-            .filter(|(code, _)| {
-                effect_mm(code, result, session, &scans).is_some_and(|e| e < size_mm)
-            })
-            .collect();
-        if explained.is_empty() {
+    let mut at = 0;
+    while let Some(cause) = result.warnings.get(at) {
+        let Some(size_mm) = cause_mm(cause, &scans) else {
+            at += 1;
             continue;
+        };
+        let is_explained = |effect: &Effect| {
+            effect_mm(*effect, result, session, &scans).is_some_and(|e| e < size_mm)
+        };
+        let effects = result.warnings.iter().filter_map(Effect::of);
+        let explained: Vec<Effect> = effects.filter(is_explained).collect();
+        if !explained.is_empty() {
+            let words: Vec<&str> = explained.iter().map(|effect| effect.in_words()).collect();
+            result.warnings[at].message += &format!(
+                "; it also looks like {}, no farther off than this explains, and the answer takes that into \
+                 account: mend this first",
+                words.join(" and ")
+            );
+            let stays = |w: &Warning| Effect::of(w).is_none_or(|e| !explained.contains(&e));
+            let before = result.warnings[..at].iter().filter(|w| stays(w)).count();
+            result.warnings.retain(stays);
+            at = before;
         }
-        let words: Vec<&str> = explained.iter().map(|(_, words)| *words).collect();
-        result.warnings[at].message += &format!(
-            "; it also looks like {}, no farther off than this explains, and the answer takes that into \
-             account: mend this first",
-            words.join(" and ")
-        );
-        result.warnings.retain(|w| explained.iter().all(|(code, _)| w.code != *code));
+        at += 1;
     }
 }
 
-/// How far a warning's effect moves what the camera sees of the board, mm.
+/// How far an effect moves what the camera sees of the board, mm.
 fn effect_mm(
-    code: &str,
+    effect: Effect,
     result: &Calibration,
     session: &Session,
     scans: &ScanResult,
@@ -54,22 +98,21 @@ fn effect_mm(
     let distance = median(seen.map(|pose| pose.translation().z)) * 1e3;
     let target = session.target.as_ref()?;
     let norm = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    match code {
-        "camera-refined" => {
+    match effect {
+        Effect::Intrinsics => {
             let now = result.camera.as_ref()?.intrinsics;
             Some(lens_moved(&session.camera?, &now) * distance)
         }
-        "depth-off" => {
+        Effect::Depth => {
             let depth = result.depth.as_ref()?;
             Some(((depth.scale - 1.0) * distance + depth.bias_mm).abs())
         }
-        "picture-and-scan-scale" => Some(scans.frames.as_ref()?.scale.abs() * distance),
-        "picture-and-scan-tilt" => {
+        Effect::Scale => Some(scans.frames.as_ref()?.scale.abs() * distance),
+        Effect::Tilt => {
             let tilt = norm(&scans.frames.as_ref()?.tilt_deg).to_radians();
             Some(tilt * flatness::extent(target) * 1e3)
         }
-        "picture-and-scan-shift" => Some(norm(&scans.frames.as_ref()?.shift_mm)),
-        _ => None,
+        Effect::Shift => Some(norm(&scans.frames.as_ref()?.shift_mm)),
     }
 }
 

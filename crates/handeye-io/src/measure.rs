@@ -15,6 +15,7 @@ use handeye::{
     SurfaceCorner, Target, TargetModel, TargetPose, Warning,
     calibrate::result::{ColourStepResult, SceneResult},
     detect::{self, NotFound, sphere, surface},
+    findings::{CameraFinding, camera::FromViews},
     intrinsics::{self, lens},
     math::linalg::median,
 };
@@ -239,14 +240,12 @@ fn camera(
         dataset.lens.unwrap_or_default(),
     )
     .map_err(|e| uncalibrated(dataset, &e))?;
-    warnings.push(Warning::new(
-        "camera-calibrated-from-views",
-        format!(
-            "no intrinsics given: calibrated from {} views, {:.3} px RMS, fx = {:.2} px, fy = {:.2} px; \
-             a camera calibrated beforehand, with the board all over the picture, is better",
-            views.len(), found.rms_px, found.intrinsics.fx, found.intrinsics.fy
-        ),
-    ));
+    let calibrated = FromViews {
+        views: views.len(),
+        rms_px: found.rms_px,
+        focal_px: [found.intrinsics.fx, found.intrinsics.fy],
+    };
+    warnings.push(CameraFinding::CalibratedFromViews { calibrated, used: None }.into());
     warnings.extend(found.warnings);
     Ok((Some(found.intrinsics), Some(found.rms_px)))
 }
@@ -309,15 +308,13 @@ fn unbent(
     }
     let views: Vec<Vec<ImageCorner>> = seen.iter().map(|s| s.corners.clone()).collect();
     let Some(bend) = lens::bend(&views, target, &given) else { return given };
-    warnings.push(Warning::new(
-        "camera-bends",
-        format!(
-            "the camera is given without distortion, but the target's corners show one: \
-             k1 = {:.3} +- {:.3} takes them from {:.3} to {:.3} px RMS and is used; calibrate the \
-             camera with a board all over the picture",
-            bend.k1, bend.sigma, bend.rms_given_px, bend.rms_px
-        ),
-    ));
+    let finding = CameraFinding::Bends {
+        k1: bend.k1,
+        sigma: bend.sigma,
+        rms_given_px: bend.rms_given_px,
+        rms_px: bend.rms_px,
+    };
+    warnings.push(finding.into());
     bend.intrinsics
 }
 

@@ -12,14 +12,17 @@ use handeye::{
     calibrate::result::{
         Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BoardDeviation, BudgetEntry,
         CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep, ColourStepResult,
-        DepthResult, Determined, Finding, FlatnessResult, FramesResult, Movement, MovementKind,
-        PoseCovariance, Scale, ScanResult, SceneKind, ScenePair, SceneResult, Severity, TipResult,
-        TouchResult,
+        DepthResult, Determined, FlatnessResult, FramesResult, JudgedFinding, PoseCovariance,
+        Scale, ScanResult, SceneKind, ScenePair, SceneResult, TipResult, TouchResult,
     },
     estimate::{
         certify::Certificate,
         evaluate::{Diversity, Misfit},
         predict::{PredictedTre, TreMap, TreSlice},
+    },
+    findings::{
+        movement::{Movement, MovementKind},
+        severity::Severity,
     },
     model::kinematics::{Arm, DhConvention, Joint, Parameter},
 };
@@ -236,10 +239,11 @@ fn full() -> Calibration {
             translation_to_answer_mm: 0.0,
         }),
         warnings: vec![Warning::new("code", "message")],
-        findings: vec![Finding {
+        findings: vec![JudgedFinding {
             code: "code".into(),
             severity: Severity::Info,
             message: "message".into(),
+            headline: Some("headline".into()),
             advice: Some("advice".into()),
             data: BTreeMap::new(),
         }],

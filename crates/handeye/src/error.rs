@@ -1,7 +1,5 @@
 //! What can be wrong with the data.
 
-use serde::Serialize;
-
 /// Why a computation has no answer. Every variant carries the numbers that decided.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -61,20 +59,4 @@ pub enum Error {
     /// A value that makes no sense.
     #[error("{0}")]
     Invalid(String),
-}
-
-/// Something the user should know about a result that still stands.
-#[derive(Debug, Clone, PartialEq, Serialize, serde::Deserialize)]
-pub struct Warning {
-    /// Short fixed name, for programs: `pose-flipped`.
-    pub code: String,
-    /// What was seen, where, and what to do.
-    pub message: String,
-}
-
-impl Warning {
-    /// From its two parts.
-    pub fn new(code: &str, message: impl Into<String>) -> Self {
-        Self { code: code.into(), message: message.into() }
-    }
 }

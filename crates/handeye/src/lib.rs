@@ -4,6 +4,7 @@ pub mod calibrate;
 pub mod detect;
 pub mod error;
 pub mod estimate;
+pub mod findings;
 pub mod frame;
 pub mod intrinsics;
 pub mod math;
@@ -19,7 +20,8 @@ pub use calibrate::sequence::calibrate_sequence;
 pub use calibrate::streams::{Stamped, Streams, calibrate_moving, calibrate_streams};
 pub use calibrate::unscaled::calibrate_unscaled;
 pub use calibrate::{AnswerFrame, Config, Unknown, calibrate, unjudged};
-pub use error::{Error, Warning};
+pub use error::Error;
+pub use findings::Warning;
 pub use frame::{
     Anchor, Base, Camera, FirstJoint, Flange, Frame, LastLink, Mount, Point, Pose, Target, Tip,
     Tool, quaternion_xyzw,

@@ -2,10 +2,8 @@
 
 use handeye::{
     Calibration, Pose, Setup, Verdict, Warning,
-    calibrate::{
-        findings::{findings, reservation},
-        result::Severity,
-    },
+    calibrate::findings::{findings, reservation},
+    findings::severity::Severity,
     unjudged,
 };
 

@@ -9,11 +9,12 @@ use std::{
 };
 
 /// From the ground up.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 14] = [
     "error",
     "math",
     "frame",
     "model",
+    "findings",
     "detect",
     "intrinsics",
     "solve",

@@ -181,7 +181,7 @@ fn from_dataset(
     for (name, base_from_mount, candidates) in views(&session) {
         see(test, &session, &name, base_from_mount, &candidates, calibration);
     }
-    Ok(warnings)
+    Ok(warnings.into_iter().map(Warning::from).collect())
 }
 
 /// Where a board was seen: its name, the mount, and the board's possible poses.

@@ -5,10 +5,8 @@ use std::cell::OnceCell;
 
 use handeye::{
     Calibration, Config, Session, Verdict, calibrate,
-    calibrate::{
-        findings,
-        result::{Finding, Severity},
-    },
+    calibrate::{findings, result::JudgedFinding},
+    findings::severity::{self, Severity},
 };
 
 use super::Explanation;
@@ -67,13 +65,13 @@ impl<'a> Judged<'a> {
     /// All that changes the answer or speaks against it. Captures that do not determine an answer are no mistake.
     pub fn findings(&self) -> Vec<Explanation> {
         let Some(result) = self.calibration() else { return vec![] };
-        let matters = |f: &Finding| match f.severity {
+        let matters = |f: &JudgedFinding| match f.severity {
             Severity::Info => false,
             Severity::ChangesAnswer => true,
             Severity::Rejects => result.verdict == Verdict::Rejected,
         };
-        let explained = |f: Finding| {
-            let code = findings::known(&f.code).unwrap_or(REJECTED);
+        let explained = |f: JudgedFinding| {
+            let code = severity::known(&f.code).unwrap_or(REJECTED);
             by_hand_alone(code, &f.message, f.advice)
         };
         findings::findings(result).into_iter().filter(matters).map(explained).collect()

@@ -78,7 +78,7 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
              them out"
         ),
         Fault::Scale(s) => match (&case.target, unit(s.value)) {
-            (Some(target), _) => mistakes::size_in_words(s, target),
+            (Some(target), _) => mistakes::size_finding(s, target).message(),
             (None, Some(units)) => format!(
                 "the target's poses count in another unit than the robot's: they are {:.4} times as large as they \
                  would be in its unit ({units})",

@@ -4,6 +4,7 @@ use handeye::{
     SurfaceCorner, TargetModel, Warning,
     calibrate::result::{CaptureStep, ColourStepResult},
     detect::surface,
+    findings::CameraFinding,
     math::linalg::median,
     mistakes::flatness::{self, Felt},
 };
@@ -64,26 +65,13 @@ fn lost_by_step(seen: &mut [Seen]) -> usize {
 }
 
 fn step_warning(step: &surface::PooledStep, noise: f64, lost: usize) -> Warning {
-    let farther = if step.value_m > 0.0 { "farther" } else { "nearer" };
-    let lost = match lost {
-        0 => String::new(),
-        n => format!(
-            "; {n} corners of all captures have too few points of one colour around them, and are \
-             without depth"
-        ),
-    };
-    Warning::new(
-        "depth-by-colour",
-        format!(
-            "scans read black {:.3} +- {:.3} mm {farther} than white, against {:.3} mm of noise in \
-             a corner: it is taken off the points on black. Which colour is right, a flat board \
-             cannot tell; white is taken to be, so the answer holds for surfaces that the camera \
-             reads as it reads white{lost}",
-            step.value_m.abs() * 1e3,
-            step.sigma_m * 1e3,
-            noise * 1e3
-        ),
-    )
+    CameraFinding::DepthByColour {
+        black_minus_white_mm: step.value_m * 1e3,
+        sigma_mm: step.sigma_m * 1e3,
+        noise_mm: noise * 1e3,
+        corners_without_depth: lost,
+    }
+    .into()
 }
 
 pub(super) fn warn_missing(shot: &Shot, seen: &Seen, warnings: &mut Vec<Warning>) {

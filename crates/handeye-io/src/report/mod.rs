@@ -24,8 +24,9 @@ use handeye::{
     Base, Calibration, Intrinsics, Point, Setup, TargetModel, Verdict,
     calibrate::{
         findings::{self},
-        result::{Candidate, CaptureResult, Severity},
+        result::{Candidate, CaptureResult},
     },
+    findings::severity::Severity,
 };
 
 pub use dataset::{calibration_html, dataset_html};
@@ -187,7 +188,7 @@ fn found(c: &Calibration) -> String {
     let of_warnings = all.iter().filter(|f| {
         !c.reasons.contains(&f.message) && c.warnings.iter().any(|w| w.message == f.message)
     });
-    let item = |f: &handeye::calibrate::result::Finding| {
+    let item = |f: &handeye::calibrate::result::JudgedFinding| {
         let class = match f.severity {
             Severity::Info => "info",
             Severity::ChangesAnswer => "changes",

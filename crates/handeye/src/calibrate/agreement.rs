@@ -4,9 +4,10 @@ use nalgebra::Vector3;
 
 use super::{Config, doubt, gate, movement, rejected};
 use crate::{
-    Error, Observation, Pose, PosePair, Target, Warning,
+    Error, Observation, Pose, PosePair, Target,
     calibrate::result::{Calibration, CaptureResult},
     estimate::evaluate,
+    findings::{CaptureFinding, RobotFinding, robot::Inverted},
     math::linalg::median,
     mistakes::{self, Convention},
     model::{session::Session, verdict::Verdict},
@@ -118,32 +119,20 @@ const LARGE: f64 = 0.01;
 /// A misfit (m) up to this is rounding: there is nothing to explain.
 const ROUNDING: f64 = 1e-7;
 
-/// In words. Robot poses inverted, target poses inverted, and the other setup can explain the same
-/// data equally well; target poses from our own detection are not in doubt.
+/// Robot poses inverted, target poses inverted, and the other setup can explain the same data equally well; target
+/// poses from our own detection are not in doubt.
 fn inversion(
     explaining: &[&mistakes::Evidence],
     best: &mistakes::Evidence,
     bare: bool,
-) -> (&'static str, &'static str) {
+) -> Inverted {
     let alike = |c: Convention| {
         explaining.iter().any(|e| e.convention == c && e.median_m < 2.0 * best.median_m)
     };
     match (alike(Convention::RobotInverted), bare && alike(Convention::TargetInverted)) {
-        (true, true) => (
-            "poses-inverted",
-            "either the robot poses look inverted (flange_from_base), or the target poses \
-             (target_from_camera), or the camera is mounted the other way (eye-in-hand against \
-             eye-to-hand); the data cannot tell between these",
-        ),
-        (false, true) => (
-            "target-poses-inverted",
-            "the target poses look inverted: they take camera points to the target",
-        ),
-        _ => (
-            "robot-poses-inverted",
-            "the robot poses look inverted (flange_from_base), or the camera is mounted the other \
-             way (eye-in-hand against eye-to-hand)",
-        ),
+        (true, true) => Inverted::Either,
+        (false, true) => Inverted::Target,
+        _ => Inverted::Robot,
     }
 }
 
@@ -171,16 +160,13 @@ fn suspect_conventions(
     let Some(best) = explaining.iter().min_by(|a, b| a.median_m.total_cmp(&b.median_m)) else {
         return;
     };
-    let before =
-        declared.map_or("no agreement at all".into(), |d| format!("{:.1} mm", d.median_m * 1e3));
-    let (code, what) = inversion(&explaining, best, bare);
-    let message = format!(
-        "{what}: read so, the median misfit falls from {before} to {:.1} mm; check `direction` and \
-         `setup`",
-        best.median_m * 1e3
-    );
-    result.reasons.push(message.clone());
-    result.warnings.insert(0, Warning::new(code, message));
+    let finding = RobotFinding::Inverted {
+        which: inversion(&explaining, best, bare),
+        before_mm: declared.map(|d| d.median_m * 1e3),
+        after_mm: best.median_m * 1e3,
+    };
+    result.reasons.push(finding.message());
+    result.warnings.insert(0, finding.into());
     result.verdict = Verdict::Rejected;
 }
 
@@ -236,13 +222,7 @@ const FEW: usize = 8;
 
 fn warn_few(used: usize, result: &mut Calibration) {
     if used < FEW {
-        result.warnings.push(Warning::new(
-            "few-captures",
-            format!(
-                "only {used} captures: too few to notice a wrong one or to judge the noise well; \
-                 take 10 to 15"
-            ),
-        ));
+        result.warnings.push(CaptureFinding::Few { used, of_a_ball: false }.into());
     }
 }
 
@@ -259,22 +239,12 @@ fn suspect_units(used: &[&Observation], result: &mut Calibration) {
         Some(seen.camera_from_target.translation().norm())
     };
     let distance = median(used.iter().filter_map(distance));
-    if distance > FARTHEST {
-        let message = format!(
-            "the target poses lie {distance:.0} m from the camera: were millimetres read as metres? \
-             check the length unit"
-        );
-        result.reasons.push(message.clone());
-        result.warnings.push(Warning::new("target-length-unit", message));
-        result.verdict = Verdict::Rejected;
-    }
-    if far > FARTHEST {
-        let message = format!(
-            "the robot poses lie up to {far:.0} m from the base: were millimetres read as metres? \
-             check the length unit"
-        );
-        result.reasons.push(message.clone());
-        result.warnings.push(Warning::new("robot-length-unit", message));
+    let target =
+        (distance > FARTHEST).then_some(RobotFinding::TargetLengthUnit { distance_m: distance });
+    let robot = (far > FARTHEST).then_some(RobotFinding::LengthUnit { farthest_m: far });
+    for finding in target.into_iter().chain(robot) {
+        result.reasons.push(finding.message());
+        result.warnings.push(finding.into());
         result.verdict = Verdict::Rejected;
     }
 }

@@ -12,6 +12,7 @@ use crate::{
     HandEye, Observation, Pose, Setup, Touch, Warning,
     calibrate::result::{ArmDeviation, ArmHeldOut, ArmResult, Calibration},
     estimate::{Extra, ExtraKind, JointFit, Problem, Source, evaluate, joint},
+    findings::RobotFinding,
     math::lie,
     model::kinematics::{Arm, Deviation},
 };
@@ -257,30 +258,21 @@ fn corrected(
 }
 
 /// Refuses joint values that do not lead to the flange poses beside them.
-fn consistent(views: &Views, model: &Arm) -> Result<(), Warning> {
+fn consistent(views: &Views, model: &Arm) -> Result<(), RobotFinding> {
     let apart = |joints: &[f64], flange: &Pose<crate::Base, crate::Flange>| {
         let there = model.base_from_flange(joints);
         there.distance_to(flange) > CONSISTENT.0 || there.angle_to(flange) > CONSISTENT.1
     };
-    let warn = |what: String| {
-        Warning::new(
-            "joints-and-poses-differ",
-            format!(
-                "{what}: the joint values do not lead to the flange pose beside them by the model \
-                 of the arm; check its parameters, their units, and the order of the joints. The \
-                 arm was not examined"
-            ),
-        )
-    };
+    let differ = |at: String| RobotFinding::JointsAndPosesDiffer { at };
     let of_view = |o: &&&Observation| apart(&o.joints, &o.base_from_flange);
     if let Some(o) = views.used.iter().find(of_view) {
-        return Err(warn(format!("capture {}", o.capture)));
+        return Err(differ(format!("capture {}", o.capture)));
     }
     let of_touch = |t: &&Touch| {
         !t.joints.is_empty() && t.base_from_flange.is_some_and(|f| apart(&t.joints, &f))
     };
     match views.session.touches.iter().find(of_touch) {
-        Some(t) => Err(warn(format!("the touch of corner {} of {:?}", t.corner, t.placement))),
+        Some(t) => Err(differ(format!("the touch of corner {} of {:?}", t.corner, t.placement))),
         None => Ok(()),
     }
 }
@@ -310,7 +302,9 @@ impl ArmFit {
     pub(super) fn report(&self, views: &Views, tre_mm: Option<f64>, result: &mut Calibration) {
         let own = self.fit.hand_eye.retarget(views.target_from_corner.inverse());
         result.arm = Some(self.result(&own, tre_mm));
-        result.warnings.push(self.warning());
+        let (parameters, (before_mm, after_mm)) = (self.which.len(), self.robot_mm);
+        let finding = RobotFinding::ArmDeviates { parameters, before_mm, after_mm };
+        result.warnings.push(finding.into());
     }
 
     /// For files; the answer about the target's own origin.
@@ -347,21 +341,5 @@ impl ArmFit {
         let touched = !self.problem.boards.is_empty() && self.problem.boards.iter().all(in_flange);
         let at = |k| self.fit.extra(ExtraKind::Tip(k)).map_or(0.0, |x: (f64, f64)| x.0 * 1e3);
         touched.then(|| std::array::from_fn(at))
-    }
-
-    /// What to know.
-    fn warning(&self) -> Warning {
-        Warning::new(
-            "arm-deviates",
-            format!(
-                "the arm is not as its model says: with {} of its parameters corrected, the \
-                 robot's position errs by {:.2} mm per axis instead of {:.2}; the corrected model \
-                 stands in the result (arm), with the camera's place for a robot that uses it; the \
-                 answer itself is for the robot as it is",
-                self.which.len(),
-                self.robot_mm.1,
-                self.robot_mm.0,
-            ),
-        )
     }
 }

@@ -11,13 +11,14 @@ use super::{
     workpiece::workspace_volume,
 };
 use crate::{
-    Camera, Mount, Observation, Pose, PosePair, Warning,
+    Camera, Mount, Observation, Pose, PosePair,
     calibrate::result::{Answer, BudgetEntry, Calibration, Candidate, PoseCovariance, rows},
     estimate::{
         evaluate::{self, Misfit},
         predict::{self, PredictedTre, Volume},
         touches,
     },
+    findings::{CaptureFinding, TouchFinding},
     math::linalg::median,
     mistakes,
     model::{session::Session, verdict::Verdict},
@@ -36,15 +37,12 @@ pub(super) fn from_balls(session: &Session, config: &Config, result: &mut Calibr
         capture.reason = (!capture.used).then(|| "no ball was found in its scan".to_owned());
     }
     if !session.touches.is_empty() {
-        result.warnings.push(Warning::new(
-            "touches-without-corners",
-            "a ball has no corners: the touches are left out",
-        ));
+        result.warnings.push(TouchFinding::OfABall.into());
     }
     let views: Vec<PointView> = seen.iter().filter_map(|&i| view(session, i)).collect();
     if let Some(method) = config.method {
-        let what = format!("a ball shows no rotation: the method {} cannot use it", method.name());
-        result.warnings.push(Warning::new("method-not-for-balls", what));
+        let method = method.name();
+        result.warnings.push(CaptureFinding::MethodNotForBalls { method }.into());
     }
     match points::fit_points(&views) {
         Ok(fit) => {
@@ -121,8 +119,8 @@ fn conclude(
         views.iter().zip(&fit.agrees).filter(|(_, a)| **a).map(|(v, _)| pair(v, fit)).collect();
     result.diversity = Some(evaluate::diversity(&pairs));
     if pairs.len() < FEW {
-        let what = format!("only {} captures agree: too few to judge the noise well", pairs.len());
-        result.warnings.push(Warning::new("few-captures", what));
+        let used = pairs.len();
+        result.warnings.push(CaptureFinding::Few { used, of_a_ball: true }.into());
     }
     let factor = touches::small_sample(fit.degrees_of_freedom);
     let covariance = fit.covariance * factor;

@@ -22,7 +22,7 @@ use super::{
 use registered::stored_registration;
 
 use crate::{
-    Camera, HandEye, Mount, Pose, PosePair, Warning,
+    Camera, HandEye, Mount, Pose, PosePair,
     calibrate::result::{Answer, Calibration, Candidate, PoseCovariance, WITH_ARM, rows},
     estimate::{
         self, JointFit, Problem,
@@ -30,6 +30,7 @@ use crate::{
         predict::{self, Volume},
         touches::{self, TouchPairs},
     },
+    findings::TouchFinding,
     mistakes,
     solve::{self, Method, View, consensus::Consensus, least_squares::Matrix12},
 };
@@ -62,8 +63,8 @@ pub(super) fn estimate<'a>(
         config,
         result,
     );
-    let arm = arm::look(&views, whole, best, used, config).unwrap_or_else(|warning| {
-        result.warnings.push(warning);
+    let arm = arm::look(&views, whole, best, used, config).unwrap_or_else(|finding| {
+        result.warnings.push(finding.into());
         None
     });
     name_free(&views, &fit, best, result);
@@ -189,13 +190,7 @@ fn name_free(views: &Views, fit: &JointFit, best: &JointFit, result: &mut Calibr
     let by_views = mistakes::free_directions(fit);
     if !by_views.is_empty() {
         let what = mistakes::in_words(&by_views, &pairs, setup).join(", ");
-        result.warnings.push(Warning::new(
-            "determined-by-touches",
-            format!(
-                "the views do not determine {what}: the touches alone do, and nothing else checks \
-                 them; tilt the robot about a second axis if it can"
-            ),
-        ));
+        result.warnings.push(TouchFinding::AloneDetermine { what }.into());
     }
 }
 
@@ -402,11 +397,8 @@ fn choose(
     config: &Config,
     result: &mut Calibration,
 ) {
-    let best = candidates.iter().filter(|c| c.tre.is_some()).min_by(|a, b| by_prediction(a, b)).or(
-        candidates
-            .iter()
-            .rfind(|c| config.method.is_none() || c.candidate.name.starts_with("closed")),
-    );
+    let best = candidates.iter().filter(|c| c.tre.is_some()).min_by(|a, b| by_prediction(a, b));
+    let best = best.or(candidates.last());
     if let Some(best) = best {
         result.method = best.candidate.name.clone();
         result.chosen = Some(best.candidate.name.clone());

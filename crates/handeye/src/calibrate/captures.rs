@@ -13,6 +13,7 @@ use crate::{
         JointFit, evaluate,
         touches::{self, TouchPairs},
     },
+    findings::{TouchFinding, touches::Unseen},
     math::lie,
     model::session::Session,
     solve::View,
@@ -140,39 +141,25 @@ pub(super) fn pair_touches(
         session.placements.iter().map(|p| oriented(p, &session.touches, &x, target)).collect();
     let (paired, missing) =
         touches::pair_touches(session.setup, target, &chosen, &placements, &session.touches);
-    result.warnings.extend(without_view(session, &missing));
+    result.warnings.extend(without_view(session, &missing).into_iter().map(Warning::from));
     paired
 }
 
-/// One warning for each placement whose touches pair with nothing; touches are sorted by placement.
-fn without_view(session: &Session, missing: &[usize]) -> Vec<Warning> {
+/// One finding for each placement whose touches pair with nothing; touches are sorted by placement.
+fn without_view(session: &Session, missing: &[usize]) -> Vec<TouchFinding> {
     let name = |k: &usize| &session.touches[*k].placement;
     let one = |touches: &[usize]| {
-        let id = name(&touches[0]);
-        let seen = session.placements.iter().find(|p| p.id == *id);
-        let why = match seen.map(|p| &p.not_seen) {
-            Some(Some(reason)) => {
-                format!("its picture shows no target ({reason}); take it again, or another one")
-            }
-            Some(None) => {
-                "the camera saw nothing of it; give it a picture, corners or a pose".into()
-            }
-            None => "no view shows these corners; give the placement a picture".into(),
+        let placement = name(&touches[0]).clone();
+        let seen = session.placements.iter().find(|p| p.id == placement);
+        let unseen = match seen.map(|p| &p.not_seen) {
+            Some(Some(reason)) => Unseen::NotFound(reason.clone()),
+            Some(None) => Unseen::NothingSeen,
+            None => Unseen::NoPlacement,
         };
-        let corners: Vec<String> =
-            touches.iter().map(|k| session.touches[*k].corner.to_string()).collect();
-        let count = touches.len();
-        let (touches, corners) = (plural(count, "touch", "es"), corners.join(", "));
-        Warning::new(
-            "touch-without-view",
-            format!("placement {id}: {touches} left out (corner {corners}): {why}"),
-        )
+        let corners = touches.iter().map(|k| session.touches[*k].corner).collect();
+        TouchFinding::WithoutView { placement, corners, unseen }
     };
     missing.chunk_by(|a, b| name(a) == name(b)).map(one).collect()
-}
-
-fn plural(count: usize, word: &str, ending: &str) -> String {
-    if count == 1 { format!("1 {word}") } else { format!("{count} {word}{ending}") }
 }
 
 /// The observation with the reading that was chosen: its pose alone, its scan's corners renamed.

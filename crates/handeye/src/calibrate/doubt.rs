@@ -2,8 +2,9 @@
 
 use super::agreement::Captures;
 use crate::{
-    HandEye, PosePair, TargetModel, Warning,
+    HandEye, PosePair, TargetModel,
     calibrate::result::{Calibration, Scale},
+    findings::{CaptureFinding, captures::ListedOrder},
     math::linalg::median,
     mistakes::{
         self, TargetScale,
@@ -32,21 +33,15 @@ pub(super) fn doubt(
 ) {
     let used = found.agrees.iter().filter(|a| **a).count();
     let (seen, out) = (used + wrong.len(), wrong.len());
-    let message = if out > 0 && (used < FEWEST_CONFIRMED || 2 * used == seen) {
-        format!(
-            "only {used} of {seen} captures agree: too few to outvote the others; take more \
-             captures, or find out what was wrong with these"
-        )
+    let finding = if out > 0 && (used < FEWEST_CONFIRMED || 2 * used == seen) {
+        CaptureFinding::NoMajority { used, of: seen }
     } else if let Some(others) = second_agreement(captures, found, wrong, used) {
-        format!(
-            "{used} captures agree on one answer and {others} of the other {out} on another one: \
-             the data cannot tell which is right; check what changed between them"
-        )
+        CaptureFinding::TwoAnswers { used, others, rest: out }
     } else {
         return;
     };
-    result.reasons.push(message.clone());
-    result.warnings.push(Warning::new("no-clear-majority", message));
+    result.reasons.push(finding.message());
+    result.warnings.push(finding.into());
     result.verdict = Verdict::Rejected;
 }
 
@@ -95,18 +90,18 @@ pub(super) fn suspect_order(
         _ => None,
     });
     let Some((order, after)) = order else { return false };
-    let how = match order {
-        Order::Reversed => "in the opposite order of".to_owned(),
-        Order::Shifted(k) if 2 * k > n => format!("{} before", places(n - k)),
-        Order::Shifted(k) => format!("{} after", places(k)),
+    let finding = CaptureFinding::OutOfOrder {
+        order: match order {
+            Order::Reversed => ListedOrder::Reversed,
+            Order::Shifted(k) if 2 * k > n => ListedOrder::Before(n - k),
+            Order::Shifted(k) => ListedOrder::After(k),
+        },
+        agreeing: after.agree,
+        of: n,
+        within_mm: after.translation_mm,
     };
-    let message = format!(
-        "the robot poses look listed {how} their captures: paired so, {} of {n} captures agree, \
-         within {:.1} mm; check how captures and poses are paired",
-        after.agree, after.translation_mm
-    );
-    result.reasons.insert(0, message.clone());
-    result.warnings.insert(0, Warning::new("order-shifted", message));
+    result.reasons.insert(0, finding.message());
+    result.warnings.insert(0, finding.into());
     result.verdict = Verdict::Rejected;
     true
 }
@@ -135,17 +130,13 @@ pub(super) fn suspect_size(
         _ => None,
     });
     let Some(size) = size else { return false };
-    let message = mistakes::size_in_words(&size, target);
+    let finding = mistakes::size_finding(&size, target);
     let TargetScale { value, sigma, .. } = size;
     result.target_scale = Some(Scale { value, sigma, used: false });
-    result.reasons.insert(0, message.clone());
-    result.warnings.insert(0, Warning::new("target-scale", message));
+    result.reasons.insert(0, finding.message());
+    result.warnings.insert(0, finding.into());
     result.verdict = Verdict::Rejected;
     true
-}
-
-fn places(count: usize) -> String {
-    if count == 1 { "one place".into() } else { format!("{count} places") }
 }
 
 /// Whether most captures agree, within what robots and cameras in order do.

@@ -10,13 +10,14 @@ use super::{
     prior::Declared,
 };
 use crate::{
-    TargetModel, Warning,
+    TargetModel,
     calibrate::result::{Calibration, TipResult},
     estimate::{
         Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, evaluate,
         extra::{SYSTEMATIC, TIP_PRIOR, systematic, tip},
         joint,
     },
+    findings::TouchFinding,
     math::statistics,
     model::session::Session,
     solve::View,
@@ -317,14 +318,8 @@ impl Joint {
     pub(super) fn warn(&self, views: &Views, result: &mut Calibration) {
         for &(k, p) in &self.left_out {
             let touch = &views.session.touches[k];
-            result.warnings.push(Warning::new(
-                "touch-rejected",
-                format!(
-                    "the touch of corner {} of {:?} is left out: it is too far from where all else \
-                     puts that corner (p = {p:.0e}); a wrong corner, or a slipped tip",
-                    touch.corner, touch.placement
-                ),
-            ));
+            let (corner, placement) = (touch.corner, touch.placement.clone());
+            result.warnings.push(TouchFinding::Outlier { corner, placement, p_value: p }.into());
         }
         let Some(conflict) = self.conflict else { return };
         if let Some(tip) = &self.wrong_tip {
@@ -336,29 +331,17 @@ impl Joint {
                 sigma_mm: std::array::from_fn(sigma),
                 frame: frame.into(),
             });
-            result.warnings.push(Warning::new(
-                "tip-off",
-                format!(
-                    "views and touches disagree by {:.2} mm, p = {:.1e}; most likely the tool tip: \
-                     its best estimate is off by ({x:.2}, {y:.2}, {z:.2}) mm in the {frame} frame; \
-                     calibrate the tool again. The answer takes it into account{}",
-                    tip.offset.norm() * 1e3,
-                    tip.p_value,
-                    squares(tip.offset.norm(), views.session.target.as_ref())
-                ),
-            ));
+            let finding = TouchFinding::TipOff {
+                offset_mm: [x, y, z],
+                in_flange: tip.in_flange,
+                p_value: tip.p_value,
+                squares: squares(tip.offset.norm(), views.session.target.as_ref()),
+            };
+            result.warnings.push(finding.into());
         }
         if conflict.strength > 0.0 && conflict.p_value < CONFLICT {
-            result.warnings.push(Warning::new(
-                "views-and-touches-disagree",
-                format!(
-                    "views and touches disagree, p = {:.1e}, and no tool tip explains it: the robot \
-                     is calibrated differently where it was touched and where the views were taken, \
-                     images were taken at other moments than the robot's poses, or images and scans differ; \
-                     the answer holds near the touched places",
-                    conflict.p_value
-                ),
-            ));
+            let p_value = conflict.p_value;
+            result.warnings.push(TouchFinding::ViewsDisagree { p_value }.into());
         }
     }
 }
@@ -368,18 +351,11 @@ const LIKE_SQUARES: f64 = 0.03;
 /// Squares by which corners are miscounted, at most.
 const MOST_SQUARES: u32 = 2;
 
-/// Says where an offset of the tip (m) is as large as one square or two: then the corners may be miscounted instead.
-fn squares(offset: f64, target: Option<&TargetModel>) -> String {
-    let Some(target) = target.filter(|t| t.len() > 4) else { return String::new() };
-    let pitch = target.pitch_m();
+/// One square or two, where an offset of the tip (m) is as large: then the corners may be miscounted instead.
+fn squares(offset: f64, target: Option<&TargetModel>) -> Option<u32> {
+    let pitch = target.filter(|t| t.len() > 4)?.pitch_m();
     let like = |n: &u32| (offset / (f64::from(*n) * pitch) - 1.0).abs() < LIKE_SQUARES;
-    let Some(n) = (1..=MOST_SQUARES).find(like) else { return String::new() };
-    format!(
-        "; but {:.1} mm is {} of the board: if the touched corners are counted from another one than corner 0, \
-         correct their ids, and the tip is right",
-        offset * 1e3,
-        if n == 1 { "one square".to_owned() } else { format!("{n} squares") }
-    )
+    (1..=MOST_SQUARES).find(like)
 }
 
 /// A tool tip that is not where the robot believes it.

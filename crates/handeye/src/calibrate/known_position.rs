@@ -5,9 +5,9 @@ use super::{
     candidates::{pairs_of, stated_covariance},
 };
 use crate::{
-    Warning,
     calibrate::result::Calibration,
     estimate::{self, JointFit, Problem},
+    findings::RobotFinding,
     mistakes,
 };
 
@@ -31,28 +31,17 @@ pub(super) fn judge(
     let off = known.axis.dot(&x.translation()) - known.value_m;
     if !free.is_empty() {
         let what = mistakes::in_words(&free, &pairs, setup).join(", ");
-        result.warnings.push(Warning::new(
-            "determined-by-known-position",
-            format!(
-                "the data do not determine {what}: it rests on the `known_position` of {:.1} mm \
-                 alone, and nothing checks that; touch a corner, or tilt the robot",
-                known.value_m * 1e3
-            ),
-        ));
+        let given_mm = known.value_m * 1e3;
+        result.warnings.push(RobotFinding::DeterminedByKnownPosition { what, given_mm }.into());
     } else if let Some(covariance) = stated_covariance(&fit) {
         let along = x.rotation().transpose() * known.axis;
         let own = covariance.fixed_view::<3, 3>(3, 3).into_owned();
         let variance = along.dot(&(own * along)) + known.sigma_m.powi(2);
         if off * off > CONTRADICTS * variance {
-            result.warnings.push(Warning::new(
-                "known-position-disagrees",
-                format!(
-                    "`known_position` says {:.1} mm, the data {:.1} mm: measure it again, or \
-                     leave it out",
-                    known.value_m * 1e3,
-                    (known.value_m + off) * 1e3
-                ),
-            ));
+            let (given_mm, found_mm) = (known.value_m * 1e3, (known.value_m + off) * 1e3);
+            result
+                .warnings
+                .push(RobotFinding::KnownPositionDisagrees { given_mm, found_mm }.into());
         }
     }
 }

@@ -35,7 +35,6 @@ mod places;
 mod points;
 mod prior;
 mod reach;
-mod refined;
 mod rejected;
 pub(crate) mod repeated;
 pub mod result;
@@ -51,7 +50,7 @@ mod workpiece;
 mod wrong_touches;
 
 use crate::{
-    Camera, Error, Mount, Pose, Session, Setup, TargetModel,
+    Camera, Error, Mount, Pose, Session, Setup, TargetModel, Warning,
     calibrate::result::{Answer, Calibration, UNJUDGED},
     estimate::{evaluate::Misfit, noise::KnownNoise, touches},
     model::verdict::Verdict,
@@ -140,11 +139,10 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
         found = run(&session);
     }
     let mut result = moved::answer_of_the_end(&session, found, run);
-    refined::tell(&session, &mut result);
     let bent = scans::report(&session, &mut result);
     moved::tell(bent, &mut result);
     of_one_place.report(&mut result);
-    result.warnings.extend(touched_twice);
+    result.warnings.extend(touched_twice.into_iter().map(Warning::from));
     result
 }
 

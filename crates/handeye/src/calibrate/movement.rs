@@ -25,8 +25,9 @@ use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vec
 use super::{agreement::Captures, gate::IMPROBABLE};
 use crate::{
     Anchor, Calibration, Mount, Pose,
-    calibrate::result::{Movement, MovementKind, matrix, rows},
+    calibrate::result::{matrix, rows},
     estimate::JointFit,
+    findings::movement::{Movement, MovementKind},
     math::{lie, statistics},
     register::rigid_fit::point_jacobian,
     solve::{consensus::Consensus, least_squares},

@@ -19,6 +19,10 @@ use crate::{
     calibrate::result::{matrix, rows},
     detect,
     estimate::predict,
+    findings::{
+        FramesFinding,
+        frames::{Frame, OffsetOfScans},
+    },
     math::{lie, linalg::median},
     mistakes::frames::{Frames, Part, frames},
     model::session::Session,
@@ -189,63 +193,39 @@ impl Offset {
             AnswerFrame::Scan => *image,
             AnswerFrame::Image => self.pose(image),
         };
-        let (own, others) = match frame {
-            AnswerFrame::Scan => ("scans", "images"),
-            AnswerFrame::Image => ("images", "scans"),
-        };
-        let t = other.translation() * 1e3;
-        Warning::new(
-            "picture-and-scan-disagree",
-            format!(
-                "the frame of the scans is not that of the images: scans are {}, {:.2} mm at the target. The answer is \
-                 for the {own}; for the {others} the camera is at ({:.2}, {:.2}, {:.2}) mm. Check the calibration \
-                 between image and scan, and in which frame the points are given",
-                self.in_words(),
-                self.moves() * 1e3,
-                t.x,
-                t.y,
-                t.z,
-            ),
-        )
+        FramesFinding::Offset {
+            scans_are: self.found(),
+            at_target_mm: self.moves() * 1e3,
+            answer: match frame {
+                AnswerFrame::Scan => Frame::Scans,
+                AnswerFrame::Image => Frame::Images,
+            },
+            other_position_mm: (other.translation() * 1e3).into(),
+        }
+        .into()
     }
 
     /// Why the answer is that of the scans alone.
     pub(super) fn not_believed(&self, scans: &Calibration, moved: &Calibration) -> Warning {
         let own = scans.hand_eye.mount_from_camera;
         let apart = own.zip(moved.hand_eye.mount_from_camera).map(|(a, b)| a.distance_to(&b) * 1e3);
-        Warning::new(
-            "picture-and-scan-disagree",
-            format!(
-                "the frame of the scans is not that of the images: scans seem {}, but with that taken out the images \
-                 put the camera {:.2} mm from where the scans alone do. The answer is from the scans alone. Check the \
-                 calibration between image and scan, the lens of the images, and in which frame the points are given",
-                self.in_words(),
-                apart.unwrap_or(f64::NAN),
-            ),
-        )
+        let apart_mm = apart.unwrap_or(f64::NAN);
+        FramesFinding::OffsetNotConfirmed { scans_seem: self.found(), apart_mm }.into()
     }
 
     /// The parts of the difference that the captures prove.
-    fn in_words(&self) -> String {
+    fn found(&self) -> OffsetOfScans {
         let largest = |rows: std::ops::Range<usize>| {
             rows.map(|k| self.covariance[(k, k)].max(0.0).sqrt()).fold(0.0, f64::max)
         };
-        let axes = |v: Vector3<f64>, digits: usize| {
-            let one = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:+.digits$}") };
-            format!("({}, {}, {})", one(v.x), one(v.y), one(v.z))
-        };
         let d = self.scan_from_image.translation.vector * 1e3;
         let turn = self.scan_from_image.rotation.scaled_axis().map(f64::to_degrees);
-        let mut parts = vec![];
-        if d != Vector3::zeros() {
-            let sigma = largest(3..6) * 1e3;
-            parts.push(format!("shifted by {} +- {sigma:.3} mm", axes(d, 3)));
+        let shifts = d != Vector3::zeros();
+        let turns = turn != Vector3::zeros();
+        OffsetOfScans {
+            shift_mm: shifts.then(|| (d.into(), largest(3..6) * 1e3)),
+            rotation_deg: turns.then(|| (turn.into(), largest(0..3).to_degrees())),
         }
-        if turn != Vector3::zeros() {
-            let sigma = largest(0..3).to_degrees();
-            parts.push(format!("rotated by {} +- {sigma:.4} degrees", axes(turn, 4)));
-        }
-        parts.join(" and ")
     }
 }
 

@@ -27,6 +27,7 @@ use crate::{
         },
     },
     estimate::{Extra, ExtraKind, JointFit},
+    findings::{CameraFinding, TargetFinding},
     model::{camera::PARAMETERS, session::Session},
     register::rigid_fit::point_jacobian,
     solve::View,
@@ -39,6 +40,8 @@ pub(super) struct Optics {
     pub extras: Vec<Extra>,
     /// The target is larger than declared by this share.
     pub size: f64,
+    /// The camera as it was given.
+    given: Option<Intrinsics>,
     lens: SVector<f64, PARAMETERS>,
     focal: f64,
     depth_scale: f64,
@@ -100,7 +103,7 @@ impl Optics {
         let of_target = unknown_size(session).into_iter().chain(unknown_depth(session));
         let extras = of_target.chain(unknown_lens(session)).chain(unknown_shape(session)).collect();
         let focal = session.camera.map_or(1.0, |c| c.fx);
-        Self { extras, focal, ..Self::default() }
+        Self { extras, focal, given: session.camera, ..Self::default() }
     }
 
     fn is_settled(&self, fit: &JointFit) -> bool {
@@ -199,12 +202,14 @@ impl Optics {
                 sigma_cx: sigma(2),
                 sigma_cy: sigma(3),
             });
-            if !session.camera_from_views {
-                result.warnings.push(camera_warning(&intrinsics, &(self.lens + rest), sigma(0)));
+            if let (Some(given), false) = (&self.given, session.camera_from_views) {
+                let sigmas = [sigma(0), fy.max(0.0).sqrt(), sigma(2), sigma(3)];
+                let finding = CameraFinding::refined(given, &intrinsics, sigmas);
+                result.warnings.push(finding.into());
             }
         }
         if as_declared.shape < 0.5 {
-            result.warnings.extend(shape_warnings(session, fit));
+            result.warnings.extend(shape_findings(session, fit).into_iter().map(Warning::from));
         }
         if as_declared.depth < 0.5
             && let (Some((s, sigma)), Some((b, sigma_b))) = (at(DEPTH_SCALE), at(DEPTH_BIAS))
@@ -217,7 +222,9 @@ impl Optics {
                 bias_mm,
                 sigma_bias_mm: sigma_b * 1e3,
             };
-            result.warnings.push(depth_warning(&depth));
+            let DepthResult { scale, sigma_scale, bias_mm, sigma_bias_mm } = depth;
+            let finding = CameraFinding::DepthOff { scale, sigma_scale, bias_mm, sigma_bias_mm };
+            result.warnings.push(finding.into());
             result.depth = Some(depth);
         }
     }
@@ -237,40 +244,16 @@ fn covariance(fit: &JointFit, a: usize, b: usize) -> f64 {
     both.map_or(0.0, |(c, at)| c[at])
 }
 
-fn camera_warning(now: &Intrinsics, moved: &SVector<f64, PARAMETERS>, sigma: f64) -> Warning {
-    Warning::new(
-        "camera-refined",
-        format!(
-            "pictures and robot poses fit together only with another lens than the one given: fx \
-             {:.2} px instead of {:.2} (+- {sigma:.2}), cx {:.1} instead of {:.1}; it is used here \
-             and stands in the result: use it for pictures too, or calibrate the camera again",
-            now.fx,
-            now.fx - moved[0],
-            now.cx,
-            now.cx - moved[2],
-        ),
-    )
-}
-
 /// Deviations of a shape that are this many standard deviations long are told.
 const CLEARLY: f64 = 3.0;
 
 /// In which way the target is not as its description has it.
-fn shape_warnings(session: &Session, fit: &JointFit) -> Vec<Warning> {
+fn shape_findings(session: &Session, fit: &JointFit) -> Vec<TargetFinding> {
     let Some(target) = &session.target else { return vec![] };
     let at = |k: usize| fit.extra(ExtraKind::Camera(PRINT + k));
     let mut all = vec![];
     if let Some((share, sigma)) = at(0).filter(|(x, s)| x.abs() > CLEARLY * s) {
-        let which = if share > 0.0 { "longer" } else { "shorter" };
-        all.push(Warning::new(
-            "board-uneven",
-            format!(
-                "the board is {:.2} +- {:.2} % {which} along its y than its x makes it: the answer uses that shape; \
-                 measure the print along both sides, and use one whose squares are square",
-                share.abs() * 100.0,
-                sigma * 100.0
-            ),
-        ));
+        all.push(TargetFinding::Uneven { share, sigma });
     }
     let values: Vec<(f64, f64)> = (1..SHAPES).filter_map(at).collect();
     let scanned = session.observations.iter().any(|o| !o.surface.is_empty());
@@ -284,33 +267,9 @@ fn shape_warnings(session: &Session, fit: &JointFit) -> Vec<Warning> {
         let heights: Vec<f64> = target.corners().iter().map(height).collect();
         let most = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = heights.iter().copied().fold(f64::INFINITY, f64::min);
-        all.push(Warning::new(
-            "board-bent",
-            format!(
-                "the corners in the pictures say that the board is bent, by {:.2} mm from its highest to its lowest \
-                 corner: the answer uses that shape; lay it on a flat plate and check it with a straight edge",
-                most - least
-            ),
-        ));
+        all.push(TargetFinding::Bent { peak_to_valley_mm: most - least });
     }
     all
-}
-
-fn depth_warning(depth: &DepthResult) -> Warning {
-    Warning::new(
-        "depth-off",
-        format!(
-            "scans read {:+.3} +- {:.3} % and {:+.2} +- {:.2} mm off in depth: the answer takes it \
-             into account, but points of this camera must be corrected, z = (z' - {:.3} mm)/{:.5}; \
-             let it warm up, and calibrate its depth",
-            (depth.scale - 1.0) * 100.0,
-            depth.sigma_scale * 100.0,
-            depth.bias_mm,
-            depth.sigma_bias_mm,
-            depth.bias_mm,
-            depth.scale
-        ),
-    )
 }
 
 /// What lens model and print typically leave in a corner, px.

@@ -4,13 +4,14 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::workpiece::workspace_volume;
 use crate::{
-    Camera, Error, Mount, Pose, Warning,
+    Camera, Error, Mount, Pose,
     calibrate::result::{Answer, Calibration, Candidate, PoseCovariance, rows},
     estimate::{
         evaluate::Misfit,
         predict::{self, Volume},
         touches::{self, Registration, TouchPairs},
     },
+    findings::TouchFinding,
     model::{session::Session, verdict::Verdict},
 };
 
@@ -113,13 +114,6 @@ fn weak_directions(touches: &[TouchPairs], result: &mut Calibration) {
     s.sort_by(|a, b| b.total_cmp(a));
     let ratio = s[1] / s[0];
     if ratio < NEARLY_COLLINEAR.sqrt() {
-        result.warnings.push(Warning::new(
-            "points-nearly-collinear",
-            format!(
-                "the points lie nearly on a line (spread across it {:.0} % of that along it): the \
-                 rotation about that line is weak; add points away from it",
-                ratio * 100.0
-            ),
-        ));
+        result.warnings.push(TouchFinding::NearlyCollinear { ratio }.into());
     }
 }

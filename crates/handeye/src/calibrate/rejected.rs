@@ -12,9 +12,13 @@ use super::{
     doubt,
 };
 use crate::{
-    Pose, Target, TargetModel, Warning,
+    Pose, Target, TargetModel,
     calibrate::result::Calibration,
     estimate::JointFit,
+    findings::{
+        CaptureFinding,
+        captures::{Cause, Other, Stands},
+    },
     math::{lie, linalg::median},
     solve::{View, consensus::Consensus},
 };
@@ -41,8 +45,6 @@ enum Reason {
     Elsewhere(usize),
     /// It has the robot pose at which the other picture was taken.
     Stale(usize),
-    /// Nothing known restores it.
-    Unknown,
 }
 
 /// Names every capture that does not agree, with the likeliest reason.
@@ -64,105 +66,56 @@ pub(super) fn name(
         test
     });
     for &i in &wrong {
-        let (code, reason) = match test.as_ref().map_or(Reason::Unknown, |t| t.reason(i)) {
-            Reason::Unknown => ("capture-rejected", disagreement(captures, found, i)),
-            known => in_words(captures, i, &known),
-        };
+        let known = test.as_ref().and_then(|t| t.reason(i));
+        let cause =
+            known.map_or_else(|| disagreement(captures, found, i), |r| cause(captures, i, &r));
         result.captures[i].used = false;
-        result.captures[i].reason = Some(reason.clone());
-        let id = &captures.session.observations[i].capture;
-        result.rejected.push(id.clone());
-        if wrong.len() <= MOST_WARNINGS || code != "capture-rejected" {
-            let message = format!("capture {id} left out: {reason}");
-            result.warnings.push(Warning::new(code, message));
+        result.captures[i].reason = Some(cause.in_words());
+        let capture = captures.session.observations[i].capture.clone();
+        result.rejected.push(capture.clone());
+        if wrong.len() <= MOST_WARNINGS || !matches!(cause, Cause::Disagrees { .. }) {
+            result.warnings.push(CaptureFinding::Rejected { capture, cause }.into());
         }
     }
     if wrong.len() > MOST_WARNINGS {
-        let message = format!(
-            "{} of {n} captures disagree with the others and are left out: {}",
-            wrong.len(),
-            result.rejected.join(", ")
-        );
-        result.warnings.push(Warning::new("captures-rejected", message));
+        let captures = result.rejected.clone();
+        result.warnings.push(CaptureFinding::ManyRejected { captures, of: n }.into());
     }
     doubt::doubt(captures, found, &wrong, result);
 }
 
-/// A code and words for what happened, and what to do about it.
-fn in_words(captures: &Captures, i: usize, reason: &Reason) -> (&'static str, String) {
-    let id = |j: usize| &captures.session.observations[j].capture;
-    let which = |j: usize| match () {
-        () if j == i + 1 => format!("the next capture, {}", id(j)),
-        () if j + 1 == i => format!("the previous capture, {}", id(j)),
-        () => format!("capture {}", id(j)),
+/// What happened to a capture.
+fn cause(captures: &Captures, i: usize, reason: &Reason) -> Cause {
+    let name = |j: usize| captures.session.observations[j].capture.clone();
+    let other = |j: usize| Other {
+        name: name(j),
+        stands: match () {
+            () if j == i + 1 => Stands::After,
+            () if j + 1 == i => Stands::Before,
+            () => Stands::Elsewhere,
+        },
     };
-    let neighbour = |j: usize| j.abs_diff(i) == 1;
     let seen = captures.session.read_from();
     match *reason {
-        Reason::Turned(degrees, about) => {
-            let about = about.map_or(String::new(), |m| {
-                format!(" about ({:.0}, {:.0}) mm of its own plane", m.x * 1e3, m.y * 1e3)
-            });
-            let why = match captures.session.target {
-                Some(_) => {
-                    "its corners are numbered from another end than in the other pictures; detect it \
-                     again, or number them anew"
-                }
-                None => "its pose was found the other way round than in the other captures",
-            };
-            let message =
-                format!("it fits with the target turned by {degrees} degrees{about}: {why}");
-            ("target-turned", message)
-        }
-        Reason::Exchanged(j) => (
-            "captures-exchanged",
-            format!(
-                "its {seen} and that of capture {} look exchanged; if they are, exchange them in \
-                 the data",
-                id(j)
-            ),
-        ),
-        Reason::Elsewhere(j) if neighbour(j) => (
-            "order-shifted",
-            format!(
-                "its {seen} fits the robot pose of {}: the order looks off by one from here on; \
-                 if so, pair them so in the data",
-                which(j)
-            ),
-        ),
-        Reason::Elsewhere(j) => {
-            ("captures-exchanged", format!("its {seen} fits the robot pose of {}", which(j)))
-        }
-        Reason::Stale(j) if j == i + 1 => (
-            "order-shifted",
-            format!("its robot pose belongs to the {seen} of {}; its own is missing", which(j)),
-        ),
-        Reason::Stale(j) => (
-            "stale-robot-pose",
-            format!(
-                "its robot pose is that of {}, at which another {seen} was taken: read before the \
-                 robot had moved, so its own is missing",
-                which(j)
-            ),
-        ),
-        Reason::Unknown => ("capture-rejected", String::new()),
+        Reason::Turned(degrees, about) => Cause::TargetRotated {
+            degrees,
+            about_mm: about.map(|m| (m * 1e3).into()),
+            has_corners: captures.session.target.is_some(),
+        },
+        Reason::Exchanged(j) => Cause::Exchanged { seen, with: name(j) },
+        Reason::Elsewhere(j) => Cause::FitsPoseOf { seen, other: other(j) },
+        Reason::Stale(j) => Cause::HasPoseOf { seen, other: other(j) },
     }
 }
 
-fn disagreement(captures: &Captures, found: &Consensus, i: usize) -> String {
+fn disagreement(captures: &Captures, found: &Consensus, i: usize) -> Cause {
     let (angle, distance) = found.hand_eye.loop_misfit(&captures.pair(i, found.reading[i]));
     let reach = captures.session.observations[i].base_from_flange.translation().norm();
-    let why = match reach > FARTHEST {
-        true => format!(
-            "its robot pose lies {reach:.0} m from the base: were millimetres read as metres?"
-        ),
-        false => "a robot pose of another moment, a moved target, or a wrong detection".into(),
-    };
-    format!(
-        "it disagrees with the others by {:.1} mm and {:.2} degrees: {why}",
-        distance * 1e3,
-        angle.to_degrees()
-    )
+    Cause::Disagrees {
+        distance_mm: distance * 1e3,
+        angle_deg: angle.to_degrees(),
+        out_of_reach_m: (reach > FARTHEST).then_some(reach),
+    }
 }
 
 /// Explanations are tested against the fit of the captures that agree.
@@ -187,7 +140,8 @@ fn typical(captures: &Captures, found: &Consensus) -> (f64, f64) {
 }
 
 impl Test<'_> {
-    fn reason(&self, i: usize) -> Reason {
+    /// `None` where nothing known restores the capture.
+    fn reason(&self, i: usize) -> Option<Reason> {
         let turned = self.turned(i);
         let mut elsewhere: Vec<usize> = self.others(i).filter(|&j| self.fits(i, j)).collect();
         // the robot pose of two captures is one explanation; neighbours are likelier
@@ -198,13 +152,13 @@ impl Test<'_> {
         if turned.is_none()
             && let Some(j) = self.partner(i)
         {
-            return Reason::Exchanged(j);
+            return Some(Reason::Exchanged(j));
         }
         match (turned, elsewhere.as_slice()) {
-            (Some((degrees, about)), []) => Reason::Turned(degrees, about),
-            (None, &[j]) => Reason::Elsewhere(j),
-            (None, []) => self.whose_robot_pose(i).map_or(Reason::Unknown, Reason::Stale),
-            _ => Reason::Unknown,
+            (Some((degrees, about)), []) => Some(Reason::Turned(degrees, about)),
+            (None, &[j]) => Some(Reason::Elsewhere(j)),
+            (None, []) => self.whose_robot_pose(i).map(Reason::Stale),
+            _ => None,
         }
     }
 

@@ -3,8 +3,9 @@
 
 use super::agreement;
 use crate::{
-    Observation, Warning,
+    Observation,
     calibrate::result::Calibration,
+    findings::CaptureFinding,
     model::{names::natural, session::Session},
 };
 
@@ -12,15 +13,10 @@ use crate::{
 const SAME_PLACE: (f64, f64) = (3e-4, 1e-4);
 /// Target poses this close show the same.
 const SAME_VIEW: (f64, f64) = (3e-3, 1e-3);
-/// So many are named.
-const NAMED: usize = 6;
-
 /// Captures that do not count, each with the name of the one that does.
 pub(crate) struct Uncounted {
     captures: Vec<(Observation, String)>,
-    code: &'static str,
-    /// What the captures do, and why one of each place counts.
-    why: &'static str,
+    finding: fn(Vec<String>) -> CaptureFinding,
     /// What one capture does to the one that counts.
     does: &'static str,
 }
@@ -37,9 +33,7 @@ pub(crate) fn take_out(session: &mut Session) -> Uncounted {
     session.observations = kept;
     Uncounted {
         captures: all,
-        code: "captures-repeated",
-        why: "repeat others: the same robot pose, and the same view. What the robot misses there is the same in all of \
-              them, so of each place one counts",
+        finding: |captures| CaptureFinding::Repeated { captures },
         does: "repeats",
     }
 }
@@ -66,9 +60,7 @@ impl Uncounted {
     pub(crate) fn of_one_place(captures: Vec<(Observation, String)>) -> Self {
         Self {
             captures,
-            code: "captures-of-one-place",
-            why: "were taken within 6 mm and 0.6 degrees of others, and the robot's error there is the same in all of \
-                  them: of each place one counts. Spread the captures over the workspace",
+            finding: |captures| CaptureFinding::OfOnePlace { captures },
             does: "was taken beside",
         }
     }
@@ -79,18 +71,12 @@ impl Uncounted {
 
     /// Puts them back into the result, as captures that do not count.
     pub(crate) fn report(self, result: &mut Calibration) {
-        let Self { captures, code, why, does } = self;
+        let Self { captures, finding, does } = self;
         if captures.is_empty() {
             return;
         }
-        let names: Vec<&str> =
-            captures.iter().take(NAMED).map(|(o, _)| o.capture.as_str()).collect();
-        let more = match captures.len() - names.len() {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        let message = format!("captures {}{more} {why}", names.join(", "));
-        result.warnings.push(Warning::new(code, message));
+        let names = captures.iter().map(|(o, _)| o.capture.clone()).collect();
+        result.warnings.push(finding(names).into());
         for (capture, first) in captures {
             let mut report = agreement::first_report(&capture);
             report.used = false;

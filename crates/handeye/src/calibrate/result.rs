@@ -14,6 +14,7 @@ use crate::{
         evaluate::{Diversity, Misfit},
         predict::PredictedTre,
     },
+    findings::{movement::Movement, severity::Severity},
     model::kinematics::{Arm, Parameter},
 };
 
@@ -164,46 +165,6 @@ pub struct Scale {
     /// Whether the answer rests on it, and not on the declared size.
     #[serde(default)]
     pub used: bool,
-}
-
-/// Something that moved during the session, or captures that say so.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Movement {
-    /// How.
-    pub kind: MovementKind,
-    /// Whether it may be the camera that moved.
-    pub camera: bool,
-    /// Whether it may be the target that moved.
-    pub target: bool,
-    /// First capture of a block, after a step, or of a slip.
-    pub first: String,
-    /// Last one.
-    pub last: String,
-    /// Whether the captures run to the end of the session.
-    pub at_end: bool,
-    /// Whether the robot poses of a block lie at a place of their own, or the robot went from place to place, and may err
-    /// there.
-    pub at_a_place: bool,
-    /// How far, at the target (mm).
-    pub displacement_mm: f64,
-    /// By which angle.
-    pub rotation_deg: f64,
-    /// How probable a movement is.
-    pub probability: f64,
-    /// By how much the predicted error was widened (mm, squares added).
-    pub widened_mm: f64,
-}
-
-/// How something moved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MovementKind {
-    /// Captures one after the other are rejected, and agree with one another.
-    Block,
-    /// At once, between two captures.
-    Step,
-    /// Evenly from the first capture to the last.
-    Slip,
 }
 
 /// The determined part of `mount_from_camera` where the data leave directions free.
@@ -416,7 +377,7 @@ pub struct Calibration {
     pub warnings: Vec<Warning>,
     /// Warnings and reasons against the answer, with what each does to it.
     #[serde(default)]
-    pub findings: Vec<Finding>,
+    pub findings: Vec<JudgedFinding>,
     /// Name of the run, from what went in and what came out: also in the page.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub run_id: Option<String>,
@@ -437,27 +398,18 @@ impl Calibration {
     }
 }
 
-/// What a finding does to the answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Severity {
-    /// Worth knowing; the answer is as it would be without.
-    Info,
-    /// The answer is another one because of it: what was declared or measured was corrected or rejected.
-    ChangesAnswer,
-    /// There is no answer to use because of it.
-    Rejects,
-}
-
 /// Something that was found beside the answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Finding {
+pub struct JudgedFinding {
     /// Short fixed name, for programs: that of the warning, or `rejected` and `undetermined` for reasons.
     pub code: String,
     /// What it does to the answer.
     pub severity: Severity,
     /// What was seen and where, with its numbers.
     pub message: String,
+    /// What it did to the answer, with its numbers, in a few words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub headline: Option<String>,
     /// What to do; `None` where the message says it.
     pub advice: Option<String>,
     /// Its numbers, by name with unit.

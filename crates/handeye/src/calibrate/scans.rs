@@ -9,6 +9,7 @@ use crate::{
         BoardDeviation, Calibration, CaptureFlatness, FlatnessResult, FramesResult, ScanResult,
     },
     detect,
+    findings::{FramesFinding, TargetFinding, frames::OfAxes},
     mistakes::{
         flatness::{Bend, Felt, Flatness, flatness},
         frames::{Frames, Part, TwoPlanes, frames, plane_of_points, plane_of_pose},
@@ -70,16 +71,8 @@ fn flat(seen: &[Seen], target: &TargetModel) -> Option<Flatness> {
 }
 
 fn not_flat(bend: &Bend, captures: usize) -> Warning {
-    Warning::new(
-        "board-not-flat",
-        format!(
-            "in the scans of {captures} captures the board is bent by {:.3} +- {:.3} mm from its \
-             highest to its lowest corner: lay it on a flat plate and check it with a straight \
-             edge; if it is flat, the 3D camera bends what is flat",
-            bend.peak_to_valley_m * 1e3,
-            bend.sigma_m * 1e3
-        ),
-    )
+    let (peak_to_valley_mm, sigma_mm) = (bend.peak_to_valley_m * 1e3, bend.sigma_m * 1e3);
+    TargetFinding::NotFlat { captures, peak_to_valley_mm, sigma_mm }.into()
 }
 
 fn as_result(found: &Flatness, seen: &[Seen]) -> FlatnessResult {
@@ -157,21 +150,12 @@ fn agreement(
     };
     if !found.separable {
         // numbers for parts that the captures do not tell apart would be wrong by more than they say
-        warnings.push(not_separable());
+        warnings.push(FramesFinding::NotSeparable.into());
         return None;
     }
     let named = found.proven.iter().filter(|p| worth(**p));
     warnings.extend(named.map(|p| disagreement(*p, &found)));
     Some(frames_result(&found))
-}
-
-fn not_separable() -> Warning {
-    Warning::new(
-        "picture-and-scan-differ",
-        "images and scans do not put the board at the same place, and these captures do not tell whether the scans are \
-         scaled, tilted or shifted: show the board at several distances and tilts, and check the calibration between \
-         image and scan",
-    )
 }
 
 fn frames_result(found: &Frames) -> FramesResult {
@@ -199,39 +183,14 @@ fn frames_result(found: &Frames) -> FramesResult {
 
 fn disagreement(part: Part, found: &Frames) -> Warning {
     let (v, s) = (&found.values, &found.sigmas);
-    let axes = |first: usize, unit: f64| {
-        let one = |k: usize| format!("{:+.3} +- {:.3}", v[first + k] * unit, s[first + k] * unit);
-        format!("({}, {}, {})", one(0), one(1), one(2))
+    let axes = |first: usize, unit: f64| OfAxes {
+        values: std::array::from_fn(|k| v[first + k] * unit),
+        sigmas: std::array::from_fn(|k| s[first + k] * unit),
     };
-    let (code, message) = match part {
-        Part::Scale => (
-            "picture-and-scan-scale",
-            format!(
-                "scans put the board {:+.3} +- {:.3} % farther away than pictures do: the focal \
-                 length, the board's size or the depth's scale is wrong; which one, the robot's \
-                 motions tell if anything does",
-                v[0] * 100.0,
-                s[0] * 100.0
-            ),
-        ),
-        Part::Tilt => (
-            "picture-and-scan-tilt",
-            format!(
-                "scans are turned against pictures by {} degrees about x, y, z of the camera: \
-                 check the calibration between picture and depth, and which of the frames the \
-                 points are given in",
-                axes(1, 1f64.to_degrees())
-            ),
-        ),
-        Part::Shift => (
-            "picture-and-scan-shift",
-            format!(
-                "scans are shifted against pictures by {} mm along x, y, z of the camera: check \
-                 the calibration between picture and depth, which of the frames the points are \
-                 given in, and whether depth has an offset",
-                axes(4, 1e3)
-            ),
-        ),
+    let finding = match part {
+        Part::Scale => FramesFinding::Scale { value: v[0], sigma: s[0] },
+        Part::Tilt => FramesFinding::Tilt(axes(1, 1f64.to_degrees())),
+        Part::Shift => FramesFinding::Shift(axes(4, 1e3)),
     };
-    Warning::new(code, message)
+    finding.into()
 }

@@ -29,6 +29,7 @@ use crate::{
         predict::{self, PredictedTre},
         touches,
     },
+    findings::{Finding, RobotFinding, StreamFinding, streams::Drift},
     math::lie,
     mistakes,
     register::rigid_fit::point_jacobian,
@@ -71,15 +72,20 @@ const NAME: &str = "drift";
 /// leaves open.
 const ANYTHING: f64 = 10.0;
 
-/// Warnings of captures that are wrong in a way that is no drift.
-const WRONG: [&str; 6] = [
-    "order-shifted",
-    "poses-inverted",
-    "target-poses-inverted",
-    "robot-poses-inverted",
-    "robot-length-unit",
-    "target-length-unit",
-];
+/// Captures that are wrong in a way that is no drift.
+fn is_no_drift(warning: &Warning) -> bool {
+    let Some(finding) = warning.finding.as_deref() else { return false };
+    match finding {
+        Finding::Robot(found) => matches!(
+            found,
+            RobotFinding::Inverted { .. }
+                | RobotFinding::LengthUnit { .. }
+                | RobotFinding::TargetLengthUnit { .. }
+        ),
+        Finding::Captures(found) => found.says_out_of_order(),
+        _ => false,
+    }
+}
 
 /// Calibrates from bare target poses that were taken one after the other, in the order of their
 /// names (`img_2` before `img_10`), or at `times` (s) by name of the capture. Where their errors
@@ -134,7 +140,7 @@ fn with_drift(
     plain: &Calibration,
 ) -> Result<Option<Calibration>, Error> {
     let Some(start) = answer(plain) else { return Ok(None) };
-    let wrong = plain.warnings.iter().any(|w| WRONG.contains(&w.code.as_str()));
+    let wrong = plain.warnings.iter().any(is_no_drift);
     let mut used = used(session, plain);
     if wrong || used.iter().filter(|u| **u).count() < FEWEST {
         return Ok(None);
@@ -165,13 +171,14 @@ fn with_drift(
 /// The result for a camera that walks away in its holder: nobody knows where it sits after the captures.
 fn loose(found: &DriftFit, plain: &Calibration) -> Calibration {
     let mut result = plain.clone();
-    let words = in_words(Side::Camera, found);
+    let drift = in_numbers(Side::Camera, found);
     result.reasons = vec![format!(
-        "errors change slowly from capture to capture: {words}; it has no one place on its mount: \
-         fasten it, and take the captures anew"
+        "errors change slowly from capture to capture: {}; it has no one place on its mount: fasten it, and take the \
+         captures anew",
+        drift.in_words()
     )];
     result.verdict = Verdict::Rejected;
-    result.warnings.push(Warning::new("drift", words));
+    result.warnings.push(StreamFinding::Drift { drift, is_fitted: false }.into());
     result
 }
 
@@ -348,7 +355,7 @@ fn report(
         candidate.predicted_tre_mm = None;
         candidate.hand_eye.covariance = PoseCovariance::default();
     }
-    let words = in_words(sequence.side, found);
+    let drift = in_numbers(sequence.side, found);
     result.candidates.push(Candidate {
         name: NAME.into(),
         hand_eye: result.hand_eye,
@@ -357,35 +364,22 @@ fn report(
         touch_rms_mm: None,
         held_out_mm: held_out.translation_rms_mm,
         predicted_tre_mm: tre.as_ref().map(|t| t.rms),
-        note: Some(words.clone()),
+        note: Some(drift.in_words()),
     });
     captures(names, found, plain, result);
     extras(found, result);
     conclude(tre, config, result);
-    result.warnings.push(Warning::new(
-        "drift",
-        format!(
-            "errors change slowly from capture to capture: {words}; the answer takes it into account"
-        ),
-    ));
+    result.warnings.push(StreamFinding::Drift { drift, is_fitted: true }.into());
 }
 
-fn in_words(side: Side, found: &DriftFit) -> String {
+fn in_numbers(side: Side, found: &DriftFit) -> Drift {
     let d = &found.drift;
-    let what = match side {
-        Side::Target => "the target or the robot seems to move",
-        Side::Camera => "the camera seems to move in its holder",
-    };
-    let unit = if d.scale > 0.0 {
-        format!(", {:.3} % of the unit of distances", d.scale * 100.0)
-    } else {
-        String::new()
-    };
-    format!(
-        "{what} by {:.3} degrees and {:.2} mm per axis{unit} from one capture to the next",
-        d.rotation.to_degrees(),
-        d.position * 1e3
-    )
+    Drift {
+        of_camera: side == Side::Camera,
+        rotation_deg: d.rotation.to_degrees(),
+        position_mm: d.position * 1e3,
+        scale: d.scale,
+    }
 }
 
 /// Target poses as they were given, and what each missed when left out.
@@ -416,7 +410,10 @@ fn extras(found: &DriftFit, result: &mut Calibration) {
 
 /// The verdict on the captures without drift, and on how sure the answer is with it.
 fn conclude(tre: Option<PredictedTre>, config: &Config, result: &mut Calibration) {
-    result.reasons.retain(|r| !r.contains("are predicted within"));
+    if result.verdict == Verdict::Accepted {
+        // the reason for that: the error that is predicted without drift
+        result.reasons.clear();
+    }
     let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
     match &tre {
         Some(tre) if tre.p95 <= limit && result.verdict == Verdict::Accepted => {

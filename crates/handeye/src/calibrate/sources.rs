@@ -17,12 +17,16 @@ use super::{
 };
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
-    TargetPose, Verdict, Warning,
+    TargetPose, Verdict,
     detect::{
         self,
         sight::{corrected, lifted_again, on_ray},
     },
     estimate::predict,
+    findings::{
+        FramesFinding,
+        frames::{Frame, OtherAnswer},
+    },
     math::{lie, statistics},
     model::session::Session,
     register,
@@ -207,11 +211,9 @@ fn fused_or_one(
 
 /// A disagreement that cannot be told from others is none that an answer can rest on.
 fn not_separable(mut result: Calibration) -> Calibration {
-    let message = "images and scans do not put the target at the same place, and these captures do not tell whether the \
-                   scans are scaled, tilted or shifted: show the target at several distances and tilts, and check the \
-                   calibration between image and scan";
-    result.warnings.push(Warning::new("picture-and-scan-differ", message));
-    result.reasons.insert(0, message.into());
+    let finding = FramesFinding::NotSeparable;
+    result.reasons.insert(0, finding.message());
+    result.warnings.push(finding.into());
     result.verdict = Verdict::Rejected;
     result
 }
@@ -375,44 +377,32 @@ fn in_frame_of(
     gap: &Gap,
 ) -> Calibration {
     let (angle, distance) = gap.size();
-    let (used, other) = match source {
-        Source::Scan => ("scans", "images"),
-        Source::Image => ("images", "scans"),
+    let finding = FramesFinding::Disagree {
+        used: match source {
+            Source::Scan => Frame::Scans,
+            Source::Image => Frame::Images,
+        },
+        distance_mm: distance * 1e3,
+        angle_deg: angle.to_degrees(),
+        other: other_answer(&answer, beside),
     };
-    let message = format!(
-        "images and scans put the target {:.1} mm and {:.2} degrees apart (mean of the captures): the answer is for \
-         the frame of the {used}, from the {used} alone{}. Check the calibration between image and scan, in which \
-         frame the points are given, and the lens of the images; `frame` of [answer] chooses the other one",
-        distance * 1e3,
-        angle.to_degrees(),
-        other_answer(&answer, beside, other),
-    );
     if answer.verdict != Verdict::Accepted {
-        answer.reasons.push(message.clone());
+        answer.reasons.push(finding.message());
     }
-    answer.warnings.push(Warning::new("picture-and-scan-disagree", message));
+    answer.warnings.push(finding.into());
     answer
 }
 
-/// How far the other source's answer lies away, in words.
-fn other_answer(answer: &Calibration, beside: &Calibration, other: &str) -> String {
-    let both = answer.hand_eye.mount_from_camera.zip(beside.hand_eye.mount_from_camera);
-    let Some((own, theirs)) = both else {
-        return format!("; the {other} alone determine no answer");
-    };
+/// How far the other source's answer lies away.
+fn other_answer(answer: &Calibration, beside: &Calibration) -> Option<OtherAnswer> {
+    let own = answer.hand_eye.mount_from_camera?;
+    let theirs = beside.hand_eye.mount_from_camera?;
     let seen = answer.captures.iter().filter_map(|c| c.camera_from_target);
     let points: Vec<Vector3<f64>> = seen.map(|p| p.translation()).collect();
     let off = predict::difference(&own, &theirs);
     let mean = points.iter().map(|p| off(p).norm()).sum::<f64>() / points.len().max(1) as f64;
-    let t = theirs.translation() * 1e3;
-    format!(
-        "; the {other} alone put the camera at ({:.2}, {:.2}, {:.2}) mm, which differs by {:.2} mm where the target \
-         was seen",
-        t.x,
-        t.y,
-        t.z,
-        mean * 1e3
-    )
+    let position_mm = (theirs.translation() * 1e3).into();
+    Some(OtherAnswer { position_mm, differs_mm: mean * 1e3 })
 }
 
 #[cfg(test)]

@@ -2,9 +2,13 @@
 
 use super::{Config, agreement::Views, prior::SIZE};
 use crate::{
-    Camera, Mount, Pose, TargetSize, Warning,
+    Camera, Mount, Pose, TargetSize,
     calibrate::result::{Answer, Calibration, Determined, Scale},
     estimate::{JointFit, noise::Source},
+    findings::{
+        TargetFinding,
+        target::{Size, SizeOfAnswer},
+    },
     math::statistics,
     mistakes,
     model::{session::Session, verdict::Verdict},
@@ -195,58 +199,41 @@ pub(super) fn judge_size(
     let p_value = statistics::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
     let off = (value - 1.0).abs();
     let improbable = p_value < IMPROBABLE_SCALE;
-    let code = match (&views.session.target, views.session.target_size) {
-        _ if used => "target-scale",
+    let told = match (&views.session.target, views.session.target_size) {
+        _ if used => SizeOfAnswer::Estimated,
         // distances that came from elsewhere are taken as they are: small errors of scale are left to the user
-        (None, _) if off > LEAST_SCALE_ERROR && improbable => "target-scale",
+        (None, _) if off > LEAST_SCALE_ERROR && improbable => SizeOfAnswer::Declared,
         // beyond what the prior of a printed target reaches
-        (Some(_), TargetSize::Printed) if off > MOST_SCALE_ERROR && improbable => "target-scale",
-        (Some(_), TargetSize::Measured(_)) if improbable => "target-size-contradicted",
+        (Some(_), TargetSize::Printed) if off > MOST_SCALE_ERROR && improbable => {
+            SizeOfAnswer::Declared
+        }
+        (Some(_), TargetSize::Measured(_)) if improbable => SizeOfAnswer::Measured,
         _ => return,
     };
     let (value, sigma) = if used { answer } else { (value, sigma) };
     result.target_scale = Some(Scale { value, sigma, used });
-    let message = size_message(views.session, declared, (value, sigma), used);
+    let finding = size_finding(views.session, declared, (value, sigma), told);
     if (value - 1.0).abs() > MOST_SCALE_ERROR {
-        result.reasons.push(message.clone());
+        result.reasons.push(finding.message());
         result.verdict = Verdict::Rejected;
     }
-    result.warnings.push(Warning::new(code, message));
+    result.warnings.push(finding.into());
 }
 
 /// Of the session's target, which is `resized` times as large as the declared one.
-fn size_message(session: &Session, resized: f64, (value, sigma): (f64, f64), used: bool) -> String {
-    let percent = (value - 1.0).abs() * 100.0;
-    let sigma = sigma * 100.0;
-    let Some(target) = &session.target else {
-        let which = if value > 1.0 { "longer" } else { "shorter" };
-        return format!(
-            "the robot's motions say that distances to the target are {percent:.2} +- {sigma:.2} % {which} than \
-             measured: the unit or the scale of the measurements, or the robot's own scale, is wrong"
-        );
-    };
-    let which = if value > 1.0 { "larger" } else { "smaller" };
-    let declared = target.pitch_m() * 1e3 / resized;
-    let size = format!("{:.3} mm instead of {declared:.3} mm", declared * value);
-    if (value - 1.0).abs() > MOST_SCALE_ERROR {
-        let cause =
-            mistakes::cause_of_size(value, target).map_or(String::new(), |c| format!(": {c}"));
-        return format!(
-            "the target is {percent:.1} +- {sigma:.1} % {which} than declared ({size}){cause}; measure it, and correct \
-             [target]. If the declared size is right, the focal length or the robot's own scale is wrong"
-        );
-    }
-    if used {
-        format!(
-            "the target is {percent:.2} +- {sigma:.2} % {which} than declared ({size}): the answer uses that size; \
-             measure the print with a caliper and declare what it says. If the declared size is right, the focal \
-             length or the robot's own scale is wrong"
-        )
-    } else {
-        format!(
-            "the data say that the target is {percent:.2} +- {sigma:.2} % {which} than declared ({size}), but it is \
-             declared as measured, and the answer uses the declared size: the focal length or the robot's own \
-             scale is wrong"
-        )
-    }
+fn size_finding(
+    session: &Session,
+    resized: f64,
+    (value, sigma): (f64, f64),
+    answer: SizeOfAnswer,
+) -> TargetFinding {
+    let Some(target) = &session.target else { return TargetFinding::Distances { value, sigma } };
+    TargetFinding::Size(Size {
+        value,
+        sigma,
+        declared_mm: target.pitch_m() * 1e3 / resized,
+        cause: mistakes::cause_of_size(value, target),
+        beyond_printing: (value - 1.0).abs() > MOST_SCALE_ERROR,
+        answer,
+    })
 }

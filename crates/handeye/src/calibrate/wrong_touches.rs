@@ -12,6 +12,7 @@ use crate::{
     TargetModel, Warning,
     calibrate::result::Calibration,
     estimate::{JointFit, Problem, TouchedBoard},
+    findings::TouchFinding,
     math::linalg::{self, median},
     model::verdict::Verdict,
 };
@@ -49,8 +50,8 @@ impl Expected {
 pub(super) struct WrongTouches {
     /// Touches of the session to leave out.
     pub which: Vec<usize>,
-    /// Words for the user; for each touch, or for all.
-    warnings: Vec<Warning>,
+    /// For each touch, or for all.
+    findings: Vec<TouchFinding>,
     /// Why no answer can be trusted.
     contradiction: Option<String>,
 }
@@ -62,7 +63,7 @@ pub(super) fn find(
     problem: &Problem,
     fit: &JointFit,
 ) -> WrongTouches {
-    let mut found = WrongTouches { which: vec![], warnings: vec![], contradiction: None };
+    let mut found = WrongTouches { which: vec![], findings: vec![], contradiction: None };
     let Some(target) = &views.session.target else { return found };
     let all = expected(boards, problem, fit);
     let (tip, agreeing) = consensus(&all);
@@ -75,20 +76,14 @@ pub(super) fn find(
         for e in outside {
             let touch = &session.touches[e.touch];
             let off = (e.misfit + e.flange * tip).norm() * 1e3;
-            let partner = exchanged(e, boards, &all, problem, fit, &tip).map(|k| {
-                let other = &session.touches[k];
-                format!("; it looks exchanged with that of corner {}", other.corner)
-            });
-            found.warnings.push(Warning::new(
-                "touch-rejected",
-                format!(
-                    "the touch of corner {} of {:?} is left out: it is {off:.1} mm from where views \
-                     and other touches put that corner{}",
-                    touch.corner,
-                    touch.placement,
-                    partner.unwrap_or("; a wrong corner, or a slipped tip".into())
-                ),
-            ));
+            let partner = exchanged(e, boards, &all, problem, fit, &tip);
+            let finding = TouchFinding::Misplaced {
+                corner: touch.corner,
+                placement: touch.placement.clone(),
+                off_mm: off,
+                exchanged_with: partner.map(|k| session.touches[k].corner),
+            };
+            found.findings.push(finding);
             found.which.push(e.touch);
         }
         return found;
@@ -105,15 +100,10 @@ pub(super) fn find(
     } else {
         "check corner ids and frame of the touches, and which placement each belongs to".into()
     };
-    let contradiction = format!(
-        "views and touches contradict each other: {answer}. As declared only {agreeing} of {} touches agree \
-         with any one tool tip, and half of them are more than {:.0} mm from where the views put their \
-         corners",
-        all.len(),
-        off * 1e3
-    );
-    found.warnings.push(Warning::new("touches-misread", contradiction.clone()));
-    found.contradiction = Some(contradiction);
+    let off_mm = off * 1e3;
+    let finding = TouchFinding::Misread { answer, agreeing, of: all.len(), off_mm };
+    found.contradiction = Some(finding.message());
+    found.findings.push(finding);
     found.which = all.iter().map(|e| e.touch).collect();
     found
 }
@@ -135,7 +125,7 @@ impl WrongTouches {
     }
 
     pub(super) fn report(self, result: &mut Calibration) {
-        result.warnings.extend(self.warnings);
+        result.warnings.extend(self.findings.into_iter().map(Warning::from));
         if let Some(reason) = self.contradiction {
             result.reasons.push(reason);
             result.verdict = Verdict::Rejected;

@@ -14,8 +14,9 @@ use nalgebra::{Matrix6, Vector3};
 
 use crate::{
     Camera, Correspondence, Error, Mount, Observation, Placement, Point, Pose, Setup, TargetModel,
-    Touch, Warning,
+    Touch,
     estimate::predict,
+    findings::TouchFinding,
     math::linalg,
     register::{self, IcpConfig, Stop},
 };
@@ -39,7 +40,7 @@ pub struct TouchPairs {
 
 /// Takes out touches that repeat another one number by number: a line that was copied is no second
 /// measurement. Returns a warning for each touch that was listed several times.
-pub fn each_once(touches: &mut Vec<Touch>) -> Vec<Warning> {
+pub fn each_once(touches: &mut Vec<Touch>) -> Vec<TouchFinding> {
     let mut kept: Vec<(Touch, usize)> = Vec::new();
     for touch in touches.drain(..) {
         match kept.iter_mut().find(|(t, _)| *t == touch) {
@@ -47,17 +48,14 @@ pub fn each_once(touches: &mut Vec<Touch>) -> Vec<Warning> {
             None => kept.push((touch, 1)),
         }
     }
-    let repeated = |(touch, count): &(Touch, usize)| {
-        let message = format!(
-            "the touch of corner {} of {:?} is listed {count} times with the same numbers and \
-             counts once: touch the corner anew for a second measurement",
-            touch.corner, touch.placement
-        );
-        (*count > 1).then(|| Warning::new("touch-repeated", message))
+    let repeated = |(touch, count): &(Touch, usize)| TouchFinding::Repeated {
+        corner: touch.corner,
+        placement: touch.placement.clone(),
+        count: *count,
     };
-    let warnings = kept.iter().filter_map(repeated).collect();
+    let findings = kept.iter().filter(|(_, count)| *count > 1).map(repeated).collect();
     touches.extend(kept.into_iter().map(|(touch, _)| touch));
-    warnings
+    findings
 }
 
 /// Pairs every touch with what the camera measured. Touches whose corner no view shows are left

@@ -8,7 +8,7 @@ pub mod score;
 mod size;
 mod strays;
 
-pub use size::{cause_of_size, size_in_words};
+pub use size::{cause_of_size, size_finding};
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 

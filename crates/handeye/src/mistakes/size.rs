@@ -5,6 +5,10 @@ use nalgebra::{DMatrix, DVector, Matrix3};
 use super::{TargetScale, strays::same_robot};
 use crate::{
     HandEye, PosePair, TargetModel,
+    findings::{
+        TargetFinding,
+        target::{Size, SizeOfAnswer},
+    },
     math::{linalg, statistics},
     mistakes::score::{FEWEST, Fault, Finding, REACH, Score, pair, reach, scored},
     solve::{
@@ -149,16 +153,17 @@ pub fn cause_of_size(value: f64, target: &TargetModel) -> Option<String> {
     })
 }
 
-/// A wrong size in words, with the usual mistake that makes it, and what to do.
-pub fn size_in_words(size: &TargetScale, target: &TargetModel) -> String {
+/// A wrong size that explains captures which contradict one another otherwise, with the usual mistake that makes it.
+pub fn size_finding(size: &TargetScale, target: &TargetModel) -> TargetFinding {
     let TargetScale { value, sigma, .. } = *size;
-    let cause = cause_of_size(value, target).map_or(String::new(), |c| format!(": {c}"));
-    let declared = (target.pitch_m() * 1e6).round() / 1e3;
-    format!(
-        "the target is {value:.4} +- {sigma:.4} times as large as declared ({:.3} mm instead of {declared} mm){cause}; \
-         measure it, and correct it",
-        declared * value
-    )
+    TargetFinding::ExplainsAll(Size {
+        value,
+        sigma,
+        declared_mm: (target.pitch_m() * 1e6).round() / 1e3,
+        cause: cause_of_size(value, target),
+        beyond_printing: false,
+        answer: SizeOfAnswer::Declared,
+    })
 }
 
 fn size_of(pairs: &[PosePair], at: &HandEye) -> Option<TargetScale> {
@@ -196,7 +201,7 @@ mod tests {
         assert!(cause(1e-3).contains("thousand times"));
         assert_eq!(cause_of_size(1.05, &board), None);
         let size = TargetScale { value: 2.0, sigma: 0.001, p_value: 0.0 };
-        let words = size_in_words(&size, &board);
+        let words = size_finding(&size, &board).message();
         assert!(words.contains("(60.000 mm instead of 30 mm): half of the length"), "{words}");
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::Matrix6;
 
 use super::{Judge, Judged, pairs_of, stored};
 use crate::{
-    Error, HandEye, Warning,
+    Error, HandEye,
     calibrate::{
         Config,
         agreement::Views,
@@ -14,6 +14,7 @@ use crate::{
         JointFit, evaluate,
         touches::{self, Registration, TouchPairs},
     },
+    findings::TouchFinding,
     solve,
     solve::View,
 };
@@ -34,10 +35,10 @@ impl Judge<'_> {
         for (name, registration) in kinds {
             match self.touch_candidate(fit, name, registration) {
                 Ok(judged) => all.push(judged),
-                Err(error) => result.warnings.push(Warning::new(
-                    "touches-not-enough",
-                    format!("no {name} candidate: {error}"),
-                )),
+                Err(error) => {
+                    let (candidate, error) = (name.to_owned(), error.to_string());
+                    result.warnings.push(TouchFinding::NotEnough { candidate, error }.into());
+                }
             }
         }
         all

@@ -30,6 +30,7 @@ use crate::{
         unscaled,
     },
     calibrate_sequence,
+    findings::StreamFinding,
     solve::FEWEST_POSES,
 };
 use choose::Both;
@@ -119,36 +120,23 @@ fn enough(both: &Both) -> Result<(), Error> {
 }
 
 /// What had to be put right in a stream.
-fn cleaning(stream: &Stream, name: &str) -> Vec<Warning> {
-    let c = stream.cleaned;
-    let mut all = vec![];
-    if c.unsorted > 0 {
-        let message = format!("{} {name} samples came out of order and are sorted", c.unsorted);
-        all.push(Warning::new("stream-unsorted", message));
-    }
-    if c.repeated > 0 {
-        let message = format!("{} {name} samples are there twice; one of each is used", c.repeated);
-        all.push(Warning::new("stream-repeated", message));
-    }
-    if c.conflicting > 0 {
-        let message = format!(
-            "{} {name} samples share their time with a different pose and are left out: are stamps \
-             rounded too much?",
-            c.conflicting
-        );
-        all.push(Warning::new("stream-conflicting", message));
-    }
-    if stream.gaps() > 0 {
-        let message = format!(
-            "the {name} stream has {} gaps, longer than {:.4} s ({} times its median interval) or \
-             with a quarter turn and more between two samples; no pose is made up within",
-            stream.gaps(),
-            stream.limit(),
-            stream::GAP
-        );
-        all.push(Warning::new("stream-gaps", message));
-    }
-    all
+fn cleaning(stream: &Stream, name: &'static str) -> Vec<Warning> {
+    let (c, stream, gaps) = (stream.cleaned, name, (stream.gaps(), stream.limit()));
+    let found = [
+        (c.unsorted, StreamFinding::Unsorted { stream, count: c.unsorted }),
+        (c.repeated, StreamFinding::Repeated { stream, count: c.repeated }),
+        (c.conflicting, StreamFinding::Conflicting { stream, count: c.conflicting }),
+        (
+            gaps.0,
+            StreamFinding::Gaps {
+                stream,
+                count: gaps.0,
+                limit_s: gaps.1,
+                times_median: stream::GAP,
+            },
+        ),
+    ];
+    found.into_iter().filter(|(count, _)| *count > 0).map(|(_, f)| f.into()).collect()
 }
 
 /// Offsets to try, camera minus robot, both counted from their first samples: those that make the
@@ -333,49 +321,21 @@ fn nothing(both: &Both, streams: &Streams, error: &Error) -> Calibration {
     result
 }
 
-/// A warning where the motion repeats.
+/// A finding where the motion repeats.
 fn ambiguous(rivals: &[f64]) -> Option<Warning> {
-    let all: Vec<String> = rivals.iter().map(|o| format!("{o:.3}")).collect();
-    (!all.is_empty()).then(|| {
-        Warning::new(
-            "time-offset-ambiguous",
-            format!(
-                "the motion repeats, so that time offsets of {} s fit as well; of them all, the one \
-                 with the longest time in common is taken. The camera's place does not depend on it",
-                all.join(", ")
-            ),
-        )
-    })
+    let others_s = rivals.to_vec();
+    (!rivals.is_empty()).then(|| StreamFinding::OffsetAmbiguous { others_s }.into())
 }
 
 /// What to know about the offset and the views.
 fn told(result: &Calibration, chosen: usize, samples: usize, likeness: f64) -> Vec<Warning> {
-    let mut all = vec![match (result.time_offset_s, result.time_offset_sigma_s) {
-        (Some(offset), Some(sigma)) => Warning::new(
-            "time-offset",
-            format!(
-                "the camera's clock is ahead of the robot's by {offset:.6} s +- {sigma:.6} s \
-                 (camera time = robot time + offset); {chosen} of {samples} samples, spread evenly \
-                 over the motion, are the captures"
-            ),
-        ),
-        _ => Warning::new(
-            "time-offset-undetermined",
-            "the streams do not tell the time offset between camera and robot: the robot does not \
-             move where the camera sees the target, or moves at a constant speed; let it start, stop \
-             and turn about changing axes",
-        ),
-    }];
-    if likeness > 0.0 {
-        all.push(Warning::new(
-            "neighbours-alike",
-            format!(
-                "misfits of neighbouring captures are alike (correlation {likeness:.2}): errors \
-                 that change slowly with the pose, so that the answer is less sure than stated"
-            ),
-        ));
-    }
-    all
+    let offset = result.time_offset_s.zip(result.time_offset_sigma_s);
+    let offset = offset.map_or(StreamFinding::OffsetUndetermined, |(offset_s, sigma_s)| {
+        StreamFinding::Offset { offset_s, sigma_s, chosen, of: samples }
+    });
+    let alike = StreamFinding::NeighboursAlike { correlation: likeness };
+    let alike = (likeness > 0.0).then_some(alike);
+    [offset].into_iter().chain(alike).map(Warning::from).collect()
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     Base, Calibration, Config, Error, Flange, Pose, Session, Warning, calibrate,
-    calibrate::settle::Stand,
+    calibrate::settle::Stand, findings::StreamFinding,
 };
 
 /// Calibrates from captures of a moving robot. `robot` is where its flange was over time, `joints` what its joint values
@@ -133,13 +133,7 @@ fn finish(
         Some(_) => result.time_offset_s.map(|later| offset + later),
         None => None,
     };
-    let warning = (!without.is_empty()).then(|| {
-        let text = format!(
-            "{} captures were taken where the robot's poses have a gap, or before or after them, and are left out: {}",
-            without.len(),
-            without.join(", ")
-        );
-        Warning::new("capture-without-robot-pose", text)
-    });
+    let warning =
+        (!without.is_empty()).then(|| StreamFinding::WithoutRobotPose { captures: without }.into());
     Ok((result, warning))
 }

@@ -1,0 +1,344 @@
+//! Findings about captures that do not count, and whether those that do are enough.
+
+/// What is found about captures.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CaptureFinding {
+    /// One does not agree with the others.
+    Rejected {
+        /// Its name.
+        capture: String,
+        /// Why, as far as that is known.
+        cause: Cause,
+    },
+    /// Many do not agree with the others.
+    ManyRejected {
+        /// Their names.
+        captures: Vec<String>,
+        /// All captures.
+        of: usize,
+    },
+    /// Too few to notice a wrong one.
+    Few {
+        /// How many agree.
+        used: usize,
+        /// Whether they show a ball.
+        of_a_ball: bool,
+    },
+    /// Some repeat others.
+    Repeated {
+        /// Their names.
+        captures: Vec<String>,
+    },
+    /// Some were taken beside others, and the robot errs by place.
+    OfOnePlace {
+        /// Their names.
+        captures: Vec<String>,
+    },
+    /// One order of all robot poses makes most captures agree.
+    OutOfOrder {
+        /// Which.
+        order: ListedOrder,
+        /// Captures that agree then.
+        agreeing: usize,
+        /// All captures.
+        of: usize,
+        /// Within how much, mm.
+        within_mm: f64,
+    },
+    /// Too few agree to outvote the others.
+    NoMajority {
+        /// How many agree.
+        used: usize,
+        /// All that show the target.
+        of: usize,
+    },
+    /// Others agree on another answer.
+    TwoAnswers {
+        /// How many agree on the first.
+        used: usize,
+        /// How many on the second.
+        others: usize,
+        /// All that do not agree on the first.
+        rest: usize,
+    },
+    /// A method that needs rotations, for captures of a ball.
+    MethodNotForBalls {
+        /// The method's name.
+        method: &'static str,
+    },
+}
+
+/// Another order of robot poses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ListedOrder {
+    /// The opposite one.
+    Reversed,
+    /// So many places before.
+    Before(usize),
+    /// So many places after.
+    After(usize),
+}
+
+/// Why a capture does not agree. `seen` is what poses come from: `picture` or `target pose`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cause {
+    /// It fits with the target rotated in its plane.
+    TargetRotated {
+        /// By how many degrees.
+        degrees: u32,
+        /// About which point of its plane (mm), where that is not the middle of its corners.
+        about_mm: Option<[f64; 2]>,
+        /// Whether its corners were detected; poses came from elsewhere otherwise.
+        has_corners: bool,
+    },
+    /// What it shows and that of another one look exchanged.
+    Exchanged {
+        /// What poses come from.
+        seen: &'static str,
+        /// The other one's name.
+        with: String,
+    },
+    /// What it shows fits the robot pose of another one.
+    FitsPoseOf {
+        /// What poses come from.
+        seen: &'static str,
+        /// The other one.
+        other: Other,
+    },
+    /// Its robot pose belongs to what another one shows.
+    HasPoseOf {
+        /// What poses come from.
+        seen: &'static str,
+        /// The other one.
+        other: Other,
+    },
+    /// It disagrees, and nothing known restores it.
+    Disagrees {
+        /// By how much, mm.
+        distance_mm: f64,
+        /// By which angle, degrees.
+        angle_deg: f64,
+        /// Distance of its robot pose from the base (m), where no robot reaches that far.
+        out_of_reach_m: Option<f64>,
+    },
+}
+
+/// Another capture, as seen from one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Other {
+    /// Its name.
+    pub name: String,
+    /// Where it stands.
+    pub stands: Stands,
+}
+
+/// Where another capture stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stands {
+    /// Right before.
+    Before,
+    /// Right after.
+    After,
+    /// Elsewhere.
+    Elsewhere,
+}
+
+impl Other {
+    fn in_words(&self) -> String {
+        match self.stands {
+            Stands::After => format!("the next capture, {}", self.name),
+            Stands::Before => format!("the previous capture, {}", self.name),
+            Stands::Elsewhere => format!("capture {}", self.name),
+        }
+    }
+}
+
+impl Cause {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::TargetRotated { .. } => "target-turned",
+            Self::Exchanged { .. } => "captures-exchanged",
+            Self::FitsPoseOf { other, .. } => match other.stands {
+                Stands::Elsewhere => "captures-exchanged",
+                _ => "order-shifted",
+            },
+            Self::HasPoseOf { other, .. } => match other.stands {
+                Stands::After => "order-shifted",
+                _ => "stale-robot-pose",
+            },
+            Self::Disagrees { .. } => "capture-rejected",
+        }
+    }
+
+    /// Why, in words.
+    pub fn in_words(&self) -> String {
+        match self {
+            Self::TargetRotated { degrees, about_mm, has_corners } => format!(
+                "it fits with the target turned by {degrees} degrees{}: {}",
+                about_mm.map_or(String::new(), |[x, y]| {
+                    format!(" about ({x:.0}, {y:.0}) mm of its own plane")
+                }),
+                if *has_corners {
+                    "its corners are numbered from another end than in the other pictures; detect it again, or number \
+                     them anew"
+                } else {
+                    "its pose was found the other way round than in the other captures"
+                }
+            ),
+            Self::Exchanged { seen, with } => format!(
+                "its {seen} and that of capture {with} look exchanged; if they are, exchange them in the data"
+            ),
+            Self::FitsPoseOf { seen, other } => {
+                let fits = format!("its {seen} fits the robot pose of {}", other.in_words());
+                match other.stands {
+                    Stands::Elsewhere => fits,
+                    _ => {
+                        fits + ": the order looks off by one from here on; if so, pair them so in the data"
+                    }
+                }
+            }
+            Self::HasPoseOf { seen, other } => match other.stands {
+                Stands::After => format!(
+                    "its robot pose belongs to the {seen} of {}; its own is missing",
+                    other.in_words()
+                ),
+                _ => format!(
+                    "its robot pose is that of {}, at which another {seen} was taken: read before the robot had moved, \
+                     so its own is missing",
+                    other.in_words()
+                ),
+            },
+            Self::Disagrees { distance_mm, angle_deg, out_of_reach_m } => format!(
+                "it disagrees with the others by {distance_mm:.1} mm and {angle_deg:.2} degrees: {}",
+                out_of_reach_m.map_or(
+                    "a robot pose of another moment, a moved target, or a wrong detection".into(),
+                    |m| format!("its robot pose lies {m:.0} m from the base: were millimetres read as metres?")
+                )
+            ),
+        }
+    }
+}
+
+impl CaptureFinding {
+    /// Whether images and robot poses are out of order.
+    pub(crate) fn says_out_of_order(&self) -> bool {
+        match self {
+            Self::OutOfOrder { .. } => true,
+            Self::Rejected { cause: Cause::FitsPoseOf { other, .. }, .. } => {
+                other.stands != Stands::Elsewhere
+            }
+            Self::Rejected { cause: Cause::HasPoseOf { other, .. }, .. } => {
+                other.stands == Stands::After
+            }
+            _ => false,
+        }
+    }
+
+    pub(super) fn code(&self) -> &'static str {
+        match self {
+            Self::Rejected { cause, .. } => cause.code(),
+            Self::ManyRejected { .. } => "captures-rejected",
+            Self::Few { .. } => "few-captures",
+            Self::Repeated { .. } => "captures-repeated",
+            Self::OfOnePlace { .. } => "captures-of-one-place",
+            Self::OutOfOrder { .. } => "order-shifted",
+            Self::NoMajority { .. } | Self::TwoAnswers { .. } => "no-clear-majority",
+            Self::MethodNotForBalls { .. } => "method-not-for-balls",
+        }
+    }
+
+    /// What was seen, with its numbers.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Rejected { capture, cause } => {
+                format!("capture {capture} left out: {}", cause.in_words())
+            }
+            Self::ManyRejected { captures, of } => format!(
+                "{} of {of} captures disagree with the others and are left out: {}",
+                captures.len(),
+                captures.join(", ")
+            ),
+            Self::Few { used, of_a_ball: false } => format!(
+                "only {used} captures: too few to notice a wrong one or to judge the noise well; take 10 to 15"
+            ),
+            Self::Few { used, of_a_ball: true } => {
+                format!("only {used} captures agree: too few to judge the noise well")
+            }
+            Self::Repeated { captures } => format!(
+                "captures {} repeat others: the same robot pose, and the same view. What the robot misses there is the \
+                 same in all of them, so of each place one counts",
+                first_of(captures)
+            ),
+            Self::OfOnePlace { captures } => format!(
+                "captures {} were taken within 6 mm and 0.6 degrees of others, and the robot's error there is the same \
+                 in all of them: of each place one counts. Spread the captures over the workspace",
+                first_of(captures)
+            ),
+            Self::OutOfOrder { order, agreeing, of, within_mm } => format!(
+                "the robot poses look listed {} their captures: paired so, {agreeing} of {of} captures agree, within \
+                 {within_mm:.1} mm; check how captures and poses are paired",
+                order.in_words()
+            ),
+            Self::NoMajority { used, of } => format!(
+                "only {used} of {of} captures agree: too few to outvote the others; take more captures, or find out \
+                 what was wrong with these"
+            ),
+            Self::TwoAnswers { used, others, rest } => format!(
+                "{used} captures agree on one answer and {others} of the other {rest} on another one: the data cannot \
+                 tell which is right; check what changed between them"
+            ),
+            Self::MethodNotForBalls { method } => {
+                format!("a ball shows no rotation: the method {method} cannot use it")
+            }
+        }
+    }
+}
+
+impl ListedOrder {
+    fn in_words(self) -> String {
+        let places = |count: usize| match count {
+            1 => "one place".to_owned(),
+            _ => format!("{count} places"),
+        };
+        match self {
+            Self::Reversed => "in the opposite order of".into(),
+            Self::Before(count) => format!("{} before", places(count)),
+            Self::After(count) => format!("{} after", places(count)),
+        }
+    }
+}
+
+/// So many captures are named.
+const NAMED: usize = 6;
+
+fn first_of(captures: &[String]) -> String {
+    let named = captures[..captures.len().min(NAMED)].join(", ");
+    match captures.len().saturating_sub(NAMED) {
+        0 => named,
+        more => format!("{named} and {more} more"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_neighbour_means_a_shifted_order_and_another_one_an_exchange() {
+        let of = |stands| Cause::FitsPoseOf {
+            seen: "picture",
+            other: Other { name: "007".into(), stands },
+        };
+        assert_eq!(of(Stands::After).code(), "order-shifted");
+        assert!(of(Stands::After).in_words().contains("the next capture, 007: the order"));
+        assert_eq!(of(Stands::Elsewhere).code(), "captures-exchanged");
+        assert!(of(Stands::Elsewhere).in_words().ends_with("capture 007"));
+    }
+
+    #[test]
+    fn six_captures_are_named_and_the_others_counted() {
+        let captures: Vec<String> = (1..=8).map(|k| k.to_string()).collect();
+        assert_eq!(first_of(&captures), "1, 2, 3, 4, 5, 6 and 2 more");
+        assert_eq!(first_of(&captures[..6]), "1, 2, 3, 4, 5, 6");
+    }
+}

@@ -1,0 +1,196 @@
+//! Findings about the frames of images and scans.
+
+/// A source whose frame an answer can be for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Frame {
+    /// That of the images.
+    Images,
+    /// That of the scans.
+    Scans,
+}
+
+impl Frame {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Images => "images",
+            Self::Scans => "scans",
+        }
+    }
+
+    fn other(self) -> &'static str {
+        match self {
+            Self::Images => "scans",
+            Self::Scans => "images",
+        }
+    }
+}
+
+/// Three numbers, about or along x, y and z, each with its standard deviation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OfAxes {
+    /// The numbers.
+    pub values: [f64; 3],
+    /// Their standard deviations.
+    pub sigmas: [f64; 3],
+}
+
+/// How scans lie against images.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OffsetOfScans {
+    /// Shift and its largest standard deviation, mm.
+    pub shift_mm: Option<([f64; 3], f64)>,
+    /// Rotation and its largest standard deviation, degrees.
+    pub rotation_deg: Option<([f64; 3], f64)>,
+}
+
+/// Where the source that is not used puts the camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherAnswer {
+    /// The camera's position, mm.
+    pub position_mm: [f64; 3],
+    /// Mean distance of both answers where the target was seen, mm.
+    pub differs_mm: f64,
+}
+
+/// What is found about the frames of images and scans.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FramesFinding {
+    /// They differ, and the captures do not tell how.
+    NotSeparable,
+    /// Distances in scans are longer by a share.
+    Scale {
+        /// The share.
+        value: f64,
+        /// Its standard deviation.
+        sigma: f64,
+    },
+    /// Scans are rotated, degrees.
+    Tilt(OfAxes),
+    /// Scans are shifted, mm.
+    Shift(OfAxes),
+    /// Each source has its own answer, and one is taken.
+    Disagree {
+        /// The source that is used.
+        used: Frame,
+        /// Mean distance of the target between both, mm.
+        distance_mm: f64,
+        /// Angle of the target between both, degrees.
+        angle_deg: f64,
+        /// What the other one says; `None` where it determines no answer.
+        other: Option<OtherAnswer>,
+    },
+    /// They differ by a rigid offset, which was taken out.
+    Offset {
+        /// The offset.
+        scans_are: OffsetOfScans,
+        /// By how much it moves the target, mm.
+        at_target_mm: f64,
+        /// The frame that the answer is for.
+        answer: Frame,
+        /// Where the camera is for the other frame, mm.
+        other_position_mm: [f64; 3],
+    },
+    /// An offset that does not bring both together: the scans' own answer is taken.
+    OffsetNotConfirmed {
+        /// The offset.
+        scans_seem: OffsetOfScans,
+        /// Distance of both answers with it taken out, mm.
+        apart_mm: f64,
+    },
+}
+
+impl FramesFinding {
+    pub(super) fn code(&self) -> &'static str {
+        match self {
+            Self::NotSeparable => "picture-and-scan-differ",
+            Self::Scale { .. } => "picture-and-scan-scale",
+            Self::Tilt(_) => "picture-and-scan-tilt",
+            Self::Shift(_) => "picture-and-scan-shift",
+            Self::Disagree { .. } | Self::Offset { .. } | Self::OffsetNotConfirmed { .. } => {
+                "picture-and-scan-disagree"
+            }
+        }
+    }
+
+    /// What was seen, with its numbers.
+    pub fn message(&self) -> String {
+        match self {
+            Self::NotSeparable => "images and scans do not put the target at the same place, and these captures do not \
+                                   tell whether the scans are scaled, tilted or shifted: show the target at several \
+                                   distances and tilts, and check the calibration between image and scan"
+                .into(),
+            Self::Scale { value, sigma } => format!(
+                "scans put the board {:+.3} +- {:.3} % farther away than pictures do: the focal length, the board's \
+                 size or the depth's scale is wrong; which one, the robot's motions tell if anything does",
+                value * 100.0,
+                sigma * 100.0
+            ),
+            Self::Tilt(axes) => format!(
+                "scans are turned against pictures by {} degrees about x, y, z of the camera: check the calibration \
+                 between picture and depth, and which of the frames the points are given in",
+                axes.in_words()
+            ),
+            Self::Shift(axes) => format!(
+                "scans are shifted against pictures by {} mm along x, y, z of the camera: check the calibration \
+                 between picture and depth, which of the frames the points are given in, and whether depth has an \
+                 offset",
+                axes.in_words()
+            ),
+            Self::Disagree { used, distance_mm, angle_deg, other } => format!(
+                "images and scans put the target {distance_mm:.1} mm and {angle_deg:.2} degrees apart (mean of the \
+                 captures): the answer is for the frame of the {used}, from the {used} alone; the {} alone {}. Check \
+                 the calibration between image and scan, in which frame the points are given, and the lens of the \
+                 images; `frame` of [answer] chooses the other one",
+                used.other(),
+                other_in_words(other.as_ref()),
+                used = used.name(),
+            ),
+            Self::Offset { scans_are, at_target_mm, answer, other_position_mm: [x, y, z] } => format!(
+                "the frame of the scans is not that of the images: scans are {}, {at_target_mm:.2} mm at the target. \
+                 The answer is for the {}; for the {} the camera is at ({x:.2}, {y:.2}, {z:.2}) mm. Check the \
+                 calibration between image and scan, and in which frame the points are given",
+                scans_are.in_words(),
+                answer.name(),
+                answer.other(),
+            ),
+            Self::OffsetNotConfirmed { scans_seem, apart_mm } => format!(
+                "the frame of the scans is not that of the images: scans seem {}, but with that taken out the images \
+                 put the camera {apart_mm:.2} mm from where the scans alone do. The answer is from the scans alone. \
+                 Check the calibration between image and scan, the lens of the images, and in which frame the points \
+                 are given",
+                scans_seem.in_words(),
+            ),
+        }
+    }
+}
+
+fn other_in_words(other: Option<&OtherAnswer>) -> String {
+    other.map_or("determine no answer".into(), |o| {
+        let [x, y, z] = o.position_mm;
+        format!(
+            "put the camera at ({x:.2}, {y:.2}, {z:.2}) mm, which differs by {:.2} mm where the target was seen",
+            o.differs_mm
+        )
+    })
+}
+
+impl OfAxes {
+    fn in_words(&self) -> String {
+        let one = |k: usize| format!("{:+.3} +- {:.3}", self.values[k], self.sigmas[k]);
+        format!("({}, {}, {})", one(0), one(1), one(2))
+    }
+}
+
+impl OffsetOfScans {
+    fn in_words(&self) -> String {
+        let axes = |v: &[f64; 3], digits: usize| {
+            let one = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:+.digits$}") };
+            format!("({}, {}, {})", one(v[0]), one(v[1]), one(v[2]))
+        };
+        let shift = self.shift_mm.as_ref();
+        let shift = shift.map(|(v, s)| format!("shifted by {} +- {s:.3} mm", axes(v, 3)));
+        let turn = self.rotation_deg.as_ref();
+        let turn = turn.map(|(v, s)| format!("rotated by {} +- {s:.4} degrees", axes(v, 4)));
+        shift.into_iter().chain(turn).collect::<Vec<_>>().join(" and ")
+    }
+}

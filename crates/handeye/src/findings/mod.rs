@@ -1,0 +1,125 @@
+//! What is found beside the answer, with its numbers: the one room in which a finding gets its code, its sentence, what
+//! it does to the answer, and what to do about it.
+//!
+//! A stage that notices something makes a variant; nobody else writes words. Who has to know whether something was
+//! found asks for the variant, never for its words. A new finding is a variant in the file of its subject, with its
+//! code and sentence there, and a row in [`severity`] where it changes the answer or leaves none.
+
+pub mod camera;
+pub mod captures;
+pub mod frames;
+pub mod movement;
+pub mod robot;
+pub mod severity;
+pub mod streams;
+pub mod target;
+pub mod touches;
+mod warning;
+
+pub use camera::CameraFinding;
+pub use captures::CaptureFinding;
+pub use frames::FramesFinding;
+pub use movement::MovementFinding;
+pub use robot::RobotFinding;
+pub use streams::StreamFinding;
+pub use target::TargetFinding;
+pub use touches::TouchFinding;
+pub use warning::Warning;
+
+/// Something that was found, by what it is about.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Finding {
+    /// Intrinsics, and the depth of scans.
+    Camera(CameraFinding),
+    /// Captures that do not count, and whether those that do are enough.
+    Captures(CaptureFinding),
+    /// The frames of images and scans.
+    Frames(FramesFinding),
+    /// Something moved.
+    Movement(MovementFinding),
+    /// The robot's poses and its arm.
+    Robot(RobotFinding),
+    /// Streams of poses, their clocks, and errors that change with time.
+    Streams(StreamFinding),
+    /// The target's size and shape.
+    Target(TargetFinding),
+    /// Touches, point pairs and the tool's tip.
+    Touches(TouchFinding),
+}
+
+impl Finding {
+    /// Short fixed name, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Camera(f) => f.code(),
+            Self::Captures(f) => f.code(),
+            Self::Frames(f) => f.code(),
+            Self::Movement(f) => f.code(),
+            Self::Robot(f) => f.code(),
+            Self::Streams(f) => f.code(),
+            Self::Target(f) => f.code(),
+            Self::Touches(f) => f.code(),
+        }
+    }
+
+    /// What was seen and where, with its numbers.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Camera(f) => f.message(),
+            Self::Captures(f) => f.message(),
+            Self::Frames(f) => f.message(),
+            Self::Movement(f) => f.message(),
+            Self::Robot(f) => f.message(),
+            Self::Streams(f) => f.message(),
+            Self::Target(f) => f.message(),
+            Self::Touches(f) => f.message(),
+        }
+    }
+
+    /// What it did to the answer, with its numbers, for the first sentence of a page; `None` where the words of its
+    /// code say it all.
+    pub fn headline(&self) -> Option<String> {
+        match self {
+            Self::Camera(f) => f.headline(),
+            Self::Movement(f) => f.headline(),
+            Self::Target(f) => f.headline(),
+            Self::Touches(f) => f.headline(),
+            _ => None,
+        }
+    }
+}
+
+impl From<Finding> for Warning {
+    fn from(finding: Finding) -> Self {
+        let mut warning = Self::new(finding.code(), finding.message());
+        warning.finding = Some(Box::new(finding));
+        warning
+    }
+}
+
+/// A finding of each subject is a finding, and a warning.
+macro_rules! subjects {
+    ($($of:ident($subject:ty)),*) => {
+        $(impl From<$subject> for Finding {
+            fn from(found: $subject) -> Self {
+                Self::$of(found)
+            }
+        }
+        impl From<$subject> for Warning {
+            fn from(found: $subject) -> Self {
+                Finding::from(found).into()
+            }
+        })*
+    };
+}
+subjects!(
+    Camera(CameraFinding),
+    Captures(CaptureFinding),
+    Frames(FramesFinding),
+    Movement(MovementFinding),
+    Robot(RobotFinding),
+    Streams(StreamFinding),
+    Target(TargetFinding),
+    Touches(TouchFinding)
+);

@@ -1,0 +1,152 @@
+//! Findings about something that moved during the session.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Setup;
+
+/// Something that moved during the session, or captures that say so.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Movement {
+    /// How.
+    pub kind: MovementKind,
+    /// Whether it may be the camera that moved.
+    pub camera: bool,
+    /// Whether it may be the target that moved.
+    pub target: bool,
+    /// First capture of a block, after a step, or of a slip.
+    pub first: String,
+    /// Last one.
+    pub last: String,
+    /// Whether the captures run to the end of the session.
+    pub at_end: bool,
+    /// Whether the robot poses of a block lie at a place of their own, or the robot went from place to place, and may err
+    /// there.
+    pub at_a_place: bool,
+    /// How far, at the target (mm).
+    pub displacement_mm: f64,
+    /// By which angle.
+    pub rotation_deg: f64,
+    /// How probable a movement is.
+    pub probability: f64,
+    /// By how much the predicted error was widened (mm, squares added).
+    pub widened_mm: f64,
+}
+
+/// How something moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MovementKind {
+    /// Captures one after the other are rejected, and agree with one another.
+    Block,
+    /// At once, between two captures.
+    Step,
+    /// Evenly from the first capture to the last.
+    Slip,
+}
+
+/// What is found about movements.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MovementFinding {
+    /// Captures that were rejected one after the other agree with one another.
+    Displaced(Movement, Setup),
+    /// Something moved, and the stated error covers it.
+    Covered(Movement, Setup),
+    /// The camera moved, and the answer is where it is since then.
+    AnswerOfTheEnd {
+        /// What moved.
+        movement: Movement,
+        /// Who carries the camera.
+        setup: Setup,
+        /// Captures since then.
+        captures: usize,
+        /// Whether there are touches, which may be older.
+        touches: bool,
+    },
+    /// The camera moved, and the captures since then do not determine an answer.
+    TooFewSince(Movement, Setup),
+}
+
+impl MovementFinding {
+    pub(super) fn code(&self) -> &'static str {
+        match self {
+            Self::Displaced(..) => "captures-displaced",
+            Self::Covered(..) => "moved-during-session",
+            Self::AnswerOfTheEnd { .. } | Self::TooFewSince(..) => "camera-moved",
+        }
+    }
+
+    /// What was seen, with its numbers.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Displaced(movement, setup) | Self::Covered(movement, setup) => {
+                in_words(movement, *setup, movement.widened_mm > 0.0)
+            }
+            Self::AnswerOfTheEnd { movement, setup, captures, touches } => format!(
+                "{}. The answer is where the camera is since capture {}, from the {captures} captures since then \
+                 alone{}",
+                in_words(movement, *setup, false),
+                movement.first,
+                if *touches { "; the touches may be older, and are not used" } else { "" }
+            ),
+            Self::TooFewSince(movement, setup) => format!(
+                "{}, and these do not determine an answer alone: take more captures as the camera sits now",
+                in_words(movement, *setup, false)
+            ),
+        }
+    }
+
+    pub(super) fn headline(&self) -> Option<String> {
+        match self {
+            Self::Covered(movement, _) if movement.widened_mm > 0.0 => Some(format!(
+                "something moved by {:.2} mm during the session, and the stated error covers it",
+                movement.displacement_mm
+            )),
+            Self::AnswerOfTheEnd { movement, .. } => Some(format!(
+                "the camera moved by {:.2} mm during the session, and the answer is where it is now",
+                movement.displacement_mm
+            )),
+            _ => None,
+        }
+    }
+}
+
+/// What moved by how much, with the possible causes; `covered` says that the stated error covers it.
+fn in_words(m: &Movement, setup: Setup, covered: bool) -> String {
+    let how_far = format!("{:.2} mm and {:.3} degrees", m.displacement_mm, m.rotation_deg);
+    let camera = format!("the camera moved on the {}", setup.mount());
+    let target = match setup {
+        Setup::EyeInHand => "the target moved",
+        Setup::EyeToHand => "the target moved on the flange",
+    };
+    let mut causes: Vec<&str> = vec![];
+    if m.camera {
+        causes.push(&camera);
+    }
+    if m.target {
+        causes.push(target);
+    }
+    if m.at_a_place {
+        causes.push(match m.kind {
+            MovementKind::Block => "the robot errs where these were taken",
+            _ => "the robot errs by place, as it went from place to place",
+        });
+    }
+    let causes = causes.join(", or ");
+    let covers = if covered { "; the stated error covers it" } else { "" };
+    match m.kind {
+        MovementKind::Block => format!(
+            "captures {} to {} agree with one another, {how_far} away from the others: {causes}{covers}",
+            m.first, m.last
+        ),
+        MovementKind::Step => format!(
+            "the captures from {} on differ from those before by {how_far}: {causes}{covers}. Tighten what gives way, \
+             and take the captures again",
+            m.first
+        ),
+        MovementKind::Slip => format!(
+            "errors grow evenly by {how_far} from capture {} to {}: {causes}{covers}. Warm up, tighten what \
+             gives way, and take the captures again",
+            m.first, m.last
+        ),
+    }
+}

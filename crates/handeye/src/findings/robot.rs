@@ -1,0 +1,147 @@
+//! Findings about the robot's poses, its arm, and what the user says of the camera's position.
+
+/// What is found about the robot.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RobotFinding {
+    /// Poses look inverted.
+    Inverted {
+        /// Which.
+        which: Inverted,
+        /// Median residual as declared (mm); `None` where nothing agrees at all.
+        before_mm: Option<f64>,
+        /// Median residual the other way, mm.
+        after_mm: f64,
+    },
+    /// Robot poses beyond any robot's reach.
+    LengthUnit {
+        /// The farthest from the base, m.
+        farthest_m: f64,
+    },
+    /// Target poses beyond any camera's sight.
+    TargetLengthUnit {
+        /// Their median distance from the camera, m.
+        distance_m: f64,
+    },
+    /// The arm is not as its model says.
+    ArmDeviates {
+        /// Parameters that were corrected.
+        parameters: usize,
+        /// Error of the robot's position per axis with the given model, mm.
+        before_mm: f64,
+        /// With the corrected one, mm.
+        after_mm: f64,
+    },
+    /// Joint values do not lead to the flange pose beside them.
+    JointsAndPosesDiffer {
+        /// Where, in words.
+        at: String,
+    },
+    /// Something rests on the position that the user gave alone.
+    DeterminedByKnownPosition {
+        /// What, in words.
+        what: String,
+        /// The position, mm.
+        given_mm: f64,
+    },
+    /// The data contradict the position that the user gave.
+    KnownPositionDisagrees {
+        /// As given, mm.
+        given_mm: f64,
+        /// As the data have it, mm.
+        found_mm: f64,
+    },
+}
+
+/// Poses that look inverted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Inverted {
+    /// Those of the robot, or the setup is the other one.
+    Robot,
+    /// Those of the target.
+    Target,
+    /// Either of them.
+    Either,
+}
+
+impl Inverted {
+    fn in_words(self) -> &'static str {
+        match self {
+            Self::Either => {
+                "either the robot poses look inverted (flange_from_base), or the target poses (target_from_camera), or \
+                 the camera is mounted the other way (eye-in-hand against eye-to-hand); the data cannot tell between \
+                 these"
+            }
+            Self::Target => "the target poses look inverted: they take camera points to the target",
+            Self::Robot => {
+                "the robot poses look inverted (flange_from_base), or the camera is mounted the other way (eye-in-hand \
+                 against eye-to-hand)"
+            }
+        }
+    }
+}
+
+impl RobotFinding {
+    pub(super) fn code(&self) -> &'static str {
+        match self {
+            Self::Inverted { which: Inverted::Either, .. } => "poses-inverted",
+            Self::Inverted { which: Inverted::Target, .. } => "target-poses-inverted",
+            Self::Inverted { which: Inverted::Robot, .. } => "robot-poses-inverted",
+            Self::LengthUnit { .. } => "robot-length-unit",
+            Self::TargetLengthUnit { .. } => "target-length-unit",
+            Self::ArmDeviates { .. } => "arm-deviates",
+            Self::JointsAndPosesDiffer { .. } => "joints-and-poses-differ",
+            Self::DeterminedByKnownPosition { .. } => "determined-by-known-position",
+            Self::KnownPositionDisagrees { .. } => "known-position-disagrees",
+        }
+    }
+
+    /// What was seen, with its numbers.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Inverted { which, before_mm, after_mm } => format!(
+                "{}: read so, the median misfit falls from {} to {after_mm:.1} mm; check `direction` and `setup`",
+                which.in_words(),
+                before_mm.map_or("no agreement at all".into(), |mm| format!("{mm:.1} mm"))
+            ),
+            Self::LengthUnit { farthest_m } => format!(
+                "the robot poses lie up to {farthest_m:.0} m from the base: were millimetres read as metres? check the \
+                 length unit"
+            ),
+            Self::TargetLengthUnit { distance_m } => format!(
+                "the target poses lie {distance_m:.0} m from the camera: were millimetres read as metres? check the \
+                 length unit"
+            ),
+            Self::ArmDeviates { parameters, before_mm, after_mm } => format!(
+                "the arm is not as its model says: with {parameters} of its parameters corrected, the robot's position \
+                 errs by {after_mm:.2} mm per axis instead of {before_mm:.2}; the corrected model stands in the result \
+                 (arm), with the camera's place for a robot that uses it; the answer itself is for the robot as it is"
+            ),
+            Self::JointsAndPosesDiffer { at } => format!(
+                "{at}: the joint values do not lead to the flange pose beside them by the model of the arm; check its \
+                 parameters, their units, and the order of the joints. The arm was not examined"
+            ),
+            Self::DeterminedByKnownPosition { what, given_mm } => format!(
+                "the data do not determine {what}: it rests on the `known_position` of {given_mm:.1} mm alone, and \
+                 nothing checks that; touch a corner, or tilt the robot"
+            ),
+            Self::KnownPositionDisagrees { given_mm, found_mm } => format!(
+                "`known_position` says {given_mm:.1} mm, the data {found_mm:.1} mm: measure it again, or leave it out"
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_inversion_has_a_code_for_each_kind() {
+        let of = |which| RobotFinding::Inverted { which, before_mm: None, after_mm: 0.5 };
+        assert_eq!(of(Inverted::Robot).code(), "robot-poses-inverted");
+        assert_eq!(of(Inverted::Target).code(), "target-poses-inverted");
+        let either = of(Inverted::Either);
+        assert_eq!(either.code(), "poses-inverted");
+        assert!(either.message().contains("falls from no agreement at all to 0.5 mm"));
+    }
+}

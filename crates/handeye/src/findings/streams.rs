@@ -1,0 +1,169 @@
+//! Findings about streams of poses, their clocks, and errors that change with time.
+
+/// What is found about streams.
+#[derive(Debug, Clone, PartialEq)]
+pub enum StreamFinding {
+    /// Samples came out of order.
+    Unsorted {
+        /// `robot` or `camera`.
+        stream: &'static str,
+        /// How many.
+        count: usize,
+    },
+    /// Samples are there twice.
+    Repeated {
+        /// `robot` or `camera`.
+        stream: &'static str,
+        /// How many.
+        count: usize,
+    },
+    /// Samples share their time with a different pose.
+    Conflicting {
+        /// `robot` or `camera`.
+        stream: &'static str,
+        /// How many.
+        count: usize,
+    },
+    /// Samples are too far apart for a pose between them.
+    Gaps {
+        /// `robot` or `camera`.
+        stream: &'static str,
+        /// How many.
+        count: usize,
+        /// The longest interval that is none, s.
+        limit_s: f64,
+        /// The same over the stream's median interval.
+        times_median: f64,
+    },
+    /// Captures at times at which there is no pose of the robot.
+    WithoutRobotPose {
+        /// Their names.
+        captures: Vec<String>,
+    },
+    /// Camera time minus robot time.
+    Offset {
+        /// The offset, s.
+        offset_s: f64,
+        /// Its standard deviation.
+        sigma_s: f64,
+        /// Samples that are captures.
+        chosen: usize,
+        /// All samples.
+        of: usize,
+    },
+    /// The streams do not tell the offset.
+    OffsetUndetermined,
+    /// The motion repeats, and other offsets fit as well.
+    OffsetAmbiguous {
+        /// The others, s.
+        others_s: Vec<f64>,
+    },
+    /// Errors of neighbouring captures are correlated.
+    NeighboursAlike {
+        /// Their correlation.
+        correlation: f64,
+    },
+    /// Errors change slowly from capture to capture.
+    Drift {
+        /// Of what, and by how much.
+        drift: Drift,
+        /// Whether the answer takes it into account; there is none otherwise.
+        is_fitted: bool,
+    },
+}
+
+/// A random walk of errors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drift {
+    /// Whether the camera moves in its holder; the target or the robot otherwise.
+    pub of_camera: bool,
+    /// Standard deviation per axis from one capture to the next, degrees.
+    pub rotation_deg: f64,
+    /// The same, mm.
+    pub position_mm: f64,
+    /// The same of the unit of distances; zero where it is known.
+    pub scale: f64,
+}
+
+impl Drift {
+    /// What moves, and by how much.
+    pub fn in_words(&self) -> String {
+        let what = match self.of_camera {
+            false => "the target or the robot seems to move",
+            true => "the camera seems to move in its holder",
+        };
+        let unit = match self.scale > 0.0 {
+            true => format!(", {:.3} % of the unit of distances", self.scale * 100.0),
+            false => String::new(),
+        };
+        format!(
+            "{what} by {:.3} degrees and {:.2} mm per axis{unit} from one capture to the next",
+            self.rotation_deg, self.position_mm
+        )
+    }
+}
+
+impl StreamFinding {
+    pub(super) fn code(&self) -> &'static str {
+        match self {
+            Self::Unsorted { .. } => "stream-unsorted",
+            Self::Repeated { .. } => "stream-repeated",
+            Self::Conflicting { .. } => "stream-conflicting",
+            Self::Gaps { .. } => "stream-gaps",
+            Self::WithoutRobotPose { .. } => "capture-without-robot-pose",
+            Self::Offset { .. } => "time-offset",
+            Self::OffsetUndetermined => "time-offset-undetermined",
+            Self::OffsetAmbiguous { .. } => "time-offset-ambiguous",
+            Self::NeighboursAlike { .. } => "neighbours-alike",
+            Self::Drift { .. } => "drift",
+        }
+    }
+
+    /// What was seen, with its numbers.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Unsorted { stream, count } => {
+                format!("{count} {stream} samples came out of order and are sorted")
+            }
+            Self::Repeated { stream, count } => {
+                format!("{count} {stream} samples are there twice; one of each is used")
+            }
+            Self::Conflicting { stream, count } => format!(
+                "{count} {stream} samples share their time with a different pose and are left out: are stamps rounded \
+                 too much?"
+            ),
+            Self::Gaps { stream, count, limit_s, times_median } => format!(
+                "the {stream} stream has {count} gaps, longer than {limit_s:.4} s ({times_median} times its median \
+                 interval) or with a quarter turn and more between two samples; no pose is made up within"
+            ),
+            Self::WithoutRobotPose { captures } => format!(
+                "{} captures were taken where the robot's poses have a gap, or before or after them, and are left out: \
+                 {}",
+                captures.len(),
+                captures.join(", ")
+            ),
+            Self::Offset { offset_s, sigma_s, chosen, of } => format!(
+                "the camera's clock is ahead of the robot's by {offset_s:.6} s +- {sigma_s:.6} s (camera time = robot \
+                 time + offset); {chosen} of {of} samples, spread evenly over the motion, are the captures"
+            ),
+            Self::OffsetUndetermined => "the streams do not tell the time offset between camera and robot: the robot \
+                                         does not move where the camera sees the target, or moves at a constant speed; \
+                                         let it start, stop and turn about changing axes"
+                .into(),
+            Self::OffsetAmbiguous { others_s } => format!(
+                "the motion repeats, so that time offsets of {} s fit as well; of them all, the one with the longest \
+                 time in common is taken. The camera's place does not depend on it",
+                others_s.iter().map(|o| format!("{o:.3}")).collect::<Vec<_>>().join(", ")
+            ),
+            Self::NeighboursAlike { correlation } => format!(
+                "misfits of neighbouring captures are alike (correlation {correlation:.2}): errors that change slowly \
+                 with the pose, so that the answer is less sure than stated"
+            ),
+            Self::Drift { drift, is_fitted: true } => format!(
+                "errors change slowly from capture to capture: {}; the answer takes it into account",
+                drift.in_words()
+            ),
+            Self::Drift { drift, is_fitted: false } => drift.in_words(),
+        }
+    }
+}

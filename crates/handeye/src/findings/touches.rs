@@ -1,0 +1,229 @@
+//! Findings about touches, point pairs and the tool's tip.
+
+/// What is found about touches.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TouchFinding {
+    /// One is too far from where all other data put its corner.
+    Outlier {
+        /// The corner's id.
+        corner: u32,
+        /// The placement of the board.
+        placement: String,
+        /// Chance of a distance as large.
+        p_value: f64,
+    },
+    /// One is too far from where views and the other touches put its corner.
+    Misplaced {
+        /// The corner's id.
+        corner: u32,
+        /// The placement of the board.
+        placement: String,
+        /// How far, mm.
+        off_mm: f64,
+        /// The corner with whose touch it looks exchanged.
+        exchanged_with: Option<u32>,
+    },
+    /// Most of them contradict the views.
+    Misread {
+        /// What would explain it, or what to check.
+        answer: String,
+        /// Touches that agree with one tip.
+        agreeing: usize,
+        /// All touches.
+        of: usize,
+        /// Median distance from where the views put their corners, mm.
+        off_mm: f64,
+    },
+    /// The tool's tip is not where the robot has it.
+    TipOff {
+        /// Its best estimate minus what was given, mm.
+        offset_mm: [f64; 3],
+        /// Whether that is in the frame of the flange; in that of the base otherwise.
+        in_flange: bool,
+        /// Chance of an estimate as large when the tip is right.
+        p_value: f64,
+        /// As many squares of the board as the offset is long.
+        squares: Option<u32>,
+    },
+    /// Views and touches disagree, and no tip explains it.
+    ViewsDisagree {
+        /// Chance of a difference as large.
+        p_value: f64,
+    },
+    /// Too few for a candidate.
+    NotEnough {
+        /// Its name.
+        candidate: String,
+        /// Why.
+        error: String,
+    },
+    /// No view shows the touched corners.
+    WithoutView {
+        /// The placement of the board.
+        placement: String,
+        /// Ids of the touched corners.
+        corners: Vec<u32>,
+        /// Why.
+        unseen: Unseen,
+    },
+    /// The same touch is listed several times.
+    Repeated {
+        /// The corner's id.
+        corner: u32,
+        /// The placement of the board.
+        placement: String,
+        /// How often.
+        count: usize,
+    },
+    /// A ball has no corners to touch.
+    OfABall,
+    /// Point pairs lie nearly on a line.
+    NearlyCollinear {
+        /// Spread across the line over that along it.
+        ratio: f64,
+    },
+    /// They alone determine what views do not.
+    AloneDetermine {
+        /// What, in words.
+        what: String,
+    },
+}
+
+/// Why no view shows touched corners.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Unseen {
+    /// The placement's image does not show the target, for this reason.
+    NotFound(String),
+    /// The placement has neither image nor corners.
+    NothingSeen,
+    /// There is no such placement.
+    NoPlacement,
+}
+
+impl TouchFinding {
+    pub(super) fn code(&self) -> &'static str {
+        match self {
+            Self::Outlier { .. } | Self::Misplaced { .. } => "touch-rejected",
+            Self::Misread { .. } => "touches-misread",
+            Self::TipOff { .. } => "tip-off",
+            Self::ViewsDisagree { .. } => "views-and-touches-disagree",
+            Self::NotEnough { .. } => "touches-not-enough",
+            Self::WithoutView { .. } => "touch-without-view",
+            Self::Repeated { .. } => "touch-repeated",
+            Self::OfABall => "touches-without-corners",
+            Self::NearlyCollinear { .. } => "points-nearly-collinear",
+            Self::AloneDetermine { .. } => "determined-by-touches",
+        }
+    }
+
+    /// What was seen, with its numbers.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Outlier { corner, placement, p_value } => format!(
+                "the touch of corner {corner} of {placement:?} is left out: it is too far from where all else puts \
+                 that corner (p = {p_value:.0e}); a wrong corner, or a slipped tip"
+            ),
+            Self::Misplaced { corner, placement, off_mm, exchanged_with } => format!(
+                "the touch of corner {corner} of {placement:?} is left out: it is {off_mm:.1} mm from where views and \
+                 other touches put that corner{}",
+                exchanged_with.map_or("; a wrong corner, or a slipped tip".into(), |other| {
+                    format!("; it looks exchanged with that of corner {other}")
+                })
+            ),
+            Self::Misread { answer, agreeing, of, off_mm } => format!(
+                "views and touches contradict each other: {answer}. As declared only {agreeing} of {of} touches agree \
+                 with any one tool tip, and half of them are more than {off_mm:.0} mm from where the views put their \
+                 corners"
+            ),
+            Self::TipOff { offset_mm, in_flange, p_value, squares } => {
+                tip_off(offset_mm, *in_flange, *p_value, *squares)
+            }
+            Self::ViewsDisagree { p_value } => format!(
+                "views and touches disagree, p = {p_value:.1e}, and no tool tip explains it: the robot is calibrated \
+                 differently where it was touched and where the views were taken, images were taken at other moments \
+                 than the robot's poses, or images and scans differ; the answer holds near the touched places"
+            ),
+            Self::NotEnough { candidate, error } => format!("no {candidate} candidate: {error}"),
+            Self::WithoutView { placement, corners, unseen } => {
+                without_view(placement, corners, unseen)
+            }
+            Self::Repeated { corner, placement, count } => format!(
+                "the touch of corner {corner} of {placement:?} is listed {count} times with the same numbers and \
+                 counts once: touch the corner anew for a second measurement"
+            ),
+            Self::OfABall => "a ball has no corners: the touches are left out".into(),
+            Self::NearlyCollinear { ratio } => format!(
+                "the points lie nearly on a line (spread across it {:.0} % of that along it): the rotation about that \
+                 line is weak; add points away from it",
+                ratio * 100.0
+            ),
+            Self::AloneDetermine { what } => format!(
+                "the views do not determine {what}: the touches alone do, and nothing else checks them; tilt the robot \
+                 about a second axis if it can"
+            ),
+        }
+    }
+
+    pub(super) fn headline(&self) -> Option<String> {
+        let Self::TipOff { offset_mm, .. } = self else { return None };
+        Some(format!("the answer corrects the tool's tip by {:.2} mm", length(offset_mm)))
+    }
+}
+
+fn length([x, y, z]: &[f64; 3]) -> f64 {
+    x.hypot(*y).hypot(*z)
+}
+
+fn tip_off(offset_mm: &[f64; 3], in_flange: bool, p_value: f64, squares: Option<u32>) -> String {
+    let [x, y, z] = offset_mm;
+    let off = length(offset_mm);
+    let miscounted = squares.map_or(String::new(), |n| {
+        format!(
+            "; but {off:.1} mm is {} of the board: if the touched corners are counted from another one than corner 0, \
+             correct their ids, and the tip is right",
+            if n == 1 { "one square".to_owned() } else { format!("{n} squares") }
+        )
+    });
+    format!(
+        "views and touches disagree by {off:.2} mm, p = {p_value:.1e}; most likely the tool tip: its best estimate is \
+         off by ({x:.2}, {y:.2}, {z:.2}) mm in the {} frame; calibrate the tool again. The answer takes it into \
+         account{miscounted}",
+        if in_flange { "flange" } else { "base" },
+    )
+}
+
+fn without_view(placement: &str, corners: &[u32], unseen: &Unseen) -> String {
+    let why = match unseen {
+        Unseen::NotFound(reason) => {
+            format!("its picture shows no target ({reason}); take it again, or another one")
+        }
+        Unseen::NothingSeen => {
+            "the camera saw nothing of it; give it a picture, corners or a pose".into()
+        }
+        Unseen::NoPlacement => "no view shows these corners; give the placement a picture".into(),
+    };
+    let count = corners.len();
+    let touches = if count == 1 { "1 touch".to_owned() } else { format!("{count} touches") };
+    let corners = corners.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+    format!("placement {placement}: {touches} left out (corner {corners}): {why}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tip_that_is_off_by_a_square_may_be_a_miscounted_corner() {
+        let tip = |squares| TouchFinding::TipOff {
+            offset_mm: [20.1, 0.0, 0.0],
+            in_flange: true,
+            p_value: 1e-9,
+            squares,
+        };
+        let one = tip(Some(1)).message();
+        assert!(one.contains("20.1 mm is one square of the board"), "{one}");
+        assert!(!tip(None).message().contains("square"));
+        let headline = tip(None).headline();
+        assert_eq!(headline.as_deref(), Some("the answer corrects the tool's tip by 20.10 mm"));
+    }
+}

@@ -1,0 +1,31 @@
+//! A finding in the form in which files and pages have it.
+
+use serde::{Deserialize, Serialize};
+
+use super::Finding;
+
+/// Something the user should know about a result that still stands.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Warning {
+    /// Short fixed name, for programs: `pose-flipped`.
+    pub code: String,
+    /// What was seen, where, and what to do.
+    pub message: String,
+    /// What it says, with its numbers; `None` for what was noticed in files, and in a result that was read back.
+    #[serde(skip)]
+    pub finding: Option<Box<Finding>>,
+}
+
+/// Equal for who reads them: a result that was written and read back is the same.
+impl PartialEq for Warning {
+    fn eq(&self, other: &Self) -> bool {
+        self.code == other.code && self.message == other.message
+    }
+}
+
+impl Warning {
+    /// From its two parts.
+    pub fn new(code: &str, message: impl Into<String>) -> Self {
+        Self { code: code.into(), message: message.into(), finding: None }
+    }
+}
