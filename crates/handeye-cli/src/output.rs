@@ -264,7 +264,7 @@ fn candidates(c: &Calibration) -> String {
         let touches = if touched { format!("{touches:>12}") } else { String::new() };
         format!("{mark} {name:<26}{own:>12}{out:>13}{touches}{tre:>15}\n")
     };
-    let head = ["in sample", "held out", "touches", "predicted TRE"];
+    let head = ["in sample", "held out", "touches", "predicted RMS"];
     let mut text = "\n".to_owned() + &line(" ", "candidate", head);
     for k in &c.candidates {
         let mark = if c.chosen.as_deref() == Some(k.name.as_str()) { ">" } else { " " };

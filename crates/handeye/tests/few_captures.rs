@@ -29,7 +29,7 @@ fn clean_sets_of_four_and_five_captures_are_not_called_inverted() {
                     found.reasons
                 );
                 assert!(
-                    !found.reasons.iter().any(|r| r.contains("captures left out are missed")),
+                    !found.reasons.iter().any(|r| r.contains("leave-one-out residual")),
                     "{setup:?} {captures} {seed}: {:?}",
                     found.reasons
                 );

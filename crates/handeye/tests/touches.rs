@@ -153,7 +153,7 @@ fn touches_under_other_ids_contradict_the_views_and_the_way_of_counting_is_named
     for setup in SETUPS {
         let (session, _) = session(setup, |column, row| column % 4 == 0 && row % 5 == 0);
         let ways: [(&str, Way); 4] = [
-            ("turned by half a turn", |id| 53 - id),
+            ("rotated by 180 degrees", |id| 53 - id),
             ("counted from 1", |id| (id + 1).min(53)),
             ("column by column", |id| id % 9 * 6 + id / 9),
             ("the other side", |id| id / 9 * 9 + 8 - id % 9),

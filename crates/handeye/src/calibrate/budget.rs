@@ -39,7 +39,7 @@ pub(super) fn budget(
         all.push(BudgetEntry {
             source: "beliefs".into(),
             sigma:
-                "tool tip, lens, size, depth and errors that captures share, as believed beforehand"
+                "tool tip, intrinsics, size, depth and errors that captures share, by their priors"
                     .into(),
             sigma_mm: None,
             sigma_deg: None,
@@ -76,7 +76,7 @@ const CHANGES: [(&str, &[Source]); 3] = [
         &[Source::RobotRotation, Source::RobotPosition],
     ),
     (
-        "pictures twice as exact: a larger board, better light, a calibrated lens",
+        "images twice as exact: a larger board, better light, calibrated intrinsics",
         &[
             Source::Picture,
             Source::CameraTilt,

@@ -35,8 +35,7 @@ pub(super) fn from_points(session: &Session, result: &mut Calibration) {
     let tre = found.covariance.zip(volume).map(|(c, v)| predict::tre(&v, &c, |_| Vector3::zeros()));
     weak_directions(&touches, result);
     if held_out.is_none() && touches.len() > 3 {
-        let what = "without one of the points the others lie on a line or are too few: the rotation \
-                    rests on a single point that nothing checks; add points away from the line";
+        let what = "without one of the points the others lie on one line or are too few: the rotation rests on a single point that nothing checks; add points away from the line";
         result.reasons.push(what.into());
         result.verdict = Verdict::Rejected;
     }

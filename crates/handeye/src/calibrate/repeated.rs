@@ -80,7 +80,8 @@ impl Uncounted {
         for (capture, first) in captures {
             let mut report = agreement::first_report(&capture);
             report.used = false;
-            report.reason = Some(format!("{does} capture {first}: of each place one counts"));
+            report.reason =
+                Some(format!("{does} capture {first}: one capture of each pose counts"));
             let at = result.captures.iter().position(|c| natural(&c.id, &report.id).is_gt());
             result.captures.insert(at.unwrap_or(result.captures.len()), report);
         }

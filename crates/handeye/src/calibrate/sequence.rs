@@ -173,8 +173,7 @@ fn loose(found: &DriftFit, plain: &Calibration) -> Calibration {
     let mut result = plain.clone();
     let drift = in_numbers(Side::Camera, found);
     result.reasons = vec![format!(
-        "errors change slowly from capture to capture: {}; it has no one place on its mount: fasten it, and take the \
-         captures anew",
+        "errors change slowly from capture to capture: {}; it has no single pose on its mount: fasten it, and take the captures again",
         drift.in_words()
     )];
     result.verdict = Verdict::Rejected;
@@ -344,8 +343,7 @@ fn report(
     result.chosen = Some(NAME.into());
     result.method = NAME.into();
     result.why = String::from(
-        "the errors of neighbouring captures are alike, and the other candidates take them as \
-         independent",
+        "the errors of neighbouring captures are correlated, and the other candidates treat them as independent",
     );
     (result.error_budget, result.advice) = (vec![], vec![]);
     result.held_out = held_out;
@@ -417,10 +415,7 @@ fn conclude(tre: Option<PredictedTre>, config: &Config, result: &mut Calibration
     let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
     match &tre {
         Some(tre) if tre.p95 <= limit && result.verdict == Verdict::Accepted => {
-            result.reasons.push(format!(
-                "95 of 100 points in {} are predicted within {:.2} mm",
-                tre.r#where, tre.p95
-            ));
+            result.reasons.push(tre.in_words());
         }
         Some(tre) if tre.p95 > limit => {
             result.reasons.push(format!(

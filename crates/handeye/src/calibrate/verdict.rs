@@ -63,10 +63,7 @@ pub(super) fn conclude(config: &Config, result: &mut Calibration) {
     if result.verdict == Verdict::Accepted
         && let Some(tre) = &result.predicted_tre_mm
     {
-        result.reasons.push(format!(
-            "95 of 100 points in {} are predicted within {:.2} mm",
-            tre.r#where, tre.p95
-        ));
+        result.reasons.push(tre.in_words());
     }
 }
 
@@ -123,7 +120,7 @@ pub(super) fn contradictions(result: &Calibration) -> Vec<String> {
     if seen > 0 && used > 0 && (used as f64) < LEAST_AGREEING * seen as f64 {
         against.push(format!(
             "only {used} of {seen} captures agree: captures and robot poses may be out of order, or \
-             a pose notation is read wrongly"
+             the pose notation is declared wrongly"
         ));
     }
     let (mm, deg) = (result.held_out.translation_rms_mm, result.held_out.rotation_rms_deg);
@@ -133,8 +130,7 @@ pub(super) fn contradictions(result: &Calibration) -> Vec<String> {
     }
     if mm.is_some_and(|mm| mm > MOST_HELD_OUT.0) || deg.is_some_and(|deg| deg > MOST_HELD_OUT.1) {
         against.push(format!(
-            "captures left out are missed by {:.1} mm and {:.2} degrees (RMS): far beyond a robot \
-             and camera in order; check order, notation, direction and setup of the poses",
+            "the leave-one-out residual is {:.1} mm and {:.2} degrees (RMS), far beyond a robot and a camera in order: check order, notation, direction and setup of the poses",
             mm.unwrap_or(f64::NAN),
             deg.unwrap_or(f64::NAN)
         ));

@@ -234,8 +234,7 @@ fn in_other_units(
         ));
     }
     enough(agreeing(1.0, 1e3)).then(|| {
-        "the tool's tip is in metres, and in_flange_mm of [touches.tip] is in mm: a thousand times as \
-         far from the flange they agree"
+        "the tool's tip is in metres, and in_flange_mm of [touches.tip] is in mm: with a tip a thousand times as far from the flange they agree"
             .into()
     })
 }
@@ -256,7 +255,7 @@ fn renamed(
     let by_columns = |id: u32| Some((id % rows) * columns + id / rows);
     let other_way = |id: u32| Some(id / columns * columns + (columns - 1 - id % columns));
     let ways: [Way; 5] = [
-        ("the board is turned by half a turn against the ids of the touches", &|id| {
+        ("the board is rotated by 180 degrees against the ids of the touches", &|id| {
             last.checked_sub(id)
         }),
         ("the corners are counted from 1, and ids count from 0", &|id| id.checked_sub(1)),

@@ -27,6 +27,16 @@ pub struct PredictedTre {
     pub map: Option<TreMap>,
 }
 
+impl PredictedTre {
+    /// As the reason of an accepted answer.
+    pub(crate) fn in_words(&self) -> String {
+        let Self { p95, r#where: volume, rms, .. } = self;
+        format!(
+            "predicted position error: {p95:.2} mm for 95 % of the points in {volume}; {rms:.2} mm RMS"
+        )
+    }
+}
+
 /// Predicted error (95 %) in three orthogonal slices through the middle of a volume.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TreMap {

@@ -113,16 +113,14 @@ impl CameraFinding {
     pub(super) fn message(&self) -> String {
         match self {
             Self::Refined { changed, half_pixel } => format!(
-                "pictures and robot poses fit together only with another lens than the one given: {}; it is used here \
-                 and stands in the result: use it for pictures too, or calibrate the camera again{}",
+                "the given intrinsics do not fit images and robot poses; refined: {}. The result uses the refined intrinsics (key `camera`); use them for your images too, or recalibrate the camera{}",
                 in_words(changed),
                 if *half_pixel { HALF } else { "" }
             ),
             Self::CalibratedFromViews { calibrated, used } => calibrated.message(used.as_ref()),
             Self::Bends { k1, sigma, rms_given_px, rms_px } => format!(
                 "the camera is given without distortion, but the target's corners show one: k1 = {k1:.3} +- \
-                 {sigma:.3} takes them from {rms_given_px:.3} to {rms_px:.3} px RMS and is used; calibrate the camera \
-                 with a board all over the picture"
+                 {sigma:.3} reduces their residual from {rms_given_px:.3} to {rms_px:.3} px RMS and is used; calibrate the camera with a board all over the image"
             ),
             Self::DepthByColour {
                 black_minus_white_mm,
@@ -131,8 +129,7 @@ impl CameraFinding {
                 corners_without_depth,
             } => by_colour(*black_minus_white_mm, *sigma_mm, *noise_mm, *corners_without_depth),
             Self::DepthOff { scale, sigma_scale, bias_mm, sigma_bias_mm } => format!(
-                "scans read {:+.3} +- {:.3} % and {bias_mm:+.2} +- {sigma_bias_mm:.2} mm off in depth: the answer \
-                 takes it into account, but points of this camera must be corrected, z = (z' - {bias_mm:.3} \
+                "the depth of the scans is off by {:+.3} +- {:.3} % and {bias_mm:+.2} +- {sigma_bias_mm:.2} mm: the answer corrects it, and the points of this camera must be corrected too, z = (z' - {bias_mm:.3} \
                  mm)/{scale:.5}; let it warm up, and calibrate its depth",
                 (scale - 1.0) * 100.0,
                 sigma_scale * 100.0,
@@ -169,13 +166,11 @@ fn by_colour(black_minus_white_mm: f64, sigma_mm: f64, noise_mm: f64, lost: usiz
     let lost = match lost {
         0 => String::new(),
         n => format!(
-            "; {n} corners of all captures have too few points of one colour around them, and are without depth"
+            "; {n} corners of all captures have no depth, because too few points of one colour are around them"
         ),
     };
     format!(
-        "scans read black {:.3} +- {sigma_mm:.3} mm {farther} than white, against {noise_mm:.3} mm of noise in a \
-         corner: it is taken off the points on black. Which colour is right, a flat board cannot tell; white is taken \
-         to be, so the answer holds for surfaces that the camera reads as it reads white{lost}",
+        "the scans measure black {:.3} +- {sigma_mm:.3} mm {farther} than white (noise of a corner: {noise_mm:.3} mm); points on black were corrected. A flat board cannot tell which colour is right: white is taken to be, so the answer holds for surfaces that the camera measures like white{lost}",
         black_minus_white_mm.abs()
     )
 }
@@ -191,8 +186,8 @@ impl FromViews {
             )
         });
         format!(
-            "no intrinsics given: calibrated from {views} views, {rms_px:.3} px RMS, fx = {fx:.2} px, fy = {fy:.2} px; \
-             a camera calibrated beforehand, with the board all over the picture, is better{used}"
+            "no intrinsics given: calibrated from {views} images, {rms_px:.3} px RMS, fx = {fx:.2} px, fy = {fy:.2} px; \
+             a separate calibration, with the board all over the image, is better{used}"
         )
     }
 }
@@ -200,14 +195,12 @@ impl FromViews {
 fn in_words(changed: &[Moved]) -> String {
     let one = |m: &Moved| format!("{} {:.2} -> {:.2} (+- {:.2}) px", m.name, m.from, m.to, m.sigma);
     match changed {
-        [] => "its distortion has changed, focal lengths and principal point have not".into(),
+        [] => "the distortion alone, focal lengths and principal point are as given".into(),
         _ => changed.iter().map(one).collect::<Vec<_>>().join(", "),
     }
 }
 
-const HALF: &str = ". Half a pixel in x and y: cx and cy as given seem to count from the corner of the \
-                    first pixel where the target's corners count from its centre, or the other way \
-                    round; if so, correct them";
+const HALF: &str = ". Both moved by half a pixel: the given cx and cy seem to count from the corner of the first pixel and the target's corners from its centre, or the other way round; if so, correct them";
 
 /// Whether the principal point alone has moved, by half a pixel both ways.
 fn is_half_a_pixel([fx, fy, cx, cy]: &[Moved; 4]) -> bool {

@@ -174,15 +174,14 @@ impl Cause {
     pub fn in_words(&self) -> String {
         match self {
             Self::TargetRotated { degrees, about_mm, has_corners } => format!(
-                "it fits with the target turned by {degrees} degrees{}: {}",
+                "it fits with the target rotated by {degrees} degrees{}: {}",
                 about_mm.map_or(String::new(), |[x, y]| {
                     format!(" about ({x:.0}, {y:.0}) mm of its own plane")
                 }),
                 if *has_corners {
-                    "its corners are numbered from another end than in the other pictures; detect it again, or number \
-                     them anew"
+                    "its corners are numbered from another end than in the other images; detect it again, or renumber them"
                 } else {
-                    "its pose was found the other way round than in the other captures"
+                    "its pose was found flipped against the other captures"
                 }
             ),
             Self::Exchanged { seen, with } => format!(
@@ -251,31 +250,30 @@ impl CaptureFinding {
     pub fn message(&self) -> String {
         match self {
             Self::Rejected { capture, cause } => {
-                format!("capture {capture} left out: {}", cause.in_words())
+                format!("capture {capture} rejected: {}", cause.in_words())
             }
             Self::ManyRejected { captures, of } => format!(
-                "{} of {of} captures disagree with the others and are left out: {}",
+                "{} of {of} captures disagree with the others and are rejected: {}",
                 captures.len(),
                 captures.join(", ")
             ),
             Self::Few { used, of_a_ball: false } => format!(
-                "only {used} captures: too few to notice a wrong one or to judge the noise well; take 10 to 15"
+                "only {used} captures: too few to notice a wrong one or to estimate the noise well; take 10 to 15"
             ),
             Self::Few { used, of_a_ball: true } => {
-                format!("only {used} captures agree: too few to judge the noise well")
+                format!("only {used} captures agree: too few to estimate the noise well")
             }
             Self::Repeated { captures } => format!(
-                "captures {} repeat others: the same robot pose, and the same view. What the robot misses there is the \
-                 same in all of them, so of each place one counts",
+                "captures {} repeat others (same robot pose, same view): the robot's error is the same in all of them, so one capture of each pose counts",
                 first_of(captures)
             ),
             Self::OfOnePlace { captures } => format!(
                 "captures {} were taken within 6 mm and 0.6 degrees of others, and the robot's error there is the same \
-                 in all of them: of each place one counts. Spread the captures over the workspace",
+                 in all of them: one capture of each position counts. Spread the captures over the workspace",
                 first_of(captures)
             ),
             Self::OutOfOrder { order, agreeing, of, within_mm } => format!(
-                "the robot poses look listed {} their captures: paired so, {agreeing} of {of} captures agree, within \
+                "the robot poses seem to be listed {} their captures: paired so, {agreeing} of {of} captures agree, within \
                  {within_mm:.1} mm; check how captures and poses are paired",
                 order.in_words()
             ),

@@ -115,25 +115,20 @@ impl FramesFinding {
     /// What was seen, with its numbers.
     pub fn message(&self) -> String {
         match self {
-            Self::NotSeparable => "images and scans do not put the target at the same place, and these captures do not \
-                                   tell whether the scans are scaled, tilted or shifted: show the target at several \
+            Self::NotSeparable => "images and scans put the target at different positions, and these captures do not tell whether the scans are scaled, rotated or shifted: show the target at several \
                                    distances and tilts, and check the calibration between image and scan"
                 .into(),
             Self::Scale { value, sigma } => format!(
-                "scans put the board {:+.3} +- {:.3} % farther away than pictures do: the focal length, the board's \
-                 size or the depth's scale is wrong; which one, the robot's motions tell if anything does",
+                "scans put the target {:+.3} +- {:.3} % farther away than images do: the focal length, the size of the target or the scale of depth is wrong; only the robot's motions can tell which",
                 value * 100.0,
                 sigma * 100.0
             ),
             Self::Tilt(axes) => format!(
-                "scans are turned against pictures by {} degrees about x, y, z of the camera: check the calibration \
-                 between picture and depth, and which of the frames the points are given in",
+                "scans are rotated against images by {} degrees about x, y, z of the camera: check the calibration between image and depth, and in which frame the points are given",
                 axes.in_words()
             ),
             Self::Shift(axes) => format!(
-                "scans are shifted against pictures by {} mm along x, y, z of the camera: check the calibration \
-                 between picture and depth, which of the frames the points are given in, and whether depth has an \
-                 offset",
+                "scans are shifted against images by {} mm along x, y, z of the camera: check the calibration between image and depth, in which frame the points are given, and whether depth has an offset",
                 axes.in_words()
             ),
             Self::Disagree { used, distance_mm, angle_deg, other } => format!(

@@ -99,7 +99,7 @@ impl RobotFinding {
     pub fn message(&self) -> String {
         match self {
             Self::Inverted { which, before_mm, after_mm } => format!(
-                "{}: read so, the median misfit falls from {} to {after_mm:.1} mm; check `direction` and `setup`",
+                "{}: with that the median residual falls from {} to {after_mm:.1} mm; check `direction` and `setup`",
                 which.in_words(),
                 before_mm.map_or("no agreement at all".into(), |mm| format!("{mm:.1} mm"))
             ),
@@ -112,17 +112,14 @@ impl RobotFinding {
                  length unit"
             ),
             Self::ArmDeviates { parameters, before_mm, after_mm } => format!(
-                "the arm is not as its model says: with {parameters} of its parameters corrected, the robot's position \
-                 errs by {after_mm:.2} mm per axis instead of {before_mm:.2}; the corrected model stands in the result \
-                 (arm), with the camera's place for a robot that uses it; the answer itself is for the robot as it is"
+                "the arm differs from its model: with {parameters} parameters corrected, the error of the robot's position is {after_mm:.2} mm per axis instead of {before_mm:.2} mm. The result contains the corrected model (key `arm`), and the camera's pose for a robot that uses it; the answer itself is for the robot as it is"
             ),
             Self::JointsAndPosesDiffer { at } => format!(
                 "{at}: the joint values do not lead to the flange pose beside them by the model of the arm; check its \
                  parameters, their units, and the order of the joints. The arm was not examined"
             ),
             Self::DeterminedByKnownPosition { what, given_mm } => format!(
-                "the data do not determine {what}: it rests on the `known_position` of {given_mm:.1} mm alone, and \
-                 nothing checks that; touch a corner, or tilt the robot"
+                "the data do not determine {what}: it rests on `known_position` ({given_mm:.1} mm) alone, and nothing checks that; touch a corner, or tilt the robot"
             ),
             Self::KnownPositionDisagrees { given_mm, found_mm } => format!(
                 "`known_position` says {given_mm:.1} mm, the data {found_mm:.1} mm: measure it again, or leave it out"

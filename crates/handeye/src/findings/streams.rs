@@ -123,22 +123,19 @@ impl StreamFinding {
     pub fn message(&self) -> String {
         match self {
             Self::Unsorted { stream, count } => {
-                format!("{count} {stream} samples came out of order and are sorted")
+                format!("{count} {stream} samples were out of order and have been sorted")
             }
             Self::Repeated { stream, count } => {
-                format!("{count} {stream} samples are there twice; one of each is used")
+                format!("{count} {stream} samples are listed twice; each is used once")
             }
             Self::Conflicting { stream, count } => format!(
-                "{count} {stream} samples share their time with a different pose and are left out: are stamps rounded \
-                 too much?"
+                "{count} {stream} samples have the time stamp of a different pose and are not used: are the time stamps rounded too much?"
             ),
             Self::Gaps { stream, count, limit_s, times_median } => format!(
-                "the {stream} stream has {count} gaps, longer than {limit_s:.4} s ({times_median} times its median \
-                 interval) or with a quarter turn and more between two samples; no pose is made up within"
+                "the {stream} stream has {count} gaps (longer than {limit_s:.4} s, {times_median} times its median interval, or with a quarter turn and more between two samples); poses are not interpolated there"
             ),
             Self::WithoutRobotPose { captures } => format!(
-                "{} captures were taken where the robot's poses have a gap, or before or after them, and are left out: \
-                 {}",
+                "{} captures were taken where the robot's poses have a gap, or before or after them, and are not used: {}",
                 captures.len(),
                 captures.join(", ")
             ),
@@ -148,16 +145,14 @@ impl StreamFinding {
             ),
             Self::OffsetUndetermined => "the streams do not tell the time offset between camera and robot: the robot \
                                          does not move where the camera sees the target, or moves at a constant speed; \
-                                         let it start, stop and turn about changing axes"
+                                         let it start, stop and rotate about changing axes"
                 .into(),
             Self::OffsetAmbiguous { others_s } => format!(
-                "the motion repeats, so that time offsets of {} s fit as well; of them all, the one with the longest \
-                 time in common is taken. The camera's place does not depend on it",
+                "the motion repeats, so time offsets of {} s fit as well; the one with the longest common time was chosen. The camera's pose does not depend on it",
                 others_s.iter().map(|o| format!("{o:.3}")).collect::<Vec<_>>().join(", ")
             ),
             Self::NeighboursAlike { correlation } => format!(
-                "misfits of neighbouring captures are alike (correlation {correlation:.2}): errors that change slowly \
-                 with the pose, so that the answer is less sure than stated"
+                "residuals of neighbouring captures are correlated ({correlation:.2}): errors change slowly with the pose, and the answer is less certain than stated"
             ),
             Self::Drift { drift, is_fitted: true } => format!(
                 "errors change slowly from capture to capture: {}; the answer takes it into account",

@@ -89,21 +89,19 @@ impl TargetFinding {
                 if *value > 1.0 { "longer" } else { "shorter" }
             ),
             Self::Uneven { share, sigma } => format!(
-                "the board is {:.2} +- {:.2} % {} along its y than its x makes it: the answer uses that shape; \
-                 measure the print along both sides, and use one whose squares are square",
+                "the board is {:.2} +- {:.2} % {} along y than along x: the answer uses that shape; measure the print along both sides, and use a print with square squares",
                 share.abs() * 100.0,
                 sigma * 100.0,
                 if *share > 0.0 { "longer" } else { "shorter" }
             ),
             Self::Bent { peak_to_valley_mm } => format!(
-                "the corners in the pictures say that the board is bent, by {peak_to_valley_mm:.2} mm from its highest \
+                "the corners in the images show that the board is bent by {peak_to_valley_mm:.2} mm from its highest \
                  to its lowest corner: the answer uses that shape; lay it on a flat plate and check it with a \
                  straight edge"
             ),
             Self::NotFlat { captures, peak_to_valley_mm, sigma_mm } => format!(
                 "in the scans of {captures} captures the board is bent by {peak_to_valley_mm:.3} +- {sigma_mm:.3} mm \
-                 from its highest to its lowest corner: lay it on a flat plate and check it with a straight edge; if \
-                 it is flat, the 3D camera bends what is flat"
+                 from its highest to its lowest corner: lay it on a flat plate and check it with a straight edge; if it is flat, the 3D camera distorts flat surfaces"
             ),
         }
     }
@@ -149,8 +147,7 @@ impl Size {
         }
         match self.answer {
             SizeOfAnswer::Estimated => format!(
-                "the target is {percent:.2} +- {sigma:.2} % {which} than declared ({size}): the answer uses that size; \
-                 measure the print with a caliper and declare what it says. If the declared size is right, the focal \
+                "the target is {percent:.2} +- {sigma:.2} % {which} than declared ({size}): the answer uses the estimated size; measure the print with a caliper and declare the measured size. If the declared size is right, the focal \
                  length or the robot's own scale is wrong"
             ),
             _ => format!(

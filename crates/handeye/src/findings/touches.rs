@@ -120,13 +120,12 @@ impl TouchFinding {
     pub fn message(&self) -> String {
         match self {
             Self::Outlier { corner, placement, p_value } => format!(
-                "the touch of corner {corner} of {placement:?} is left out: it is too far from where all else puts \
-                 that corner (p = {p_value:.0e}); a wrong corner, or a slipped tip"
+                "the touch of corner {corner} of {placement:?} is rejected: it is too far from where all other data put that corner (p = {p_value:.0e}): a wrong corner id, or the tip slipped"
             ),
             Self::Misplaced { corner, placement, off_mm, exchanged_with } => format!(
-                "the touch of corner {corner} of {placement:?} is left out: it is {off_mm:.1} mm from where views and \
+                "the touch of corner {corner} of {placement:?} is rejected: it is {off_mm:.1} mm from where views and \
                  other touches put that corner{}",
-                exchanged_with.map_or("; a wrong corner, or a slipped tip".into(), |other| {
+                exchanged_with.map_or(": a wrong corner id, or the tip slipped".into(), |other| {
                     format!("; it looks exchanged with that of corner {other}")
                 })
             ),
@@ -139,9 +138,7 @@ impl TouchFinding {
                 tip_off(offset_mm, *in_flange, *p_value, *squares)
             }
             Self::ViewsDisagree { p_value } => format!(
-                "views and touches disagree, p = {p_value:.1e}, and no tool tip explains it: the robot is calibrated \
-                 differently where it was touched and where the views were taken, images were taken at other moments \
-                 than the robot's poses, or images and scans differ; the answer holds near the touched places"
+                "views and touches disagree (p = {p_value:.1e}), and no error of the tool tip explains it: the robot errs differently where it touched and where the views were taken, images were taken at other moments than the robot poses, or images and scans differ. The answer holds near the touched positions"
             ),
             Self::NotEnough { candidate, error } => format!("no {candidate} candidate: {error}"),
             Self::WithoutView { placement, corners, unseen } => {
@@ -151,14 +148,13 @@ impl TouchFinding {
                 "the touch of corner {corner} of {placement:?} is listed {count} times with the same numbers and \
                  counts once: touch the corner anew for a second measurement"
             ),
-            Self::OfABall => "a ball has no corners: the touches are left out".into(),
+            Self::OfABall => "a ball has no corners: the touches are not used".into(),
             Self::NearlyCollinear { ratio } => format!(
-                "the points lie nearly on a line (spread across it {:.0} % of that along it): the rotation about that \
-                 line is weak; add points away from it",
+                "the points lie nearly on one line (their spread across it is {:.0} % of that along it): the rotation about that line is poorly determined; add points away from it",
                 ratio * 100.0
             ),
             Self::AloneDetermine { what } => format!(
-                "the views do not determine {what}: the touches alone do, and nothing else checks them; tilt the robot \
+                "the views do not determine {what}: only the touches do, and nothing checks them; tilt the robot \
                  about a second axis if it can"
             ),
         }
@@ -185,9 +181,7 @@ fn tip_off(offset_mm: &[f64; 3], in_flange: bool, p_value: f64, squares: Option<
         )
     });
     format!(
-        "views and touches disagree by {off:.2} mm, p = {p_value:.1e}; most likely the tool tip: its best estimate is \
-         off by ({x:.2}, {y:.2}, {z:.2}) mm in the {} frame; calibrate the tool again. The answer takes it into \
-         account{miscounted}",
+        "views and touches disagree by {off:.2} mm (p = {p_value:.1e}). The likeliest cause is the tool tip: it is off by ({x:.2}, {y:.2}, {z:.2}) mm in the {} frame. The answer takes that into account; calibrate the tool again{miscounted}",
         if in_flange { "flange" } else { "base" },
     )
 }
@@ -195,17 +189,15 @@ fn tip_off(offset_mm: &[f64; 3], in_flange: bool, p_value: f64, squares: Option<
 fn without_view(placement: &str, corners: &[u32], unseen: &Unseen) -> String {
     let why = match unseen {
         Unseen::NotFound(reason) => {
-            format!("its picture shows no target ({reason}); take it again, or another one")
+            format!("its image shows no target ({reason}); take it again, or another one")
         }
-        Unseen::NothingSeen => {
-            "the camera saw nothing of it; give it a picture, corners or a pose".into()
-        }
-        Unseen::NoPlacement => "no view shows these corners; give the placement a picture".into(),
+        Unseen::NothingSeen => "it has no image, corners or pose; give it one of them".into(),
+        Unseen::NoPlacement => "no view shows these corners; give the placement an image".into(),
     };
     let count = corners.len();
     let touches = if count == 1 { "1 touch".to_owned() } else { format!("{count} touches") };
     let corners = corners.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-    format!("placement {placement}: {touches} left out (corner {corners}): {why}")
+    format!("placement {placement}: {touches} not used (corner {corners}): {why}")
 }
 
 #[cfg(test)]

@@ -61,7 +61,7 @@ pub struct LensSigma {
 impl Session {
     /// What the poses of the target were read from, in a word for people.
     pub(crate) fn read_from(&self) -> &'static str {
-        if self.target.is_some() { "picture" } else { "target pose" }
+        if self.target.is_some() { "image" } else { "target pose" }
     }
 
     /// Captures alone: no target model, camera, touches, or anything else that was measured.
