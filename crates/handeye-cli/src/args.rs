@@ -53,7 +53,8 @@ pub enum Command {
     /// Draw a board to print, in true scale.
     Target(Box<TargetArgs>),
     /// Compare several results of one cell: do they agree?
-    Repeat(RepeatArgs),
+    #[command(visible_alias = "repeat")]
+    Compare(CompareArgs),
     /// Find a tool's tip from flange poses with the tip on one fixed point.
     Tcp(TcpArgs),
     /// Test a calibration on touched points: does the robot find what the camera measures?
@@ -161,7 +162,7 @@ pub struct ExportArgs {
 #[derive(Args)]
 #[command(after_help = "Example:\n  handeye init cell/")]
 pub struct InitArgs {
-    /// Folder with pictures, scans and robot poses.
+    /// Folder with images, scans and robot poses.
     pub folder: PathBuf,
     /// Write over a manifest that is there.
     #[arg(long)]
@@ -248,17 +249,17 @@ pub struct TargetArgs {
     pub paper: String,
 }
 
-/// Arguments of `repeat`.
+/// Arguments of `compare`.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  handeye repeat monday/calibration.json tuesday/calibration.json\n\n\
+    after_help = "Example:\n  handeye compare monday/calibration.json tuesday/calibration.json\n\n\
 Distances are from the combined result: `rms` is the root of their mean square, `max` the largest,\n\
 `one alone` the standard deviation of a single result (the sum of squares over n - 1): how far one\n\
 calibration of this cell scatters. In JSON: rms, max, axes, standard_deviation.\n\n\
 Exit code 0: they agree within what they say of their errors (p >= 0.01); 3: they do not, or cannot\n\
 be tested because one states no covariance."
 )]
-pub struct RepeatArgs {
+pub struct CompareArgs {
     /// The calibration.json of two or more results, or poses that `import` wrote.
     #[arg(required = true, num_args = 2..)]
     pub results: Vec<PathBuf>,
@@ -277,7 +278,7 @@ pub struct DetectArgs {
     /// name.
     #[arg(long, short)]
     pub target: PathBuf,
-    /// Folder for pictures with the corners, their ids and their residuals, magnified, drawn in.
+    /// Folder for images with the corners, their ids and their residuals, magnified, drawn in.
     #[arg(long)]
     pub draw: Option<PathBuf>,
     /// The camera's intrinsics, in any file that a manifest may name: circles are found where their
@@ -303,8 +304,8 @@ pub struct RegisterArgs {
     pub source: PathBuf,
     /// The scan or mesh that stays.
     pub target: PathBuf,
-    /// auto (symmetric), point-to-point, point-to-plane or gicp.
-    #[arg(long, default_value = "auto")]
+    /// symmetric, point-to-point, point-to-plane or gicp.
+    #[arg(long, default_value = "symmetric")]
     pub method: String,
     /// JSON file with the start [default: both scans lie as they are; see --global].
     #[arg(long)]

@@ -13,7 +13,7 @@ use crate::{args::Manners, failure::Failure, output, simulate::SetupArg};
 /// Arguments of `bag`.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  handeye bag session.mcap\n  handeye bag session.mcap --out cell --target board.toml --setup eye-in-hand \\\n      --base base_link --flange tool0\n  handeye calibrate cell\n\nMCAP and SQLite bags of ROS 2 and bags of ROS 1 are read, of a file or a folder, and also those\nthat were not closed. The robot's pose is interpolated to the time of each picture, never over a gap.\nWhere the robot stood still, one picture of each place is taken; otherwise many of the motion, and the\ntime offset between camera and robot is estimated."
+    after_help = "Examples:\n  handeye bag session.mcap\n  handeye bag session.mcap --out cell --target board.toml --setup eye-in-hand \\\n      --base base_link --flange tool0\n  handeye calibrate cell\n\nMCAP and SQLite bags of ROS 2 and bags of ROS 1 are read, of a file or a folder, and also those\nthat were not closed. The robot's pose is interpolated to the time of each image, never over a gap.\nWhere the robot stood still, one image of each place is taken; otherwise many of the motion, and the\ntime offset between camera and robot is estimated."
 )]
 pub struct BagArgs {
     /// The bag: a file, or its folder.
@@ -27,7 +27,7 @@ pub struct BagArgs {
     /// Who carries the camera.
     #[arg(long, value_enum)]
     pub setup: Option<SetupArg>,
-    /// Topic of the pictures, where there are several.
+    /// Topic of the images, where there are several.
     #[arg(long, value_name = "TOPIC")]
     pub image: Option<String>,
     /// Topic of the depth images or clouds, where there are several.
@@ -55,7 +55,7 @@ pub struct BagArgs {
     /// Whether the robot stood still for its pictures.
     #[arg(long, value_enum, default_value_t)]
     pub motion: MotionArg,
-    /// Most pictures of a robot in motion.
+    /// Most images of a robot in motion.
     #[arg(long, default_value_t = 150, value_parser = clap::value_parser!(u16).range(2..))]
     pub most: u16,
     /// Which time of a message counts: of its header, or of its recording.

@@ -99,7 +99,7 @@ fn closer(times: f64) -> String {
 /// What speaks for an explanation.
 fn evidence(declared: Option<&Score>, e: &Explanation) -> String {
     let Some(after) = &e.after else { return String::new() };
-    let mut text = format!("    median misfit    {}\n", misfit(Some(after)));
+    let mut text = format!("    median residual  {}\n", misfit(Some(after)));
     text += &match (e.p_value, declared) {
         (Some(p), _) => format!("    evidence         chance of it in a right dataset: {p:.1e}\n"),
         (None, Some(d)) => {
@@ -119,18 +119,21 @@ fn text(answer: &Answer, apply: Option<usize>) -> String {
         (false, true) => output::wrapped(
             "",
             "The captures do not agree, and none of the usual mistakes explains it: check the \
-             target, the lens, and that pictures and robot poses belong together.",
+             target, the intrinsics, and that images and robot poses belong together.",
         ),
         (false, false) if a.alike > 1 => output::wrapped(
             "",
-            &format!("Cannot tell between these {}: they fit the captures alike.", a.alike),
+            &format!(
+                "Cannot tell between these {}: they explain the captures equally well.",
+                a.alike
+            ),
         ),
         (false, false) => String::new(),
     };
     // with another target or unit than declared, captures are not compared at all
     if a.readings_tried > 0 || a.explanations.is_empty() {
         text += &format!("\n  as declared, of {} captures\n", a.captures);
-        text += &format!("    median misfit    {}\n", misfit(a.declared.as_ref()));
+        text += &format!("    median residual  {}\n", misfit(a.declared.as_ref()));
     }
     for (k, e) in a.explanations.iter().enumerate() {
         text += "\n";
@@ -145,7 +148,7 @@ fn text(answer: &Answer, apply: Option<usize>) -> String {
         let what = format!("next best of {} readings: {}", a.readings_tried, r.message);
         text += "\n";
         text += &output::wrapped("   ", &what);
-        text += &format!("    median misfit    {}\n", misfit(Some(&r.after)));
+        text += &format!("    median residual  {}\n", misfit(Some(&r.after)));
     }
     if !a.not_seen.is_empty() {
         text += "\n";

@@ -30,7 +30,7 @@ use crate::{
 struct Found {
     path: PathBuf,
     found: bool,
-    /// Why the picture shows no target.
+    /// Why the image shows no target.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
     /// Why the file cannot be used at all.
@@ -45,7 +45,7 @@ struct Found {
     corners: Vec<Corner>,
 }
 
-/// What a picture shows of one of several targets.
+/// What an image shows of one of several targets.
 #[derive(Serialize)]
 struct FoundTarget {
     name: String,
@@ -81,7 +81,7 @@ pub fn run(args: &DetectArgs, manners: &Manners) -> Result<u8, Failure> {
     let camera = camera(args)?;
     let drawings = drawings(args)?;
     let search = Search { targets: &targets, camera: camera.as_ref() };
-    let progress = Progress::new("looking at pictures", manners);
+    let progress = Progress::new("looking at images", manners);
     let done = AtomicUsize::new(0);
     let threads = parallel::threads(args.images.iter().map(PathBuf::as_path));
     let looked = parallel::in_order(args.images.len(), threads, |k| {
@@ -113,7 +113,7 @@ fn unusable(path: &Path, failure: &Failure) -> Found {
     Found { path, found: false, reason, error, residual_rms_px, targets, corners }
 }
 
-/// The camera of `--camera`; a file that does not say its pictures' size has that of the first one.
+/// The camera of `--camera`; a file that does not say its images' size has that of the first one.
 fn camera(args: &DetectArgs) -> Result<Option<Intrinsics>, Failure> {
     let Some(file) = &args.camera else { return Ok(None) };
     let name = args.camera_name.as_deref();
@@ -158,7 +158,7 @@ impl Search<'_> {
         })
     }
 
-    /// What the picture shows of each target.
+    /// What the image shows of each target.
     fn seen(&self, image: &GrayImage) -> Vec<Seen<'_>> {
         let models = self.targets.models();
         let outcomes = match &models[..] {
@@ -184,14 +184,14 @@ impl Search<'_> {
         }
         let (calibrated_width, calibrated_height) = (camera.width, camera.height);
         let what = format!(
-            "the picture is {width} x {height} pixels, the camera was calibrated at \
+            "the image is {width} x {height} pixels, the camera was calibrated at \
              {calibrated_width} x {calibrated_height}; give intrinsics for this size"
         );
         Err(Failure::input(path, what))
     }
 }
 
-/// What a picture shows of a target.
+/// What an image shows of a target.
 struct Seen<'a> {
     name: Option<&'a str>,
     corners: Vec<ImageCorner>,
@@ -232,7 +232,7 @@ fn corner(c: &ImageCorner, target: Option<&str>) -> Corner {
     }
 }
 
-/// Where each picture is drawn to: none without `--draw`.
+/// Where each image is drawn to: none without `--draw`.
 fn drawings(args: &DetectArgs) -> Result<Vec<PathBuf>, Failure> {
     let Some(folder) = &args.draw else { return Ok(vec![]) };
     fs::create_dir_all(folder).map_err(|e| Failure::no_folder(folder, e))?;
@@ -269,12 +269,12 @@ fn table(answer: &Answer, targets: &Targets) -> String {
     let lines: String = answer.images.iter().map(line).collect();
     let count = answer.images.len();
     match targets {
-        Targets::One(..) => format!("{lines}target found in {found} of {count} pictures\n"),
-        Targets::Several(_) => format!("{lines}targets found in {count} pictures: {of_each}\n"),
+        Targets::One(..) => format!("{lines}target found in {found} of {count} images\n"),
+        Targets::Several(_) => format!("{lines}targets found in {count} images: {of_each}\n"),
     }
 }
 
-/// The line of one of several targets, below its picture's.
+/// The line of one of several targets, below its image's.
 fn line_of_target(target: &FoundTarget) -> String {
     match &target.reason {
         Some(reason) => format!("        - {}: {reason}\n", target.name),

@@ -4,6 +4,7 @@ mod args;
 mod bag;
 mod calibrate;
 mod check;
+mod compare;
 mod demo;
 mod detect;
 mod export;
@@ -13,7 +14,6 @@ mod init;
 mod output;
 mod progress;
 mod register;
-mod repeat;
 mod simulate;
 mod solve;
 mod target;
@@ -64,7 +64,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Import(args) => import::run(args, &program.manners),
         Command::Bag(args) => bag::run(args, &program.manners),
         Command::Target(args) => target::run(args, &program.manners),
-        Command::Repeat(args) => repeat::run(args, &program.manners),
+        Command::Compare(args) => compare::run(args, &program.manners),
         Command::Tcp(args) => tcp::run(args, &program.manners),
         Command::Verify(args) => verify::run(args, &program.manners),
         Command::Check(args) => check::run(args, &program.manners),

@@ -28,7 +28,7 @@ pub struct SimulateArgs {
     /// Who carries the camera.
     #[arg(long, value_enum, default_value = "eye-in-hand")]
     pub setup: SetupArg,
-    /// Robot poses with a picture.
+    /// Robot poses with an image.
     #[arg(long, default_value_t = 15)]
     pub captures: usize,
     /// Boards laid down to be touched (eye-to-hand) [default: 3].
@@ -37,13 +37,13 @@ pub struct SimulateArgs {
     /// Corners touched on each of them (4), or on the one fixed board (12); 0 for none.
     #[arg(long)]
     pub touches: Option<usize>,
-    /// Picture width, px.
+    /// Image width, px.
     #[arg(long, default_value_t = 1920)]
     pub width: u32,
-    /// Picture height, px.
+    /// Image height, px.
     #[arg(long, default_value_t = 1200)]
     pub height: u32,
-    /// Focal length, px [default: 0.94 picture widths].
+    /// Focal length, px [default: 0.94 image widths].
     #[arg(long)]
     pub focal_px: Option<f64>,
     /// Checkerboard, numbers of inner corners: 9x6.
@@ -102,7 +102,7 @@ pub struct SimulateArgs {
     /// Noise of corners, with --no-images.
     #[arg(long, default_value_t = 0.1)]
     pub corner_px: f64,
-    /// Noise of pictures, of 255 grey values.
+    /// Noise of images, of 255 grey values.
     #[arg(long, default_value_t = 2.0)]
     pub image_noise: f64,
     /// Noise of a depth at 1 m; it grows with the square of the distance.
@@ -123,10 +123,10 @@ pub struct SimulateArgs {
     /// Distances in scans are too large by this.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub scan_scale_percent: f64,
-    /// Scans are turned against pictures by this, about the camera's x.
+    /// Scans are turned against images by this, about the camera's x.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub scan_tilt_deg: f64,
-    /// Scans are shifted against pictures by this, along the camera's x.
+    /// Scans are shifted against images by this, along the camera's x.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub scan_shift_mm: f64,
     /// No noise at all, of nothing.
@@ -138,7 +138,7 @@ pub struct SimulateArgs {
     /// How scans are written; ply and pcd are organised clouds in metres.
     #[arg(long, value_enum, default_value = "depth-png")]
     pub scan_format: ScanFormatArg,
-    /// Pixels of a scan per pixel of a picture: 1, 0.5, ...
+    /// Pixels of a scan per pixel of an image: 1, 0.5, ...
     #[arg(long, default_value_t = 1.0)]
     pub scan_scale: f64,
     /// Lists of corners instead of pictures.
@@ -192,7 +192,7 @@ impl From<ScanFormatArg> for ScanFormat {
 const MOST: usize = 999;
 /// Largest step, bow or shift of a scan, mm.
 const MOST_FAULT_MM: f64 = 100.0;
-/// Largest side of a picture, px.
+/// Largest side of an image, px.
 const LARGEST_PX: u32 = 10_000;
 
 pub fn run(args: &SimulateArgs, manners: &Manners) -> Result<u8, Failure> {
@@ -267,7 +267,7 @@ fn check(args: &SimulateArgs, placements: usize, touches: usize) -> Result<(), F
         return usage("--captures 0: nothing to record".into());
     }
     if !(1..=LARGEST_PX).contains(&args.width) || !(1..=LARGEST_PX).contains(&args.height) {
-        return usage(format!("pictures have 1 to {LARGEST_PX} pixels a side"));
+        return usage(format!("images have 1 to {LARGEST_PX} pixels a side"));
     }
     if !(0.05..=1.0).contains(&args.scan_scale) {
         return usage("--scan-scale is between 0.05 and 1".into());

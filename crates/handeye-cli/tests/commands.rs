@@ -399,7 +399,7 @@ fn several_targets_are_told_by_their_names() {
     let run = handeye(&folder, &args);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(run.stdout.contains("- tag: no tag 3 of DICT_4X4_50"), "{}", run.stdout);
-    assert!(run.stdout.contains("targets found in 1 pictures: tag 0, board 1"), "{}", run.stdout);
+    assert!(run.stdout.contains("targets found in 1 images: tag 0, board 1"), "{}", run.stdout);
     let json = [&args[..], &["--json", "--draw", "d"]].concat();
     let image = &handeye(&folder, &json).json()["images"][0];
     let targets = &image["targets"];
@@ -444,11 +444,11 @@ fn a_file_that_is_no_picture_leaves_the_corners_of_the_others() {
     let folder = Folder::new();
     board(&folder, "board.png");
     folder.put("board.toml", "kind = \"checkerboard\"\ncolumns = 9\nrows = 6\nsquare_mm = 20.0\n");
-    folder.put("text.png", "not a picture");
+    folder.put("text.png", "not an image");
     let args = ["detect", "board.png", "text.png", "--target", "board.toml", "--json"];
     let run = handeye(&folder, &args);
     assert_eq!(run.code, 1);
-    let message = "text.png: is not a picture; PNG, JPEG, TIFF and BMP can be read";
+    let message = "text.png: is not an image; PNG, JPEG, TIFF and BMP can be read";
     assert_eq!(run.error(), message);
     let answer = run.json();
     assert_eq!(answer["images"][0]["corners"].as_array().unwrap().len(), 54);
@@ -502,7 +502,7 @@ fn a_picture_that_cannot_be_read_is_named_with_its_capture() {
     let folder = Folder::new();
     let args = ["simulate", "cell", "--width", "480", "--height", "320", "--captures", "3"];
     assert_eq!(handeye(&folder, &args).code, 0);
-    folder.put("cell/images/002.png", "no picture any more");
+    folder.put("cell/images/002.png", "no image any more");
     let run = handeye(&folder, &["calibrate", "cell", "--json"]);
     assert_eq!(run.code, 1);
     let error = &run.json()["error"];

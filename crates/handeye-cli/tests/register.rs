@@ -171,7 +171,7 @@ fn an_answer_serves_as_the_start_of_another() {
     folder.put("matrix.json", &json!(rows).to_string());
     for (start, method, mm) in [
         ("first.json", "auto", 0.4),
-        ("matrix.json", "auto", 0.4),
+        ("matrix.json", "symmetric", 0.4),
         ("matrix.json", "point-to-plane", 0.5),
         ("matrix.json", "gicp", 1.5),
     ] {

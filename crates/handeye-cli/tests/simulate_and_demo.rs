@@ -224,7 +224,7 @@ fn what_is_wrong_with_scans_and_board_is_named() {
         assert!(warned(&frames).contains(&code.as_str()), "{:?}", warned(&frames));
         let found = &frames["scans"]["frames"];
         assert_eq!(found["proven"], serde_json::json!([part]), "{found}");
-        assert!(page.contains("<h3>Pictures against scans</h3>"));
+        assert!(page.contains("<h3>Images against scans</h3>"));
     }
 }
 

@@ -175,7 +175,7 @@ fn explain_missing(calibration: &mut Calibration, measured: &Measured) {
         None => (
             "target-not-found",
             format!(
-                "the target was not found in {missing} pictures of {all} captures ({id}: {reason}): \
+                "the target was not found in {missing} images of {all} captures ({id}: {reason}): \
                  check [target]"
             ),
         ),

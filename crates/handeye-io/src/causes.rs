@@ -35,11 +35,11 @@ impl Effect {
     /// In words beside its cause.
     fn in_words(self) -> &'static str {
         match self {
-            Self::Intrinsics => "another lens than the one given",
+            Self::Intrinsics => "other intrinsics than the given ones",
             Self::Depth => "depth that is off",
-            Self::Scale => "scans of another scale than pictures",
-            Self::Tilt => "scans turned against pictures",
-            Self::Shift => "scans shifted against pictures",
+            Self::Scale => "scans of another scale than images",
+            Self::Tilt => "scans rotated against images",
+            Self::Shift => "scans shifted against images",
         }
     }
 }
@@ -75,7 +75,7 @@ pub(crate) fn tell(result: &mut Calibration, session: &Session) {
             let words: Vec<&str> = explained.iter().map(|effect| effect.in_words()).collect();
             result.warnings[at].message += &format!(
                 "; it also looks like {}, no farther off than this explains, and the answer takes that into \
-                 account: mend this first",
+                 account: correct this first",
                 words.join(" and ")
             );
             let stays = |w: &Warning| Effect::of(w).is_none_or(|e| !explained.contains(&e));

@@ -149,7 +149,7 @@ pub enum Error {
         source: handeye::Error,
     },
     /// A folder without anything to calibrate from.
-    #[error("{}: nothing found here that the camera saw or the robot reported; put the captures' pictures (or scans, or lists of corners) and the robot's poses into the folder, or name the one that has them", folder.display())]
+    #[error("{}: nothing found here that the camera saw or the robot reported; put the captures' images (or scans, or lists of corners) and the robot's poses into the folder, or name the one that has them", folder.display())]
     NothingFound {
         /// The folder.
         folder: PathBuf,

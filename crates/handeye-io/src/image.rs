@@ -42,7 +42,7 @@ fn size_of(bytes: &[u8], path: &Path) -> Result<(u32, u32), Error> {
     if width.min(height) < SMALLEST_SIDE {
         return Err(malformed(
             Place::file(path),
-            format!("the picture is only {width} x {height} pixels"),
+            format!("the image is only {width} x {height} pixels"),
             "is it the right file?",
         ));
     }
@@ -70,7 +70,7 @@ fn reader<'a>(bytes: &'a [u8], path: &Path) -> Result<ImageReader<Cursor<&'a [u8
     if reader.format().is_none() {
         return Err(malformed(
             Place::file(path),
-            "is not a picture",
+            "is not an image",
             "PNG, JPEG, TIFF and BMP can be read",
         ));
     }
@@ -90,7 +90,7 @@ pub(crate) fn decode(path: &Path) -> Result<DynamicImage, Error> {
 fn broken(error: &image::ImageError, path: &Path) -> Error {
     malformed(
         Place::file(path),
-        format!("the picture cannot be decoded ({error})"),
+        format!("the image cannot be decoded ({error})"),
         "copy or record it again",
     )
 }
@@ -111,7 +111,7 @@ fn gray(picture: &DynamicImage, bit_depth: Option<u32>, path: &Path) -> Result<G
         }
     };
     GrayImage::new(width, height, values)
-        .ok_or_else(|| malformed(Place::file(path), "the picture is incomplete", "copy it again"))
+        .ok_or_else(|| malformed(Place::file(path), "the image is incomplete", "copy it again"))
 }
 
 /// ITU-R BT.601.

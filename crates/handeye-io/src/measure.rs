@@ -329,7 +329,7 @@ fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), 
         let (Some((w, h)), Some(path)) = (s.size, shot.image) else { continue };
         if (w, h) != (camera.width as usize, camera.height as usize) && camera.width > 0 {
             let what = format!(
-                "the picture is {w} x {h} pixels, the camera was calibrated at {} x {}",
+                "the image is {w} x {h} pixels, the camera was calibrated at {} x {}",
                 camera.width, camera.height
             );
             let advice = "give `resized` in [camera], or intrinsics for this size";

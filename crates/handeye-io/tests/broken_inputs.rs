@@ -271,11 +271,11 @@ fn broken_manifests_are_refused_by_line() {
             "handeye.toml:13 [camera]: fy is missing; which value did the calibration find?",
         ),
         (
-            "another picture size",
+            "another image size",
             more(
                 "[camera]\nwidth = 1280\nheight = 960\nfx = 600.0\nfy = 600.0\ncx = 640.0\ncy = 480.0",
             ),
-            "the intrinsics are for 1280 x 960 pixels, but the pictures have 640 x 480; if the pictures were resized, say resized = 0.5000",
+            "the intrinsics are for 1280 x 960 pixels, but the images have 640 x 480; if the images were resized, say resized = 0.5000",
         ),
         (
             "touch kind",
@@ -377,27 +377,23 @@ fn broken_pictures_are_refused() {
         (
             "text.png",
             b"hello, this is text".to_vec(),
-            "text.png: is not a picture; PNG, JPEG, TIFF and BMP can be read",
+            "text.png: is not an image; PNG, JPEG, TIFF and BMP can be read",
         ),
-        ("cut.png", png(64, 64)[..60].to_vec(), "cut.png: the picture cannot be decoded ("),
-        ("one.png", png(1, 1), "one.png: the picture is only 1 x 1 pixels; is it the right file?"),
+        ("cut.png", png(64, 64)[..60].to_vec(), "cut.png: the image cannot be decoded ("),
+        ("one.png", png(1, 1), "one.png: the image is only 1 x 1 pixels; is it the right file?"),
         (
             "huge.png",
             png_with_header(10_000, 10_000),
             "huge.png: the number of pixels (10000 x 10000) is 100000000, more than the limit of 64000000; is the file damaged?",
         ),
         ("vast.png", png_with_header(0x7fff_ffff, 0x7fff_ffff), "vast.png: "),
-        ("lie.png", png_with_header(4000, 4000), "lie.png: the picture cannot be decoded ("),
-        (
-            "cut.jpg",
-            vec![0xff, 0xd8, 0xff, 0xe0, 0, 16],
-            "cut.jpg: the picture cannot be decoded (",
-        ),
-        ("cut.bmp", b"BM\x00\x00\x00\x00".to_vec(), "cut.bmp: the picture cannot be decoded ("),
+        ("lie.png", png_with_header(4000, 4000), "lie.png: the image cannot be decoded ("),
+        ("cut.jpg", vec![0xff, 0xd8, 0xff, 0xe0, 0, 16], "cut.jpg: the image cannot be decoded ("),
+        ("cut.bmp", b"BM\x00\x00\x00\x00".to_vec(), "cut.bmp: the image cannot be decoded ("),
         (
             "cut.tiff",
             b"II*\x00\x08\x00\x00\x00\xff\xff".to_vec(),
-            "cut.tiff: the picture cannot be decoded (",
+            "cut.tiff: the image cannot be decoded (",
         ),
     ];
     for (name, content, expected) in cases {

@@ -178,7 +178,7 @@ fn tags_have_their_corners_in_the_order_of_opencv() {
         let found = handeye::detect::detect(&image, target).unwrap();
         for (corner, (x, y)) in found.iter().zip(wanted) {
             let off = (corner.pixel.x - x).hypot(corner.pixel.y - y);
-            assert!(off < 0.5, "picture {k}: corner {} is {off:.2} px away", corner.id);
+            assert!(off < 0.5, "image {k}: corner {} is {off:.2} px away", corner.id);
         }
     }
 }

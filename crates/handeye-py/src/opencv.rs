@@ -164,7 +164,7 @@ fn same_length(lengths: [usize; 2], names: [&str; 2]) -> PyResult<()> {
         return Ok(());
     }
     Err(errors::input(format!(
-        "{} has {a} poses but {} has {b}: one of each belongs to every picture",
+        "{} has {a} poses but {} has {b}: one of each belongs to every image",
         names[0], names[1]
     )))
 }

@@ -12,7 +12,7 @@ use crate::{arrays, errors, working};
 
 /// Where the source lies in the target, as JSON.
 #[pyfunction]
-#[pyo3(signature = (source, target, *, initial=None, method="auto", max_distance_m=0.05, max_iterations=60, is_global=false, threads=1))]
+#[pyo3(signature = (source, target, *, initial=None, method="symmetric", max_distance_m=0.05, max_iterations=60, is_global=false, threads=1))]
 #[allow(clippy::too_many_arguments, reason = "each is one of Python's keywords")]
 pub fn register(
     py: Python<'_>,

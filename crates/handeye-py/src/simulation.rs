@@ -41,7 +41,7 @@ pub fn simulate(
         return Err(errors::input(format!("captures must be between 1 and {MOST}")));
     }
     if !(1..=LARGEST_PX).contains(&width) || !(1..=LARGEST_PX).contains(&height) {
-        return Err(errors::input(format!("pictures have 1 to {LARGEST_PX} pixels a side")));
+        return Err(errors::input(format!("images have 1 to {LARGEST_PX} pixels a side")));
     }
     let target = match target_json {
         None => TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 },

@@ -2,8 +2,8 @@
 
 use handeye::{
     Calibration, Pose, Setup, Verdict, Warning,
-    calibrate::findings::{findings, reservation},
-    findings::severity::Severity,
+    calibrate::findings::{findings, record, reservation},
+    findings::{TouchFinding, severity::Severity},
     unjudged,
 };
 
@@ -39,4 +39,24 @@ fn reasons_against_an_answer_are_findings_that_reject_and_are_said_once() {
         ("few-captures", Severity::Info),
     ];
     assert_eq!(all, expected.map(|(code, severity)| (code.to_owned(), severity)));
+}
+
+#[test]
+fn the_numbers_of_a_finding_stand_in_its_headline_and_in_its_data() {
+    let mut found = result(Verdict::Accepted, &[], &[]);
+    let tip = TouchFinding::TipOff {
+        offset_mm: [0.0, 3.0, -4.0],
+        in_flange: true,
+        p_value: 1e-6,
+        squares: None,
+    };
+    found.warnings.push(tip.into());
+    record(&mut found);
+    let words = Some("Accepted, but: the answer corrects the tool's tip by 5.00 mm");
+    assert_eq!(reservation(&found).as_deref(), words);
+    assert_eq!(found.findings[0].data["z_mm"], -4.0);
+    // a result that was written and read back says the same
+    let read: Calibration = serde_json::from_str(&serde_json::to_string(&found).unwrap()).unwrap();
+    assert_eq!(read, found);
+    assert_eq!(reservation(&read).as_deref(), words);
 }

@@ -180,7 +180,7 @@ impl<'a> Plan<'a> {
         if let (None, Some(Targets::One(target, _))) = (&plan.chosen.image, &options.target)
             && !matches!(target, TargetModel::Sphere { .. })
         {
-            plan.notes.push("there are no pictures, and of scans alone only a ball can be found (kind = \"sphere\")".into());
+            plan.notes.push("there are no images, and of scans alone only a ball can be found (kind = \"sphere\")".into());
         }
         Ok(plan)
     }
@@ -202,7 +202,7 @@ impl<'a> Plan<'a> {
         }
         let sparse = self.robot.is_sparse();
         let found = if sparse && self.options.motion == Motion::Still {
-            self.notes.push("the robot's poses come too seldom to see that it stood still: that is taken from --motion still, and of each picture the nearest pose".into());
+            self.notes.push("the robot's poses come too seldom to see that it stood still: that is taken from --motion still, and of each image the nearest pose".into());
             moments::triggered(&shots, &self.robot)
         } else {
             self.interpolated(&shots, sparse)?
@@ -217,7 +217,7 @@ impl<'a> Plan<'a> {
     fn interpolated(&mut self, shots: &[Shot], sparse: bool) -> Result<Vec<Moment>, Error> {
         if sparse {
             let what = "has poses of the robot too seldom to interpolate between them, less than two a second: record ten \
-                        a second or more; where it stood still at every picture: --motion still";
+                        a second or more; where it stood still at every image: --motion still";
             return Err(unusable(self.bag, what));
         }
         let known = shots.iter().filter(|s| self.robot.at(s.time_s).is_some()).count();
@@ -225,7 +225,7 @@ impl<'a> Plan<'a> {
             return Err(unusable(self.bag, self.never_together(shots)));
         }
         if known < shots.len() {
-            let text = "pictures were taken where the robot's pose is not known (before, after, or in a gap)";
+            let text = "images were taken where the robot's pose is not known (before, after, or in a gap)";
             self.notes.push(format!("{} of {} {text}", shots.len() - known, shots.len()));
         }
         let still = moments::still(shots, &self.robot);
@@ -236,12 +236,12 @@ impl<'a> Plan<'a> {
             Motion::Moving => true,
         };
         if !self.moving && still.is_empty() {
-            let what = "has no picture at which the robot stood still; for pictures of a moving robot: --motion moving";
+            let what = "has no image at which the robot stood still; for images of a moving robot: --motion moving";
             return Err(unusable(self.bag, what));
         }
         if !self.moving {
             self.notes.push(format!(
-                "the robot stood still at {places} places; of each the middle picture is taken"
+                "the robot stood still at {places} places; of each the middle image is taken"
             ));
             return Ok(still);
         }
@@ -252,7 +252,7 @@ impl<'a> Plan<'a> {
         }
         let found = moments::moving(shots, &self.robot, self.options.most);
         self.notes.push(format!(
-            "the robot moved: {} of {} pictures are taken, and the time offset of the clocks is estimated",
+            "the robot moved: {} of {} images are taken, and the time offset of the clocks is estimated",
             found.len(),
             shots.len()
         ));
@@ -269,7 +269,7 @@ impl<'a> Plan<'a> {
             }
         };
         format!(
-            "tells the robot's pose at no picture: pictures are stamped {}, the robot {}, counted from {:.3} s. Were they \
+            "tells the robot's pose at no image: images are stamped {}, the robot {}, counted from {:.3} s. Were they \
              recorded together? Where the camera stamps by a clock of its own: --stamps recorded{}",
             range(shots.iter().map(|s| s.time_s).collect()),
             range(self.robot.times()),
@@ -305,7 +305,7 @@ impl<'a> Plan<'a> {
             let which =
                 if self.moving { "taken with" } else { "taken while the robot stood still for" };
             self.notes.push(format!(
-                "{topic} is not used: only {with} of {all} pictures have a scan {which} them (--depth {topic} takes these alone)"
+                "{topic} is not used: only {with} of {all} images have a scan {which} them (--depth {topic} takes these alone)"
             ));
             self.captures.iter_mut().for_each(|c| c.scan = None);
             self.chosen.scan = None;

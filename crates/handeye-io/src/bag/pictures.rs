@@ -188,7 +188,7 @@ fn png_of(bytes: &[u8], (width, height): (usize, usize), colour: ExtendedColorTy
         png::FilterType::Adaptive,
     );
     let written = encoder.write_image(bytes, width as u32, height as u32, colour);
-    written.expect("a picture of the size of its bytes, into memory");
+    written.expect("an image of the size of its bytes, into memory");
     out.into_inner()
 }
 

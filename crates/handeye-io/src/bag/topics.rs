@@ -47,7 +47,7 @@ pub(super) fn choose(survey: &Survey, asked: &Asked, bag: &Path) -> Result<Chose
     if chosen.image.is_none() && chosen.scan.is_none() {
         return Err(unusable(
             bag,
-            format!("has neither pictures nor scans: {}", listed(survey, |_| true)),
+            format!("has neither images nor scans: {}", listed(survey, |_| true)),
         ));
     }
     if let Some(name) = asked.camera.filter(|name| !survey.cameras.contains_key(*name)) {
@@ -82,10 +82,10 @@ fn image(survey: &Survey, asked: Option<&str>, bag: &Path) -> Result<Option<Stri
             Some(topic) if [IMAGE, COMPRESSED].contains(&topic.kind.as_str()) => {
                 Ok(Some(name.into()))
             }
-            Some(topic) => Err(unusable(bag, format!("{name} holds {}, no pictures", topic.kind))),
+            Some(topic) => Err(unusable(bag, format!("{name} holds {}, no images", topic.kind))),
             None => Err(unusable(
                 bag,
-                format!("has no topic {name}; pictures are on {}", listed(survey, is_picture)),
+                format!("has no topic {name}; images are on {}", listed(survey, is_picture)),
             )),
         };
     }
@@ -96,7 +96,7 @@ fn image(survey: &Survey, asked: Option<&str>, bag: &Path) -> Result<Option<Stri
         _ => Err(unusable(
             bag,
             format!(
-                "has pictures on several topics: say which (--image TOPIC): {}",
+                "has images on several topics: say which (--image TOPIC): {}",
                 listed(survey, is_picture)
             ),
         )),
@@ -120,8 +120,8 @@ fn scan(survey: &Survey, name: &str, chosen: &Chosen, bag: &Path) -> Result<Stri
     if let Some(image) = image.filter(|image| image.frame != topic.frame) {
         let frame = |t: &Topic| t.frame.clone().unwrap_or_default();
         let what = format!(
-            "{name} counts in the frame {}, the pictures in {}: take depth that the driver has aligned to the \
-             pictures, or pictures of the depth camera itself (--image)",
+            "{name} counts in the frame {}, the images in {}: take depth that the driver has aligned to the \
+             images, or images of the depth camera itself (--image)",
             frame(topic),
             frame(image)
         );
@@ -143,7 +143,7 @@ fn scan_beside(survey: &Survey, chosen: &mut Chosen) -> Option<String> {
     if !far.is_empty() {
         let names: Vec<&str> = far.iter().map(|(name, _)| name.as_str()).collect();
         chosen.notes.push(format!(
-            "not used, for it counts in another frame than the pictures: {}",
+            "not used, for it counts in another frame than the images: {}",
             names.join(", ")
         ));
     }

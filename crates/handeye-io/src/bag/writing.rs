@@ -115,12 +115,10 @@ fn pictures(plan: &mut Plan, folder: &Path, tick: &Tick) -> Result<Written, Erro
     })?;
     let Some(first) = broken.first() else { return Ok(done) };
     if done.is_empty() {
-        return Err(unusable(plan.bag, format!("has no picture that can be written: {first}")));
+        return Err(unusable(plan.bag, format!("has no image that can be written: {first}")));
     }
-    plan.notes.push(format!(
-        "{} pictures or scans cannot be read and are left out: {first}",
-        broken.len()
-    ));
+    plan.notes
+        .push(format!("{} images or scans cannot be read and are left out: {first}", broken.len()));
     Ok(done)
 }
 

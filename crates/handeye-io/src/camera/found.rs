@@ -64,7 +64,7 @@ impl Found {
         };
         let before = |n: u32| (f64::from(n) / resized.unwrap_or(1.0)).round() as u32;
         let size = |value: Option<u32>, seen: Option<u32>, key: &str| {
-            let question = "for which size of picture, in pixels, was the camera calibrated?";
+            let question = "for which size of image, in pixels, was the camera calibrated?";
             value.or(seen.map(before)).ok_or_else(|| missing(place, key, question))
         };
         Ok(Intrinsics {

@@ -125,7 +125,7 @@ fn resized(
         return Err(malformed(
             place.clone(),
             format!("resized = {factor}"),
-            "give picture width / calibrated width",
+            "give image width / calibrated width",
         ));
     }
     let camera = if factor == 1.0 { camera } else { camera.resized(factor) };
@@ -135,11 +135,11 @@ fn resized(
         return Err(malformed(
             place.clone(),
             format!(
-                "the intrinsics are for {} x {} pixels, but the pictures have {width} x {height}",
+                "the intrinsics are for {} x {} pixels, but the images have {width} x {height}",
                 camera.width, camera.height
             ),
             format!(
-                "if the pictures were resized, say resized = {ratio:.4}; if they were cropped, \
+                "if the images were resized, say resized = {ratio:.4}; if they were cropped, \
                  calibrate again"
             ),
         ));

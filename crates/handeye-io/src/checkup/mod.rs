@@ -325,7 +325,7 @@ fn too_few(dataset: &Dataset, seen: usize, reason: Option<&(String, String)>) ->
     let advice = reason.map_or("add captures".into(), |(capture, why)| {
         let which = match dataset.shape {
             Some(_) => "[object] and the scans",
-            None => "[target] and the pictures",
+            None => "[target] and the images",
         };
         format!("check {which} (capture {capture}: {why})")
     });

@@ -66,15 +66,15 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
     match fault {
         Fault::Reading(k) => case.robot[*k].words.clone(),
         Fault::Order(Order::Shifted(k)) => format!(
-            "pictures and robot poses are in different orders: each picture belongs to the robot \
+            "images and robot poses are in different orders: each image belongs to the robot \
              pose {}; correct the order of the files",
             shift(&case.names, *k)
         ),
-        Fault::Order(Order::Reversed) => "pictures and robot poses are in opposite orders: the \
-             first picture belongs to the last robot pose; correct the order of the files"
+        Fault::Order(Order::Reversed) => "images and robot poses are in opposite orders: the \
+             first image belongs to the last robot pose; correct the order of the files"
             .into(),
         Fault::Exchanged(_) => format!(
-            "the pictures of these captures are exchanged: {names}; exchange the files, or leave \
+            "the images of these captures are exchanged: {names}; exchange the files, or leave \
              them out"
         ),
         Fault::Scale(s) => match (&case.target, unit(s.value)) {
@@ -110,7 +110,7 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
              the pose was not read anew; leave them out: {names}"
         ),
         Fault::CameraStill(_) => format!(
-            "these captures show the target in the same place, but the robot moved: pictures were \
+            "these captures show the target in the same place, but the robot moved: images were \
              stored twice, or target and camera ride together: {names}"
         ),
         Fault::Repeated(_) => {
@@ -118,7 +118,7 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
         }
         Fault::Disagreeing(_) => format!(
             "these captures agree with no others, and no single mistake explains them; look at \
-             their pictures and robot poses, or leave them out: {names}"
+             their images and robot poses, or leave them out: {names}"
         ),
     }
 }
@@ -130,11 +130,11 @@ fn shift(names: &[String], k: usize) -> String {
     if 2 * k > n {
         let back = n - k;
         let (picture, pose) = (&names[back], &names[0]);
-        let example = format!("the picture of capture {picture} to the robot pose of {pose}");
+        let example = format!("the image of capture {picture} to the robot pose of {pose}");
         return format!("{back} {} back, counted round ({example})", places(back));
     }
     let (picture, pose) = (&names[0], &names[k]);
-    let example = format!("the picture of capture {picture} to the robot pose of {pose}");
+    let example = format!("the image of capture {picture} to the robot pose of {pose}");
     format!("{k} {} further on, counted round ({example})", places(k))
 }
 
@@ -148,7 +148,7 @@ pub(super) fn by_hand(fault: &Fault, captures: &[String], left: usize) -> String
                             the lines of the robot's poses, into the right order, and check again"
             .into(),
         Fault::Exchanged(_) => format!(
-            "a manifest cannot exchange pictures: exchange the files of each pair, or leave the \
+            "a manifest cannot exchange images: exchange the files of each pair, or leave the \
              captures out with {leaving_out}"
         ),
         Fault::CameraStill(_) => {
@@ -158,7 +158,7 @@ pub(super) fn by_hand(fault: &Fault, captures: &[String], left: usize) -> String
             "nothing needs correcting: a calibration counts one of each place".into()
         }
         Fault::Disagreeing(_) => format!(
-            "which of these captures are wrong is for you to say: look at their pictures and robot \
+            "which of these captures are wrong is for you to say: look at their images and robot \
              poses first; {leaving_out} leaves all of them out"
         ),
         Fault::Reading(_) => {
@@ -225,9 +225,9 @@ mod tests {
         let names: Vec<String> = (1..=15).map(|k| format!("{k:03}")).collect();
         let back = shift(&names, 14);
         assert!(back.starts_with("1 capture back"), "{back}");
-        assert!(back.contains("the picture of capture 002 to the robot pose of 001"), "{back}");
+        assert!(back.contains("the image of capture 002 to the robot pose of 001"), "{back}");
         let on = shift(&names, 2);
         assert!(on.starts_with("2 captures further on"), "{on}");
-        assert!(on.contains("the picture of capture 001 to the robot pose of 003"), "{on}");
+        assert!(on.contains("the image of capture 001 to the robot pose of 003"), "{on}");
     }
 }

@@ -302,10 +302,9 @@ impl Opening {
         for id in &self.manifest.captures.exclude {
             let Some(at) = captures.iter().position(|c| c.id == *id) else {
                 let near = nearest(id, captures.iter().map(|c| c.id.as_str()));
-                let advice = near
-                    .map_or("the captures are called like their pictures".into(), |n| {
-                        format!("did you mean {n}?")
-                    });
+                let advice = near.map_or("the captures are called like their images".into(), |n| {
+                    format!("did you mean {n}?")
+                });
                 return Err(malformed(
                     self.source.place("captures.exclude"),
                     format!("there is no capture {id}"),

@@ -39,7 +39,7 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
         set.questions.push(what);
     }
     if camera.get("roi_xywh").is_some_and(|roi| *roi != Tree::Null) {
-        set.questions.push("its roi_xywh is not cut out: are the pictures whole?".into());
+        set.questions.push("its roi_xywh is not cut out: are the images whole?".into());
     }
     let target = set.target(tree.get("target"));
     let robot = set.robot(robot, tree.get("pose_convention"))?;
@@ -99,7 +99,7 @@ impl Set<'_> {
             return target_toml(&model);
         }
         let kind = target.map_or("", |t| text(t, "kind"));
-        let what = format!("which target is in the pictures? (it says {kind:?})");
+        let what = format!("which target is in the images? (it says {kind:?})");
         let lines = format!("# {what}\n# [target]\n# kind = \"checkerboard\"\n");
         self.questions.push(what);
         lines
@@ -180,9 +180,8 @@ impl Set<'_> {
         let images = camera.get("images").unwrap_or(&Tree::Null);
         if let Some(pattern) = images.get("pattern").and_then(Tree::text) {
             if pattern.contains(['[', '{']) || pattern.contains("**") {
-                let what = format!(
-                    "the pattern {pattern} has more than * and ?: which pictures are meant?"
-                );
+                let what =
+                    format!("the pattern {pattern} has more than * and ?: which images are meant?");
                 self.questions.push(what);
             }
             return Ok(pattern.into());
@@ -198,7 +197,7 @@ impl Set<'_> {
             .map_or(0, |f| f.len());
         if found > paths.len() {
             let what = format!(
-                "{pattern} are {found} pictures, and {} are listed: move the others away",
+                "{pattern} are {found} images, and {} are listed: move the others away",
                 paths.len()
             );
             self.questions.push(what);

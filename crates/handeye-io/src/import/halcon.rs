@@ -139,7 +139,7 @@ fn pictures(
         [] => {
             "what did the camera see? ([images] files, or [board_poses] of HALCON's calibration object)"
         }
-        _ => "which target is in the pictures?",
+        _ => "which target is in the images?",
     };
     questions.push(question.into());
     let images = match found[..] {

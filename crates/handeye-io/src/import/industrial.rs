@@ -74,7 +74,7 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     let target = match all().find_map(|t| t.get("target_finder")).and_then(target) {
         Some(model) => target_toml(&model),
         None => {
-            let what = "which target is in the pictures?";
+            let what = "which target is in the images?";
             questions.push(what.into());
             format!("# {what}\n# [target]\n# kind = \"checkerboard\"\n")
         }

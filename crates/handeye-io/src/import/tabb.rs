@@ -43,7 +43,7 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
         .collect();
     endings.sort();
     let Some(ending) = endings.first() else {
-        return Err(unusable(&camera, "holds no pictures"));
+        return Err(unusable(&camera, "holds no images"));
     };
     let mut questions = vec![];
     if folder.join("images/camera1").is_dir() {

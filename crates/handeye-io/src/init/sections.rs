@@ -126,7 +126,7 @@ fn camera(kinds: &Kinds, page: &mut Page) {
             page.table("[camera]");
             let lines: Vec<&str> = several.iter().map(String::as_str).collect();
             page.ask(
-                "which of these is the calibration of the camera that took the pictures?",
+                "which of these is the calibration of the camera that took the images?",
                 &lines,
             );
         }
@@ -296,7 +296,7 @@ fn scans(kinds: &Kinds, folder: &Path, placements: &[String], page: &mut Page) {
     if of_scan.is_none() || of_scan != of_image {
         page.line("");
         page.ask(
-            "has the depth image other intrinsics than the pictures? (where it has other pixels)",
+            "has the depth image other intrinsics than the images? (where it has other pixels)",
             &["[scans.camera]", "file = \"depth_camera.yaml\""],
         );
     }
@@ -323,7 +323,7 @@ fn board_poses(kinds: &Kinds, page: &mut Page) {
     let poses = names.first().unwrap_or(&usual);
     page.line("");
     page.ask(
-        "there are no pictures, scans or corners: what did the camera see? With poses of the board \
+        "there are no images, scans or corners: what did the camera see? With poses of the board \
          from another program, say where and how they are written.",
         &[
             "[board_poses]",
@@ -375,7 +375,7 @@ fn placed(kinds: &Kinds, touches: &Touches, page: &mut Page) {
         let (id, question) = (
             format!("id = {}", quoted(id)),
             format!(
-                "the touches name a placement {id}: which picture shows the board there? (not \
+                "the touches name a placement {id}: which image shows the board there? (not \
                  needed where the camera is on the robot and the board is that of the captures)"
             ),
         );

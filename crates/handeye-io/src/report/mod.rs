@@ -220,7 +220,7 @@ fn facts(c: &Calibration) -> Vec<(String, String)> {
     }
     if let Some(t) = c.held_out.translation_rms_mm {
         let r = c.held_out.rotation_rms_deg.map_or(String::new(), |r| format!(" / {r:.2}&deg;"));
-        all.push((format!("{t:.2} mm{r}"), "misfit of captures left out, RMS".to_owned()));
+        all.push((format!("{t:.2} mm{r}"), "leave-one-out residual, RMS".to_owned()));
     }
     if !c.captures.is_empty() {
         let used = c.captures.iter().filter(|k| k.used).count();
@@ -391,10 +391,10 @@ fn captures(c: &Calibration) -> String {
     let rows: String = c.captures.iter().map(row).collect();
     let of_pictures = "<th>corners</th><th>own pose,<br>px</th><th>through the<br>robot, px</th>";
     let content = format!(
-        "{}<div class=\"scroll\"><table><tr><th>capture</th>{}<th>misfit,<br>mm</th><th>misfit,<br>degrees</th><th>left out,<br>mm</th><th class=\"words\">why not used</th></tr>{rows}</table></div>\
+        "{}<div class=\"scroll\"><table><tr><th>capture</th>{}<th>residual,<br>mm</th><th>residual,<br>degrees</th><th>held out,<br>mm</th><th class=\"words\">why not used</th></tr>{rows}</table></div>\
          <p class=\"note\">Misfit: by how much robot and camera disagree on where the target's {} is. Left out: the \
          same with an answer that has not seen the capture.</p>",
-        plot::bars(&bars, "mm", ("misfit", "left out")),
+        plot::bars(&bars, "mm", ("residual", "held out")),
         if has_pictures { of_pictures } else { "" },
         if has_board(c) { "first corner" } else { "origin" }
     );

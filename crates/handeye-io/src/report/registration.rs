@@ -332,7 +332,7 @@ mod tests {
             target: NamedCloud { name: "target <1>.ply", points },
             start: Isometry3::translation(0.0, 0.0, 3e-3),
             found,
-            method: "auto",
+            method: "symmetric",
             gate_m: 0.02,
             seconds: [0.1, 0.2, 0.3],
             warnings: &[],

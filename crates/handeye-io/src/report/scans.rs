@@ -209,7 +209,7 @@ fn frames(f: &FramesResult) -> String {
             + &row("tilt", axes(&f.tilt_deg, &f.sigma_tilt_deg, 3) + " degrees")
             + &row("shift", axes(&f.shift_mm, &f.sigma_shift_mm, 3) + " mm");
     format!(
-        "<h3>Pictures against scans</h3><table><tr><th class=\"words\"></th><th class=\"words\">scan minus picture, x, y, z of the \
+        "<h3>Images against scans</h3><table><tr><th class=\"words\"></th><th class=\"words\">scan minus image, x, y, z of the \
          camera</th><th class=\"words\"></th></tr>{rows}</table><p class=\"note\">From the board's plane in both. What is more \
          than noise is estimated together; each of the others as if it came on top. The chance that frames that \
          agree look so is {}.</p>",

@@ -37,7 +37,7 @@ fn png_of(
     let mut out = Cursor::new(Vec::new());
     let encoder = png::PngEncoder::new_with_quality(&mut out, png::CompressionType::Best, filter);
     let written = encoder.write_image(bytes, width as u32, height as u32, colour);
-    written.expect("a picture of the size of its bytes, into memory");
+    written.expect("an image of the size of its bytes, into memory");
     out.into_inner()
 }
 

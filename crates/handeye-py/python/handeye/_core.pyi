@@ -118,7 +118,7 @@ def register(
     target: Any,
     *,
     initial: Any = None,
-    method: str = "auto",
+    method: str = "symmetric",
     max_distance_m: float = 0.05,
     max_iterations: int = 60,
     is_global: bool = False,

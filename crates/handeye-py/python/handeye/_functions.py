@@ -321,7 +321,7 @@ def register(
     target: Any,
     *,
     initial: Union[Pose, Any, None] = None,
-    method: str = "auto",
+    method: str = "symmetric",
     max_distance_m: float = 0.05,
     max_iterations: int = 60,
     search: bool = False,
@@ -333,7 +333,7 @@ def register(
     :param target: likewise.
     :param initial: ``target_from_source`` to begin from, a :class:`Pose` or 4 x 4; right to some centimetres and
         10 degrees. Without it both are taken to lie as they are.
-    :param method: ``auto``, ``point-to-point``, ``point-to-plane`` or ``gicp``.
+    :param method: ``symmetric``, ``point-to-point``, ``point-to-plane`` or ``gicp``.
     :param max_distance_m: what is farther apart does not belong together.
     :param max_iterations: most rounds.
     :param search: look for a beginning everywhere, and take no ``initial``.

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Config, agreement::Views, joint::held_out_views};
 use crate::{
-    HandEye, Observation, Pose, Setup, Touch, Warning,
+    HandEye, Observation, Pose, Setup, Touch,
     calibrate::result::{ArmDeviation, ArmHeldOut, ArmResult, Calibration},
     estimate::{Extra, ExtraKind, JointFit, Problem, Source, evaluate, joint},
     findings::RobotFinding,
@@ -57,7 +57,7 @@ pub(super) fn look(
     fit: &JointFit,
     touches: &[usize],
     config: &Config,
-) -> Result<Option<ArmFit>, Warning> {
+) -> Result<Option<ArmFit>, RobotFinding> {
     let Some(model) = &views.session.arm else { return Ok(None) };
     if model.check().is_err() || views.used.len() < FEWEST_VIEWS {
         return Ok(None);

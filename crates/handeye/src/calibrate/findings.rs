@@ -30,7 +30,8 @@ pub fn findings(result: &Calibration) -> Vec<JudgedFinding> {
         let severity =
             if is_reason { Severity::Rejects } else { severity(&w.code, result.verdict) };
         let headline = w.finding.as_ref().and_then(|f| f.headline());
-        JudgedFinding { headline, ..judged(&w.code, severity, w.message.clone()) }
+        let data = w.finding.as_ref().map(|f| f.data()).unwrap_or_default();
+        JudgedFinding { headline, data, ..judged(&w.code, severity, w.message.clone()) }
     };
     reasons.map(of_reason).chain(result.warnings.iter().map(of_warning)).collect()
 }

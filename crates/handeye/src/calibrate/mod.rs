@@ -150,7 +150,7 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
 pub(crate) fn check(session: &Session) -> Result<(), Error> {
     if session.observations.is_empty() && session.correspondences.is_empty() {
         return Err(Error::Invalid(
-            "nothing to calibrate from: no captures with a robot pose and a pose or a picture of \
+            "nothing to calibrate from: no captures with a robot pose and a pose or an image of \
              the target, and no point pairs"
                 .into(),
         ));

@@ -286,7 +286,7 @@ mod tests {
                 let middle = *grid.corners.keys().nth(grid.corners.len() / 2).unwrap();
                 let step = |d| grid.step(middle, d).unwrap();
                 let (x, y) = (step((1, 0)), step((0, 1)));
-                assert!(x.perp(&y) > 0.0, "labels turn clockwise in the picture");
+                assert!(x.perp(&y) > 0.0, "labels turn clockwise in the image");
                 assert!((x.perp(&y) - 144.0).abs() < 20.0, "{skew}: {x} {y}");
             }
         }

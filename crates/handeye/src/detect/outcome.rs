@@ -118,7 +118,7 @@ pub enum NotFound {
     #[error("{0} cannot be detected yet: import its corners")]
     Unsupported(&'static str),
     /// A target without corners.
-    #[error("a ball cannot be found in pictures: it is found in 3D scans only")]
+    #[error("a ball cannot be found in images: it is found in 3D scans only")]
     ScansOnly,
 }
 

@@ -66,13 +66,13 @@ pub struct FittedCorner {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Unfit {
     /// The picture ends too close to it.
-    #[error("too close to the picture's edge")]
+    #[error("too close to the image's edge")]
     AtTheEdge,
     /// The squares are too small to tell their edges apart.
     #[error("the squares are only {0:.1} px wide")]
     TooSmall(f64),
     /// The fit found nothing, or wandered away.
-    #[error("the picture does not look like a corner there")]
+    #[error("the image does not look like a corner there")]
     NoCorner,
 }
 

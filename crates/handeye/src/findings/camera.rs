@@ -78,6 +78,18 @@ pub struct Moved {
     pub sigma: f64,
 }
 
+impl Moved {
+    /// Names of what was found and of its standard deviation, with unit.
+    fn names(&self) -> [&'static str; 2] {
+        match self.name {
+            "fx" => ["fx_px", "sigma_fx_px"],
+            "fy" => ["fy_px", "sigma_fy_px"],
+            "cx" => ["cx_px", "sigma_cx_px"],
+            _ => ["cy_px", "sigma_cy_px"],
+        }
+    }
+}
+
 /// A parameter has changed when it moved by more than so many standard deviations.
 const CHANGED: f64 = 2.0;
 /// Half a pixel is told from none, and from a whole one, within so many.
@@ -157,6 +169,28 @@ impl CameraFinding {
                 "depth on black, off by {black_minus_white_mm:+.2} mm, was corrected to that on white"
             )),
             Self::CalibratedFromViews { .. } => None,
+        }
+    }
+
+    /// Its numbers, by name with unit.
+    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+        match self {
+            Self::Refined { changed, .. } => {
+                changed.iter().flat_map(|m| m.names().into_iter().zip([m.to, m.sigma])).collect()
+            }
+            Self::CalibratedFromViews { calibrated, .. } => {
+                vec![("views", calibrated.views as f64), ("rms_px", calibrated.rms_px)]
+            }
+            Self::Bends { k1, sigma, .. } => vec![("k1", *k1), ("sigma", *sigma)],
+            Self::DepthByColour { black_minus_white_mm, sigma_mm, .. } => {
+                vec![("black_minus_white_mm", *black_minus_white_mm), ("sigma_mm", *sigma_mm)]
+            }
+            Self::DepthOff { scale, sigma_scale, bias_mm, sigma_bias_mm } => vec![
+                ("scale", *scale),
+                ("sigma_scale", *sigma_scale),
+                ("bias_mm", *bias_mm),
+                ("sigma_bias_mm", *sigma_bias_mm),
+            ],
         }
     }
 }

@@ -290,6 +290,31 @@ impl CaptureFinding {
             }
         }
     }
+
+    /// Its numbers, by name with unit.
+    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+        let count = |n: &usize| *n as f64;
+        match self {
+            Self::Rejected { cause: Cause::Disagrees { distance_mm, angle_deg, .. }, .. } => {
+                vec![("distance_mm", *distance_mm), ("angle_deg", *angle_deg)]
+            }
+            Self::ManyRejected { captures, of } => {
+                vec![("rejected", captures.len() as f64), ("of", count(of))]
+            }
+            Self::Few { used, .. } => vec![("used", count(used))],
+            Self::Repeated { captures } | Self::OfOnePlace { captures } => {
+                vec![("captures", captures.len() as f64)]
+            }
+            Self::OutOfOrder { agreeing, of, within_mm, .. } => {
+                vec![("agreeing", count(agreeing)), ("of", count(of)), ("within_mm", *within_mm)]
+            }
+            Self::NoMajority { used, of } => vec![("used", count(used)), ("of", count(of))],
+            Self::TwoAnswers { used, others, rest } => {
+                vec![("used", count(used)), ("others", count(others)), ("rest", count(rest))]
+            }
+            Self::Rejected { .. } | Self::MethodNotForBalls { .. } => vec![],
+        }
+    }
 }
 
 impl ListedOrder {

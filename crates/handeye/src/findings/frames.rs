@@ -157,6 +157,25 @@ impl FramesFinding {
             ),
         }
     }
+
+    /// Its numbers, by name with unit.
+    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+        match self {
+            Self::NotSeparable => vec![],
+            Self::Scale { value, sigma } => vec![("value", *value), ("sigma", *sigma)],
+            Self::Tilt(axes) => named(["x_deg", "y_deg", "z_deg"], axes.values),
+            Self::Shift(axes) => named(["x_mm", "y_mm", "z_mm"], axes.values),
+            Self::Disagree { distance_mm, angle_deg, .. } => {
+                vec![("distance_mm", *distance_mm), ("angle_deg", *angle_deg)]
+            }
+            Self::Offset { at_target_mm, .. } => vec![("at_target_mm", *at_target_mm)],
+            Self::OffsetNotConfirmed { apart_mm, .. } => vec![("apart_mm", *apart_mm)],
+        }
+    }
+}
+
+fn named(names: [&'static str; 3], values: [f64; 3]) -> Vec<(&'static str, f64)> {
+    names.into_iter().zip(values).collect()
 }
 
 fn other_in_words(other: Option<&OtherAnswer>) -> String {

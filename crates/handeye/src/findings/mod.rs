@@ -26,6 +26,8 @@ pub use target::TargetFinding;
 pub use touches::TouchFinding;
 pub use warning::Warning;
 
+use std::collections::BTreeMap;
+
 /// Something that was found, by what it is about.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -75,6 +77,22 @@ impl Finding {
             Self::Target(f) => f.message(),
             Self::Touches(f) => f.message(),
         }
+    }
+
+    /// Its numbers, by name with unit.
+    pub fn data(&self) -> BTreeMap<String, f64> {
+        let all = match self {
+            Self::Camera(f) => f.data(),
+            Self::Captures(f) => f.data(),
+            Self::Frames(f) => f.data(),
+            Self::Movement(f) => f.data(),
+            Self::Robot(f) => f.data(),
+            Self::Streams(f) => f.data(),
+            Self::Target(f) => f.data(),
+            Self::Touches(f) => f.data(),
+        };
+        let finite = all.into_iter().filter(|(_, value)| value.is_finite());
+        finite.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
     /// What it did to the answer, with its numbers, for the first sentence of a page; `None` where the words of its

@@ -108,6 +108,19 @@ impl MovementFinding {
             _ => None,
         }
     }
+
+    /// Its numbers, by name with unit.
+    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+        let (Self::Displaced(m, _)
+        | Self::Covered(m, _)
+        | Self::AnswerOfTheEnd { movement: m, .. }
+        | Self::TooFewSince(m, _)) = self;
+        vec![
+            ("displacement_mm", m.displacement_mm),
+            ("rotation_deg", m.rotation_deg),
+            ("probability", m.probability),
+        ]
+    }
 }
 
 /// What moved by how much, with the possible causes; `covered` says that the stated error covers it.

@@ -126,6 +126,26 @@ impl RobotFinding {
             ),
         }
     }
+
+    /// Its numbers, by name with unit.
+    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+        match self {
+            Self::Inverted { before_mm, after_mm, .. } => {
+                let before = before_mm.map(|mm| ("before_mm", mm));
+                before.into_iter().chain([("after_mm", *after_mm)]).collect()
+            }
+            Self::LengthUnit { farthest_m } => vec![("farthest_m", *farthest_m)],
+            Self::TargetLengthUnit { distance_m } => vec![("distance_m", *distance_m)],
+            Self::ArmDeviates { before_mm, after_mm, .. } => {
+                vec![("before_mm", *before_mm), ("after_mm", *after_mm)]
+            }
+            Self::JointsAndPosesDiffer { .. } => vec![],
+            Self::DeterminedByKnownPosition { given_mm, .. } => vec![("given_mm", *given_mm)],
+            Self::KnownPositionDisagrees { given_mm, found_mm } => {
+                vec![("given_mm", *given_mm), ("found_mm", *found_mm)]
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -161,4 +161,25 @@ impl StreamFinding {
             Self::Drift { drift, is_fitted: false } => drift.in_words(),
         }
     }
+
+    /// Its numbers, by name with unit.
+    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+        match self {
+            Self::Unsorted { count, .. }
+            | Self::Repeated { count, .. }
+            | Self::Conflicting { count, .. } => vec![("count", *count as f64)],
+            Self::Gaps { count, limit_s, .. } => {
+                vec![("count", *count as f64), ("limit_s", *limit_s)]
+            }
+            Self::WithoutRobotPose { captures } => vec![("captures", captures.len() as f64)],
+            Self::Offset { offset_s, sigma_s, .. } => {
+                vec![("offset_s", *offset_s), ("sigma_s", *sigma_s)]
+            }
+            Self::NeighboursAlike { correlation } => vec![("correlation", *correlation)],
+            Self::Drift { drift, .. } => {
+                vec![("rotation_deg", drift.rotation_deg), ("position_mm", drift.position_mm)]
+            }
+            Self::OffsetUndetermined | Self::OffsetAmbiguous { .. } => vec![],
+        }
+    }
 }

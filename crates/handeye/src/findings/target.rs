@@ -130,6 +130,24 @@ impl TargetFinding {
             _ => None,
         }
     }
+
+    /// Its numbers, by name with unit.
+    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+        match self {
+            Self::Size(size) | Self::ExplainsAll(size) => vec![
+                ("value", size.value),
+                ("sigma", size.sigma),
+                ("declared_mm", size.declared_mm),
+                ("found_mm", size.value * size.declared_mm),
+            ],
+            Self::Distances { value, sigma } => vec![("value", *value), ("sigma", *sigma)],
+            Self::Uneven { share, sigma } => vec![("share", *share), ("sigma", *sigma)],
+            Self::Bent { peak_to_valley_mm } => vec![("peak_to_valley_mm", *peak_to_valley_mm)],
+            Self::NotFlat { peak_to_valley_mm, sigma_mm, .. } => {
+                vec![("peak_to_valley_mm", *peak_to_valley_mm), ("sigma_mm", *sigma_mm)]
+            }
+        }
+    }
 }
 
 impl Size {

@@ -164,6 +164,33 @@ impl TouchFinding {
         let Self::TipOff { offset_mm, .. } = self else { return None };
         Some(format!("the answer corrects the tool's tip by {:.2} mm", length(offset_mm)))
     }
+
+    /// Its numbers, by name with unit.
+    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+        match self {
+            Self::Outlier { corner, p_value, .. } => {
+                vec![("corner", f64::from(*corner)), ("p_value", *p_value)]
+            }
+            Self::Misplaced { corner, off_mm, .. } => {
+                vec![("corner", f64::from(*corner)), ("off_mm", *off_mm)]
+            }
+            Self::Misread { agreeing, of, off_mm, .. } => {
+                vec![("agreeing", *agreeing as f64), ("of", *of as f64), ("off_mm", *off_mm)]
+            }
+            Self::TipOff { offset_mm: [x, y, z], p_value, .. } => {
+                vec![("x_mm", *x), ("y_mm", *y), ("z_mm", *z), ("p_value", *p_value)]
+            }
+            Self::ViewsDisagree { p_value } => vec![("p_value", *p_value)],
+            Self::Repeated { corner, count, .. } => {
+                vec![("corner", f64::from(*corner)), ("count", *count as f64)]
+            }
+            Self::NearlyCollinear { ratio } => vec![("ratio", *ratio)],
+            Self::NotEnough { .. }
+            | Self::WithoutView { .. }
+            | Self::OfABall
+            | Self::AloneDetermine { .. } => vec![],
+        }
+    }
 }
 
 fn length([x, y, z]: &[f64; 3]) -> f64 {

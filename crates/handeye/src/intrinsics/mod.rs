@@ -96,7 +96,7 @@ pub fn calibrate(
         return Err(Error::TooFewPoses {
             found: usable,
             needed: FEWEST_VIEWS,
-            advice: "take pictures of the board from more directions".into(),
+            advice: "take images of the board from more directions".into(),
         });
     }
     let mut adjusted: Option<Adjustment> = None;

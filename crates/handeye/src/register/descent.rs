@@ -325,7 +325,8 @@ impl<'a> Descent<'a> {
 
     fn part(&self, at: &Isometry3<f64>, range: Range<usize>) -> Totals {
         let mut total = Totals::none();
-        let is_along = matches!(self.config.method, DenseMethod::Auto | DenseMethod::PointToPlane);
+        let is_along =
+            matches!(self.config.method, DenseMethod::Symmetric | DenseMethod::PointToPlane);
         total.all = self.each_match(at, range, |found| {
             let residual = found.residual();
             if !is_along {

@@ -108,12 +108,14 @@ pub(crate) fn refined(
 /// Matches that hold one another where they are, in no place that is right.
 pub(crate) fn stuck(config: &DenseConfig) -> String {
     let other = match config.method {
-        DenseMethod::Auto => "",
-        _ => "take the method auto, or ",
+        DenseMethod::Symmetric => "",
+        _ => "use `--method symmetric`, or ",
     };
-    let start = if config.global { "scans with more shape in common" } else { "a better start" };
+    let start =
+        if config.global { "scans with more shape in common" } else { "a better `--initial`" };
     format!(
-        "it stopped in a local minimum, where its matches tell less than they scatter: {other}give {start}"
+        "registration converged to a local minimum, in which the correspondences determine less than they scatter: \
+         {other}give {start}"
     )
 }
 

@@ -5,7 +5,7 @@
 pub enum DenseMethod {
     /// Distances along the mean of both normals (symmetric).
     #[default]
-    Auto,
+    Symmetric,
     /// Distances between places. Where surfaces are flat this creeps, and of dense clouds it holds on to places that
     /// are millimetres off: neighbours along the surface lie as near as the right one. That is rejected.
     PointToPoint,
@@ -18,7 +18,7 @@ pub enum DenseMethod {
 impl DenseMethod {
     /// Every method.
     pub const ALL: [DenseMethod; 4] = [
-        DenseMethod::Auto,
+        DenseMethod::Symmetric,
         DenseMethod::PointToPoint,
         DenseMethod::PointToPlane,
         DenseMethod::PlaneToPlane,
@@ -27,15 +27,16 @@ impl DenseMethod {
     /// The name in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
-            DenseMethod::Auto => "auto",
+            DenseMethod::Symmetric => "symmetric",
             DenseMethod::PointToPoint => "point-to-point",
             DenseMethod::PointToPlane => "point-to-plane",
             DenseMethod::PlaneToPlane => "gicp",
         }
     }
 
-    /// The method of that name.
+    /// The method of that name; `auto` is what the symmetric one was called first.
     pub fn from_name(name: &str) -> Option<DenseMethod> {
+        let name = if name == "auto" { "symmetric" } else { name };
         DenseMethod::ALL.into_iter().find(|method| method.name() == name)
     }
 }
@@ -64,7 +65,7 @@ pub struct DenseConfig {
 impl Default for DenseConfig {
     fn default() -> Self {
         Self {
-            method: DenseMethod::Auto,
+            method: DenseMethod::Symmetric,
             max_correspondence_distance_m: 0.05,
             max_iterations: 60,
             transformation_epsilon_m: 0.0,

@@ -206,7 +206,7 @@ impl Cell {
 
     fn no_view(&self, v: &Viewing) -> Error {
         Error::Invalid(format!(
-            "the board does not fit into pictures of {} x {} pixels from {} to {} m: move the \
+            "the board does not fit into images of {} x {} pixels from {} to {} m: move the \
              camera away, or take a smaller board",
             self.intrinsics.width, self.intrinsics.height, v.nearest_m, v.farthest_m
         ))
@@ -445,6 +445,6 @@ mod tests {
         let small = Intrinsics::pinhole(64, 48, 1800.0, 1800.0, 31.5, 23.5);
         let cell = Cell { intrinsics: small, ..Cell::new(Setup::EyeInHand, 1) };
         let message = cell.record(1).unwrap_err().to_string();
-        assert!(message.contains("does not fit into pictures of 64 x 48"), "{message}");
+        assert!(message.contains("does not fit into images of 64 x 48"), "{message}");
     }
 }

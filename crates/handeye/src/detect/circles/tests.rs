@@ -286,5 +286,5 @@ fn a_ball_is_not_looked_for_in_pictures() {
     let picture = GrayImage::new(64, 64, vec![128.0; 4096]).unwrap();
     let ball = TargetModel::Sphere { diameter_mm: Some(50.0) };
     let message = crate::detect::detect(&picture, &ball).unwrap_err().to_string();
-    assert_eq!(message, "a ball cannot be found in pictures: it is found in 3D scans only");
+    assert_eq!(message, "a ball cannot be found in images: it is found in 3D scans only");
 }

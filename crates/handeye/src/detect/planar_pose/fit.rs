@@ -103,7 +103,7 @@ impl<'a> Fit<'a> {
             .filter_map(|c| Some((c.in_target, self.intrinsics.undistort(&c.pixel)?)))
             .collect();
         let undetermined = || Error::NotDetermined {
-            what: "the target's corners in the picture lie on one line".into(),
+            what: "the target's corners in the image lie on one line".into(),
         };
         let centre = pairs.iter().map(|p| p.0).sum::<Vector3<f64>>() / pairs.len().max(1) as f64;
         let from: Vec<_> = pairs.iter().map(|p| (p.0 - centre).xy()).collect();

@@ -69,7 +69,7 @@ pub enum Reason {
     #[error("too few points away from the edges of the print: the scan is too coarse")]
     Mixed,
     /// An unorganised scan, and nobody told the intrinsics.
-    #[error("the scan is not a grid as large as the picture, and no intrinsics are known")]
+    #[error("the scan is not a grid as large as the image, and no intrinsics are known")]
     NoGrid,
 }
 

@@ -167,7 +167,7 @@ fn every_method_comes_to_the_same_place_or_does_not_claim_it() {
     let (source, target, truth) = scans(1, |k| k);
     let start = off(&truth, &mut Random::new(8));
     let methods = [
-        (DenseMethod::Auto, 0.4),
+        (DenseMethod::Symmetric, 0.4),
         (DenseMethod::PointToPlane, 0.5),
         (DenseMethod::PlaneToPlane, 1.5),
     ];
@@ -283,7 +283,7 @@ fn slow_errors_of_depth_are_no_shape() {
     let mut random = Random::new(12);
     for noise in [0.0, 1e-4, 3e-4] {
         let (source, target) = (wavy_table(noise, &mut random), wavy_table(noise, &mut random));
-        for method in [DenseMethod::Auto, DenseMethod::PointToPlane] {
+        for method in [DenseMethod::Symmetric, DenseMethod::PointToPlane] {
             let config = DenseConfig { method, ..DenseConfig::default() };
             let found = register(&source, &target, &Isometry3::identity(), &config).unwrap();
             assert_eq!(found.verdict, Verdict::Undetermined, "{noise} {method:?} {found:?}");

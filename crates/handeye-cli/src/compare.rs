@@ -1,4 +1,4 @@
-//! `handeye repeat`: do several calibrations of one cell agree?
+//! `handeye compare`: do several calibrations of one cell agree?
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::{
-    args::{Manners, RepeatArgs},
+    args::{CompareArgs, Manners},
     failure::Failure,
     output,
 };
@@ -83,7 +83,7 @@ struct Answer {
     pairs: Vec<Difference>,
 }
 
-pub fn run(args: &RepeatArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
     let read = |path: &PathBuf| read_result(path).map_err(Failure::from);
     let results = args.results.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     check_twice(&args.results)?;
