@@ -77,18 +77,7 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
             "the images of these captures are exchanged: {names}; exchange the files, or leave \
              them out"
         ),
-        Fault::Scale(s) => match (&case.target, unit(s.value)) {
-            (Some(target), _) => mistakes::size_finding(s, target).message(),
-            (None, Some(units)) => format!(
-                "the target's poses count in another unit than the robot's: they are {:.4} times as large as they \
-                 would be in its unit ({units})",
-                1.0 / s.value,
-            ),
-            (None, None) => format!(
-                "the target is {:.4} +- {:.4} times as large as declared: measure it",
-                s.value, s.sigma
-            ),
-        },
+        Fault::Scale(size) => wrong_size(case, size),
         Fault::TargetMoved(i, j) => format!(
             "the target lay elsewhere during {}: it was moved in the session; leave them out",
             run(*i, *j)
@@ -119,6 +108,22 @@ pub(super) fn message(case: &Case, fault: &Fault) -> String {
         Fault::Disagreeing(_) => format!(
             "these captures agree with no others, and no single mistake explains them; look at \
              their images and robot poses, or leave them out: {names}"
+        ),
+    }
+}
+
+/// A size that is not the declared one, or target poses in another unit.
+fn wrong_size(case: &Case, s: &TargetScale) -> String {
+    match (&case.target, unit(s.value)) {
+        (Some(target), _) => mistakes::size_finding(s, target).message(),
+        (None, Some(units)) => format!(
+            "the target's poses count in another unit than the robot's: they are {:.4} times as large as they \
+             would be in its unit ({units})",
+            1.0 / s.value,
+        ),
+        (None, None) => format!(
+            "the target is {:.4} +- {:.4} times as large as declared: measure it",
+            s.value, s.sigma
         ),
     }
 }

@@ -2,85 +2,24 @@
 
 use nalgebra::Vector3;
 
-use super::{Config, doubt, gate, movement, rejected};
+use super::{doubt, gate, movement, rejected};
 use crate::{
     Error, Observation, Pose, PosePair, Target,
-    calibrate::result::{Calibration, CaptureResult},
+    calibrate::{
+        config::Config,
+        result::Calibration,
+        views::{Captures, FARTHEST, Views, first_report},
+    },
     estimate::evaluate,
     findings::{CaptureFinding, RobotFinding, robot::Inverted},
     math::linalg::median,
     mistakes::{self, Convention},
     model::{session::Session, verdict::Verdict},
     solve::{
-        View,
         consensus::{self, Consensus, Readings},
         motions,
     },
 };
-
-/// What the views of a session say, once readings are chosen.
-pub(super) struct Views<'a> {
-    pub session: &'a Session,
-    /// Observations that are used, in order.
-    pub used: Vec<&'a Observation>,
-    /// The same as pose pairs about the target's first corner, so that misfits are those there.
-    pub views: Vec<View>,
-    /// The target frame about its first corner, seen from the target's own.
-    pub target_from_corner: Pose<Target, Target>,
-    /// Which observations of the session they are.
-    pub indices: Vec<usize>,
-    /// Something that moved between captures.
-    pub movement: Option<movement::Suspected>,
-}
-
-pub(super) fn first_report(o: &Observation) -> CaptureResult {
-    let reason = o.candidates.is_empty().then(|| "the target was not found in it".to_owned());
-    CaptureResult {
-        id: o.capture.clone(),
-        used: reason.is_none(),
-        reason,
-        base_from_flange: o.base_from_flange,
-        camera_from_target: o.candidates.first().map(|c| c.camera_from_target),
-        corners: o.corners.len(),
-        corners_3d: o.surface.len(),
-        residual_px: None,
-        reprojection_px: None,
-        residual_mm: None,
-        residual_deg: None,
-        held_out_mm: None,
-        held_out_deg: None,
-    }
-}
-
-/// All captures of a session with their readings about the target's first corner.
-pub(super) struct Captures<'a> {
-    pub session: &'a Session,
-    pub readings: &'a [Readings],
-    /// The target frame about its first corner, seen from the target's own.
-    pub target_from_corner: Pose<Target, Target>,
-}
-
-impl Captures<'_> {
-    /// One capture as the fits see it: pose and covariance moved to the target's first corner.
-    pub fn view(&self, i: usize, reading: usize) -> View {
-        let carry = crate::math::lie::adjoint(self.target_from_corner.inverse().iso());
-        let covariance = self.session.observations[i].candidates[reading].covariance;
-        View {
-            pair: self.pair(i, reading),
-            covariance: covariance.map(|c| carry * c * carry.transpose()),
-            sight: None,
-            by_arm: None,
-        }
-    }
-
-    /// Robot pose and target pose of one capture.
-    pub fn pair(&self, i: usize, reading: usize) -> PosePair {
-        PosePair {
-            anchor_from_mount: self.readings[i].anchor_from_mount,
-            camera_from_target: self.readings[i].camera_from_target[reading],
-        }
-    }
-}
 
 fn no_consensus(session: &Session, readings: &[Readings], error: &Error, result: &mut Calibration) {
     for capture in &mut result.captures {
@@ -170,12 +109,20 @@ fn suspect_conventions(
     result.verdict = Verdict::Rejected;
 }
 
+/// The captures that agree.
+pub(super) struct Agreement<'a> {
+    pub views: Views<'a>,
+    pub found: Consensus,
+    /// Something that moved between captures.
+    pub movement: Option<movement::Suspected>,
+}
+
 /// Finds the agreement, names what does not agree, and hands on what does.
 pub(super) fn agree<'a>(
     session: &'a Session,
     config: &Config,
     result: &mut Calibration,
-) -> Option<(Views<'a>, Consensus)> {
+) -> Option<Agreement<'a>> {
     let shift = session.target.as_ref().map_or(Vector3::zeros(), |t| t.reference().vector());
     let target_from_corner: Pose<Target, Target> =
         Pose::claim(nalgebra::Isometry3::translation(shift.x, shift.y, shift.z));
@@ -212,9 +159,9 @@ pub(super) fn agree<'a>(
         views: indices.iter().map(of).collect(),
         target_from_corner,
         indices,
-        movement: fit.and_then(|fit| movement::look(&captures, &found, &fit)),
     };
-    Some((views, found))
+    let movement = fit.and_then(|fit| movement::look(&captures, &found, &fit));
+    Some(Agreement { views, found, movement })
 }
 
 /// Fewer captures than this are answered with a warning.
@@ -225,9 +172,6 @@ fn warn_few(used: usize, result: &mut Calibration) {
         result.warnings.push(CaptureFinding::Few { used, of_a_ball: false }.into());
     }
 }
-
-/// Robot positions beyond this, m, are no robot's.
-pub(super) const FARTHEST: f64 = 20.0;
 
 /// Millimetres read as metres put the flange beyond any robot's reach, and the target beyond any
 /// camera's. Captures that do not belong have no say.

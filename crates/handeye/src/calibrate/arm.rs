@@ -7,10 +7,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Config, agreement::Views, joint::held_out_views};
+use super::joint::held_out_views;
 use crate::{
     HandEye, Observation, Pose, Setup, Touch,
-    calibrate::result::{ArmDeviation, ArmHeldOut, ArmResult, Calibration},
+    calibrate::{
+        config::Config,
+        result::{ArmDeviation, ArmHeldOut, ArmResult, Calibration},
+        views::Views,
+    },
     estimate::{Extra, ExtraKind, JointFit, Problem, Source, evaluate, joint},
     findings::RobotFinding,
     math::lie,

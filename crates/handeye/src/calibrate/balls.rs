@@ -5,14 +5,17 @@
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
 use super::{
-    Config, agreement,
     movement::{self, Recorded, Row},
     verdict,
     workpiece::workspace_volume,
 };
 use crate::{
     Camera, Mount, Observation, Pose, PosePair,
-    calibrate::result::{Answer, BudgetEntry, Calibration, Candidate, PoseCovariance, rows},
+    calibrate::{
+        config::Config,
+        result::{Answer, BudgetEntry, Calibration, Candidate, PoseCovariance, rows},
+        views,
+    },
     estimate::{
         evaluate::{self, Misfit},
         predict::{self, PredictedTre, Volume},
@@ -29,7 +32,7 @@ use crate::{
 const METHOD: &str = "ball-least-squares";
 
 pub(super) fn from_balls(session: &Session, config: &Config, result: &mut Calibration) {
-    result.captures = session.observations.iter().map(agreement::first_report).collect();
+    result.captures = session.observations.iter().map(views::first_report).collect();
     let seen: Vec<usize> =
         (0..session.observations.len()).filter(|&i| view(session, i).is_some()).collect();
     for (i, capture) in result.captures.iter_mut().enumerate() {

@@ -1,12 +1,12 @@
 //! Touches in the form that the joint fit takes.
 
 use super::{
-    agreement::Views,
     captures,
     optics::{self, Optics},
 };
 use crate::{
     Placement, Pose, PosePair, Setup, Target, TargetModel, Touch,
+    calibrate::views::Views,
     detect::sight::by_shape,
     estimate::{JointFit, TouchedBoard, TouchedCorner},
     math::lie,

@@ -1,12 +1,9 @@
 //! Every way to the answer, side by side, and the choice between them.
 
+mod judge;
 mod registered;
 
-use nalgebra::{Matrix6, SVector};
-
 use super::{
-    Config,
-    agreement::Views,
     alternatives::{Alternatives, Averaged},
     arm,
     boards::{self, Boards},
@@ -16,23 +13,30 @@ use super::{
     optics::{self, MeasuredBy, Optics},
     reach::Reach,
     verdict,
-    workpiece::{Workpiece, inflation, volume},
+    workpiece::{Workpiece, volume},
     wrong_touches,
 };
 use registered::stored_registration;
 
 use crate::{
-    Camera, HandEye, Mount, Pose, PosePair,
-    calibrate::result::{Answer, Calibration, Candidate, PoseCovariance, WITH_ARM, rows},
+    HandEye,
+    calibrate::{
+        answers::{as_fitted, blocks, excess, stated_covariance, stored},
+        candidates::judge::{Judge, Judged},
+        config::Config,
+        result::{Calibration, Candidate, TouchResult, WITH_ARM},
+        views,
+        views::{Views, pairs_of},
+    },
     estimate::{
-        self, JointFit, Problem,
+        JointFit, Problem,
         evaluate::{self, Estimator},
-        predict::{self, Volume},
+        predict::Volume,
         touches::{self, TouchPairs},
     },
     findings::TouchFinding,
     mistakes,
-    solve::{self, Method, View, consensus::Consensus, least_squares::Matrix12},
+    solve::{self, Method, consensus::Consensus, least_squares::Matrix12},
 };
 
 /// Makes and judges all candidates, chooses one, and reports the touches. With the views comes the
@@ -87,7 +91,7 @@ pub(super) fn estimate<'a>(
         Judge { views: &views, paired: &trusted, known: config.known, workpiece: &workpiece };
     compare(&judge, (&fit, joint.as_ref()), &volume, config, result);
     map_error(&workpiece, result);
-    captures::report_touches(&views, &paired, joint.as_ref(), result);
+    report_touches(&views, &paired, joint.as_ref(), result);
     let rests_on_arm = result.chosen.as_deref() == Some(WITH_ARM);
     let found = arm.filter(|_| rests_on_arm).map(|a| a.fit);
     Some((views, found))
@@ -134,7 +138,7 @@ fn fit_views(
     }
     config.unknown.set_free(views, &found.hand_eye);
     let extras = [optics.extras.as_slice(), &config.unknown.extras()].concat();
-    let problem = joint::views_problem(views.session, &views.views, &extras);
+    let problem = views::views_problem(views.session, &views.views, &extras);
     let alternatives = Alternatives::of(views.session);
     let Averaged { problem, mut fit, as_declared } =
         match alternatives.fit(&problem, &found.hand_eye, &config.known) {
@@ -149,7 +153,7 @@ fn fit_views(
         };
     captures::orient_target(views, &mut fit);
     config.unknown.report(&fit, result);
-    let problem = joint::views_problem(views.session, &views.views, &problem.extras);
+    let problem = views::views_problem(views.session, &views.views, &problem.extras);
     Some(Averaged { problem, fit, as_declared })
 }
 
@@ -194,50 +198,6 @@ fn name_free(views: &Views, fit: &JointFit, best: &JointFit, result: &mut Calibr
     }
 }
 
-/// A candidate with what its choice needs.
-struct Judged {
-    candidate: Candidate,
-    tre: Option<predict::PredictedTre>,
-    /// Misfit of each capture when it was left out.
-    held_out: Vec<Option<(f64, f64)>>,
-}
-
-/// Covariance of X and Y in their own frames, widened for noise estimated from few captures, and
-/// for data that fit worse than their noise says.
-pub(super) fn stated_covariance(fit: &JointFit) -> Option<Matrix12> {
-    fit.pose_covariance().zip(inflation(fit)).map(|(c, factor)| c * factor)
-}
-
-/// What an answer is more uncertain than the likeliest one: their difference and the likeliest one's error are
-/// independent (J. Hausman, Econometrica 46(6), 1978), and it is the only sample of its covariance.
-fn excess(likeliest: &HandEye, answer: &HandEye) -> Matrix12 {
-    let x = likeliest.mount_from_camera.local(&answer.mount_from_camera);
-    let y = likeliest.anchor_from_target.local(&answer.anchor_from_target);
-    let off = SVector::<f64, 12>::from_iterator(x.iter().chain(&y).copied());
-    off * off.transpose()
-}
-
-fn blocks(covariance: &Matrix12) -> (Matrix6<f64>, Matrix6<f64>) {
-    (
-        covariance.fixed_view::<6, 6>(0, 0).into_owned(),
-        covariance.fixed_view::<6, 6>(6, 6).into_owned(),
-    )
-}
-
-/// The views where a fit's camera puts them.
-pub(super) fn as_fitted(fit: &JointFit, views: &[View]) -> Vec<View> {
-    let moved = |v: &View| View { pair: v.with(&fit.extras, &fit.values), ..v.clone() };
-    views.iter().map(moved).collect()
-}
-
-/// What every candidate is judged by.
-struct Judge<'a> {
-    views: &'a Views<'a>,
-    paired: &'a [TouchPairs],
-    known: estimate::KnownNoise,
-    workpiece: &'a Workpiece<'a>,
-}
-
 impl Judge<'_> {
     fn view_candidates(&self, fit: &JointFit, touched: bool, config: &Config) -> Vec<Judged> {
         let likeliest = if touched { "views-only" } else { "joint" };
@@ -253,7 +213,7 @@ impl Judge<'_> {
         let by_estimator = |(name, estimator)| self.view_candidate(fit, name, &estimator);
         let mut judged: Vec<Judged> = all.into_iter().filter_map(by_estimator).collect();
         if config.method.is_none() {
-            let problem = joint::views_problem(self.views.session, &self.views.views, &fit.extras);
+            let problem = views::views_problem(self.views.session, &self.views.views, &fit.extras);
             let left_out = held_out_views(&problem, fit, &self.known);
             let mut own = self.judged(fit, likeliest.into(), &fit.hand_eye, left_out);
             own.candidate.in_sample =
@@ -302,14 +262,6 @@ impl Judge<'_> {
             note: None,
         };
         Judged { candidate, tre, held_out: left_out }
-    }
-
-    /// Covariance of an answer for the camera. Where the arm deviates, every answer misses what the best one does, and
-    /// its distance from that one.
-    fn of_camera(&self, own: Matrix6<f64>, x: &Pose<Mount, Camera>) -> Matrix6<f64> {
-        let Some((best, covariance)) = self.workpiece.rigid() else { return own };
-        let off = best.local(x);
-        covariance + off * off.transpose()
     }
 
     /// The same beside that for the target.
@@ -370,25 +322,6 @@ impl Judge<'_> {
     }
 }
 
-/// The answer for files: about the target's own origin again.
-pub(super) fn stored(views: &Views, answer: &HandEye, covariance: Option<&Matrix12>) -> Answer {
-    let carry = crate::math::lie::adjoint(views.target_from_corner.iso());
-    let moved = answer.retarget(views.target_from_corner.inverse());
-    Answer {
-        mount_from_camera: Some(moved.mount_from_camera),
-        anchor_from_target: Some(moved.anchor_from_target),
-        covariance: PoseCovariance {
-            mount_from_camera: covariance.map(|c| rows(&blocks(c).0)),
-            anchor_from_target: covariance
-                .map(|c| rows(&(carry * blocks(c).1 * carry.transpose()))),
-        },
-    }
-}
-
-pub(super) fn pairs_of(views: &Views) -> Vec<PosePair> {
-    views.views.iter().map(|v| v.pair).collect()
-}
-
 /// The least predicted error wins; the residual has no say.
 fn choose(
     candidates: Vec<Judged>,
@@ -434,4 +367,28 @@ fn why(best: &Judged, all: &[Judged], volume: &Volume, config: &Config) -> Strin
         tre.rms,
         others.join(", ")
     )
+}
+
+/// Where the chosen answer puts each touched corner.
+pub(crate) fn report_touches(
+    views: &Views,
+    paired: &[TouchPairs],
+    joint: Option<&Joint>,
+    result: &mut Calibration,
+) {
+    let Some(x) = result.hand_eye.mount_from_camera else { return };
+    let chosen = |name: &str| result.chosen.as_deref().is_some_and(|n| n.starts_with(name));
+    let (registered, fused) = (chosen("two-step"), chosen("joint"));
+    let taken = |touch: usize| joint.is_some_and(|j| j.used.contains(&touch));
+    let one = |p: &TouchPairs| {
+        let difference_mm = touches::touch_error(p, &x) * 1e3;
+        TouchResult {
+            capture: p.placement.clone(),
+            corner: views.session.touches[p.touch].corner,
+            residual_mm: difference_mm.norm(),
+            difference_mm,
+            used: registered || fused && taken(p.touch),
+        }
+    };
+    result.touches = paired.iter().map(one).collect();
 }

@@ -1,10 +1,12 @@
 //! Misfit of every capture and touch, and which way round the target lies.
 
-use super::{agreement::Views, joint::Joint};
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
     TargetPose, Touch, Warning,
-    calibrate::result::{Calibration, TouchResult},
+    calibrate::{
+        result::Calibration,
+        views::{Views, own_pose},
+    },
     detect::{
         self,
         sight::{Sight, TARGET_SCALE},
@@ -174,11 +176,6 @@ fn as_chosen(o: &Observation, v: &View, views: &Views, target: &TargetModel) -> 
     o
 }
 
-/// The chosen pose of a view, about the target's own origin.
-pub(super) fn own_pose(v: &View, views: &Views) -> Pose<Camera, Target> {
-    v.pair.camera_from_target * views.target_from_corner.inverse()
-}
-
 /// Fills in the misfits of the captures that are used.
 pub(super) fn report_captures(views: &Views, result: &mut Calibration) {
     let Some(answer) = answer(result, views) else { return };
@@ -240,28 +237,4 @@ fn picture_residual(
         })
         .collect();
     (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
-}
-
-/// Where the chosen answer puts each touched corner.
-pub(super) fn report_touches(
-    views: &Views,
-    paired: &[TouchPairs],
-    joint: Option<&Joint>,
-    result: &mut Calibration,
-) {
-    let Some(x) = result.hand_eye.mount_from_camera else { return };
-    let chosen = |name: &str| result.chosen.as_deref().is_some_and(|n| n.starts_with(name));
-    let (registered, fused) = (chosen("two-step"), chosen("joint"));
-    let taken = |touch: usize| joint.is_some_and(|j| j.used.contains(&touch));
-    let one = |p: &TouchPairs| {
-        let difference_mm = touches::touch_error(p, &x) * 1e3;
-        TouchResult {
-            capture: p.placement.clone(),
-            corner: views.session.touches[p.touch].corner,
-            residual_mm: difference_mm.norm(),
-            difference_mm,
-            used: registered || fused && taken(p.touch),
-        }
-    };
-    result.touches = paired.iter().map(one).collect();
 }

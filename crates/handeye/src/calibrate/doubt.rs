@@ -1,9 +1,11 @@
 //! Whether the captures that agree are the right ones: no clear majority is no answer.
 
-use super::agreement::Captures;
 use crate::{
     HandEye, PosePair, TargetModel,
-    calibrate::result::{Calibration, Scale},
+    calibrate::{
+        result::{Calibration, Scale},
+        views::Captures,
+    },
     findings::{CaptureFinding, captures::ListedOrder},
     math::linalg::median,
     mistakes::{

@@ -5,16 +5,16 @@
 //! likelihood from those that agree. Captures that are no surprise come back in; then the worst of
 //! those inside goes out if it is one.
 
-use statrs::distribution::{ContinuousCDF, FisherSnedecor};
-
-use super::{Config, agreement::Captures, masked::masked};
+use super::masked::masked;
 use crate::{
+    calibrate::{
+        config::Config,
+        masked::{IMPROBABLE, surprise_limit},
+        views::Captures,
+    },
     estimate::{self, JointFit},
     solve::{FEWEST_POSES, View, consensus::Consensus},
 };
-
-/// Chance of a capture as far off as it is below which it stays out.
-pub(super) const IMPROBABLE: f64 = 1e-5;
 
 /// Rounds of letting captures in and putting the worst out. Each round that puts one out may hold
 /// another that was hidden behind it.
@@ -112,12 +112,4 @@ fn unmask(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &C
     });
     hidden.iter().for_each(|&k| found.agrees[used[k]] = false);
     !hidden.is_empty()
-}
-
-/// Squared distance, six axes a capture, that so many captures exceed with this chance where the
-/// noise is estimated from so few equations.
-pub(super) fn surprise_limit(chance: f64, captures: usize, degrees_of_freedom: f64) -> f64 {
-    let axes = 6.0 * captures as f64;
-    FisherSnedecor::new(axes, degrees_of_freedom.max(1.0))
-        .map_or(f64::INFINITY, |f| axes * f.inverse_cdf(1.0 - chance))
 }

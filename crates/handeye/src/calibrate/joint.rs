@@ -4,14 +4,16 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::{
-    agreement::Views,
     alternatives::{Alternatives, Averaged},
     boards::Boards,
     prior::Declared,
 };
 use crate::{
     TargetModel,
-    calibrate::result::{Calibration, TipResult},
+    calibrate::{
+        result::{Calibration, TipResult},
+        views::{Views, views_problem},
+    },
     estimate::{
         Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, evaluate,
         extra::{SYSTEMATIC, TIP_PRIOR, systematic, tip},
@@ -19,8 +21,6 @@ use crate::{
     },
     findings::TouchFinding,
     math::statistics,
-    model::session::Session,
-    solve::View,
 };
 
 /// What views and touches say together.
@@ -47,17 +47,6 @@ pub(super) struct Conflict {
     /// Strength of the systematic difference that explains it best, in its own units; zero where
     /// none is needed.
     pub strength: f64,
-}
-
-/// Views alone.
-pub(super) fn views_problem(session: &Session, views: &[View], extras: &[Extra]) -> Problem {
-    Problem {
-        setup: session.setup,
-        views: views.to_vec(),
-        boards: vec![],
-        extras: extras.to_vec(),
-        known_position: session.known_position,
-    }
 }
 
 /// Fits views and touches together; `extras` are free beside the tip.

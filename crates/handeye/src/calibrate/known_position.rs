@@ -1,11 +1,11 @@
 //! What rests on a position of the camera that the user measured.
 
-use super::{
-    agreement::Views,
-    candidates::{pairs_of, stated_covariance},
-};
 use crate::{
-    calibrate::result::Calibration,
+    calibrate::{
+        answers::stated_covariance,
+        result::Calibration,
+        views::{Views, pairs_of},
+    },
     estimate::{self, JointFit, Problem},
     findings::RobotFinding,
     mistakes,

@@ -11,9 +11,8 @@
 //! P. Rousseeuw and K. Van Driessen, *Computing LTS regression for large data sets*, 2006
 //! (concentration).
 
-use statrs::distribution::{ChiSquared, ContinuousCDF};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
-use super::gate::{IMPROBABLE, surprise_limit};
 use crate::{Setup, estimate::JointFit, solve::View};
 
 /// Part of the captures that the search starts from.
@@ -96,6 +95,17 @@ fn nearest(views: &[View], fit: &JointFit, setup: Setup, count: usize) -> Vec<us
 fn shortfall(part: f64) -> f64 {
     let (Ok(six), Ok(eight)) = (ChiSquared::new(6.0), ChiSquared::new(8.0)) else { return 1.0 };
     if part >= 1.0 { 1.0 } else { eight.cdf(six.inverse_cdf(part)) / part }
+}
+
+/// Chance of a capture as far off as it is below which it stays out.
+pub(crate) const IMPROBABLE: f64 = 1e-5;
+
+/// Squared distance, six axes a capture, that so many captures exceed with this chance where the
+/// noise is estimated from so few equations.
+pub(crate) fn surprise_limit(chance: f64, captures: usize, degrees_of_freedom: f64) -> f64 {
+    let axes = 6.0 * captures as f64;
+    FisherSnedecor::new(axes, degrees_of_freedom.max(1.0))
+        .map_or(f64::INFINITY, |f| axes * f.inverse_cdf(1.0 - chance))
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@
 mod agreement;
 mod alike;
 mod alternatives;
+mod answers;
 mod arm;
 mod balls;
 mod boards;
@@ -20,6 +21,7 @@ mod budget;
 mod candidates;
 mod captures;
 pub mod certificate;
+mod config;
 mod doubt;
 pub mod findings;
 mod gate;
@@ -46,48 +48,22 @@ pub mod streams;
 pub(crate) mod unknown;
 pub mod unscaled;
 mod verdict;
+pub(crate) mod views;
 mod workpiece;
 mod wrong_touches;
 
 use crate::{
     Camera, Error, Mount, Pose, Session, Setup, TargetModel, Warning,
     calibrate::result::{Answer, Calibration, UNJUDGED},
-    estimate::{evaluate::Misfit, noise::KnownNoise, touches},
+    estimate::{evaluate::Misfit, touches},
     model::verdict::Verdict,
-    register::IcpConfig,
-    solve::Method,
 };
 
+use agreement::Agreement;
 pub use captures::relabelling;
+pub use config::{AnswerFrame, Config};
 use optics::Optics;
 pub use unknown::Unknown;
-
-/// What the user wants of a calibration.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Config {
-    /// A published method to run as published, instead of choosing among candidates.
-    pub method: Option<Method>,
-    /// Parameters of the nearest-neighbour candidate of the two-step refinement.
-    pub icp: IcpConfig,
-    /// Noise figures that are known.
-    pub known: KnownNoise,
-    /// Error (95 %, predicted) that the job tolerates, mm.
-    pub max_error_mm: Option<f64>,
-    /// What is free beside both poses.
-    pub unknown: Unknown,
-    /// In which frame the answer is, where images and scans do not agree.
-    pub answer_frame: AnswerFrame,
-}
-
-/// The frame of the camera in which the answer is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum AnswerFrame {
-    /// That of the scans, where there are any.
-    #[default]
-    Scan,
-    /// That of the images.
-    Image,
-}
 
 /// Version of the result's format.
 const FORMAT: &str = "handeye-calibration-1";
@@ -127,8 +103,7 @@ pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calib
     }
     let run = |session: &Session| {
         sources::in_one_frame(session, config.answer_frame, |session| {
-            let mut result = empty(session.setup);
-            from_views(session, (session, &Optics::of(session), 0), config, &mut result);
+            let mut result = from_views(session, (session, &Optics::of(session), 0), config);
             verdict::conclude(config, &mut result);
             result
         })
@@ -166,43 +141,42 @@ fn from_views(
     given: &Session,
     (session, optics, round): (&Session, &Optics, usize),
     config: &Config,
-    result: &mut Calibration,
-) {
-    let Some((views, found)) = agreement::agree(session, config, result) else { return };
+) -> Calibration {
+    let mut result = empty(session.setup);
+    let Some(agreement) = agreement::agree(session, config, &mut result) else { return result };
+    let Agreement { views, found, movement } = agreement;
     if round < OPTICS_ROUNDS
         && let Some((moved, next)) = optics::look(given, &views, &found.hand_eye, optics, config)
     {
-        let mut again = empty(session.setup);
-        from_views(given, (&moved, &next, round + 1), config, &mut again);
+        let again = from_views(given, (&moved, &next, round + 1), config);
         if again.chosen.is_some() {
-            *result = again;
-            return;
+            return again;
         }
     }
-    let Some((views, arm)) = candidates::estimate(views, &found, optics, config, result) else {
-        return;
+    let Some((views, arm)) = candidates::estimate(views, &found, optics, config, &mut result)
+    else {
+        return result;
     };
     // an arm that deviates has its own say about the lens: once more from there
     if round <= OPTICS_ROUNDS
         && let Some((moved, next)) = arm.and_then(|fit| optics.moved_by(given, &fit))
     {
-        let mut again = empty(session.setup);
-        from_views(given, (&moved, &next, OPTICS_ROUNDS + 1), config, &mut again);
+        let again = from_views(given, (&moved, &next, OPTICS_ROUNDS + 1), config);
         if again.chosen.is_some() {
-            *result = again;
-            return;
+            return again;
         }
     }
-    captures::report_captures(&views, result);
-    if let Some(moved) = views.movement {
-        movement::apply(moved, result);
+    captures::report_captures(&views, &mut result);
+    if let Some(moved) = movement {
+        movement::apply(moved, &mut result);
     }
+    result
 }
 
 /// The result of a session that has no answer.
 pub(crate) fn without_answer(session: &Session) -> Calibration {
     let mut result = empty(session.setup);
-    result.captures = session.observations.iter().map(agreement::first_report).collect();
+    result.captures = session.observations.iter().map(views::first_report).collect();
     result.captures.iter_mut().for_each(|c| c.used = false);
     result
 }

@@ -22,10 +22,13 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
 
-use super::{agreement::Captures, gate::IMPROBABLE};
 use crate::{
     Anchor, Calibration, Mount, Pose,
-    calibrate::result::{matrix, rows},
+    calibrate::{
+        masked::IMPROBABLE,
+        result::{matrix, rows},
+        views::Captures,
+    },
     estimate::JointFit,
     findings::movement::{Movement, MovementKind},
     math::{lie, statistics},

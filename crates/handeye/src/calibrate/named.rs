@@ -1,9 +1,9 @@
 //! Results of methods that were asked for by name: what the motions leave open is a property of the
 //! data, whatever numbers a closed form makes of them.
 
-use super::{Config, agreement::Views, candidates, joint, verdict};
+use super::{joint, verdict};
 use crate::{
-    calibrate::result::Calibration,
+    calibrate::{answers, config::Config, result::Calibration, views, views::Views},
     estimate::{JointFit, evaluate},
     model::verdict::Verdict,
     solve,
@@ -20,15 +20,15 @@ pub(super) fn judge_by_likeliest(
     if result.undetermined.is_empty() || result.verdict == Verdict::Rejected {
         return;
     }
-    let problem = joint::views_problem(views.session, &views.views, &fit.extras);
+    let problem = views::views_problem(views.session, &views.views, &fit.extras);
     let left_out = joint::held_out_views(&problem, fit, &config.known);
     result.held_out = evaluate::rms(&left_out);
     captures_held_out(views, &left_out, result);
     if verdict::contradictions(result).is_empty() {
         result.residual =
-            evaluate::in_sample(&fit.hand_eye, &candidates::as_fitted(fit, &views.views));
+            evaluate::in_sample(&fit.hand_eye, &answers::as_fitted(fit, &views.views));
         // for the misfits of the captures; the verdict hides it
-        result.hand_eye = candidates::stored(views, &fit.hand_eye, None);
+        result.hand_eye = answers::stored(views, &fit.hand_eye, None);
     }
 }
 
@@ -37,7 +37,7 @@ pub(super) fn name_failure(views: &Views, method: solve::Method, result: &mut Ca
     if !result.undetermined.is_empty() {
         return;
     }
-    let Err(error) = solve::solve(&candidates::pairs_of(views), method) else { return };
+    let Err(error) = solve::solve(&views::pairs_of(views), method) else { return };
     result.reasons.push(format!(
         "{} has no answer for these captures (without a method by name there may be one): {error}",
         method.name()
@@ -50,7 +50,7 @@ pub(super) fn name_failure(views: &Views, method: solve::Method, result: &mut Ca
 pub(super) fn report_scale(views: &Views, method: solve::Method, result: &mut Calibration) {
     if method == solve::Method::AndreffScaled
         && result.undetermined.is_empty()
-        && let Ok(found) = solve::andreff::solve_with_scale(&candidates::pairs_of(views))
+        && let Ok(found) = solve::andreff::solve_with_scale(&views::pairs_of(views))
     {
         result.scale = Some(1.0 / found.scale);
     }

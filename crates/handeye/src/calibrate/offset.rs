@@ -13,10 +13,13 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3};
 
-use super::{AnswerFrame, scans::seen_planes};
+use super::scans::seen_planes;
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Mount, Pose, SurfaceCorner, TargetPose, Warning,
-    calibrate::result::{matrix, rows},
+    calibrate::{
+        config::AnswerFrame,
+        result::{matrix, rows},
+    },
     detect,
     estimate::predict,
     findings::{

@@ -8,17 +8,19 @@
 use nalgebra::{DMatrix, Matrix3, Matrix6, SVector, Vector2, Vector3, Vector6};
 
 use super::{
-    Config,
-    agreement::Views,
     alternatives::Alternatives,
     captures,
-    joint::views_problem,
     prior::{Declared, SIZE, unknown_depth, unknown_lens, unknown_shape, unknown_size},
 };
 use crate::{
     Camera, ImageCorner, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel,
     Warning,
-    calibrate::result::{Calibration, CameraResult, DepthResult},
+    calibrate::{
+        config::Config,
+        result::{Calibration, CameraResult, DepthResult},
+        views,
+        views::{Views, views_problem},
+    },
     detect::{
         self,
         sight::{
@@ -286,7 +288,7 @@ pub(super) fn with_sights(views: &Views) -> Vec<View> {
     };
     let excess = excess(views.session, target, camera);
     let one = |(o, v): (&&Observation, &View)| {
-        let own = captures::own_pose(v, views);
+        let own = views::own_pose(v, views);
         let map = captures::relabelling(o, &own, target);
         let sight = sight_of(o, &map, target, camera, excess, &own);
         let carry = crate::math::lie::adjoint(views.target_from_corner.inverse().iso());

@@ -9,9 +9,10 @@
 
 use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix6, Vector3};
 
-use super::{agreement::Views, arm::ArmFit};
+use super::arm::ArmFit;
 use crate::{
     Camera, Flange, Mount, Pose, Setup,
+    calibrate::views::Views,
     estimate::{ExtraKind, predict::Volume},
     model::kinematics::Arm,
     register::rigid_fit::{point_jacobian, rigid_fit},

@@ -7,13 +7,13 @@
 
 use nalgebra::{Rotation3, Vector2, Vector3};
 
-use super::{
-    agreement::{Captures, FARTHEST},
-    doubt,
-};
+use super::doubt;
 use crate::{
     Pose, Target, TargetModel,
-    calibrate::result::Calibration,
+    calibrate::{
+        result::Calibration,
+        views::{Captures, FARTHEST},
+    },
     estimate::JointFit,
     findings::{
         CaptureFinding,

@@ -1,10 +1,9 @@
 //! Captures that repeat one another: what the robot misses at a place, it misses in all of them. Of each place one
 //! counts; as independent captures they would promise an accuracy that nobody has measured.
 
-use super::agreement;
 use crate::{
     Observation,
-    calibrate::result::Calibration,
+    calibrate::{result::Calibration, views},
     findings::CaptureFinding,
     model::{names::natural, session::Session},
 };
@@ -78,7 +77,7 @@ impl Uncounted {
         let names = captures.iter().map(|(o, _)| o.capture.clone()).collect();
         result.warnings.push(finding(names).into());
         for (capture, first) in captures {
-            let mut report = agreement::first_report(&capture);
+            let mut report = views::first_report(&capture);
             report.used = false;
             report.reason =
                 Some(format!("{does} capture {first}: one capture of each pose counts"));

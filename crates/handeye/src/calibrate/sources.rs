@@ -11,13 +11,11 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::{
-    AnswerFrame,
-    offset::{self, Found},
-};
+use super::offset::{self, Found};
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
     TargetPose, Verdict,
+    calibrate::config::AnswerFrame,
     detect::{
         self,
         sight::{corrected, lifted_again, on_ray},

@@ -14,10 +14,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::{SMatrix, Vector6};
 
-use super::agreement::Views;
 use crate::{
     HandEye,
-    calibrate::result::Calibration,
+    calibrate::{result::Calibration, views::Views},
     detect::sight::{CLOCK, Sight, TARGET_SCALE},
     estimate::{Extra, ExtraKind, JointFit},
     math::lie,

@@ -1,9 +1,13 @@
 //! Whether the answer can be used.
 
-use super::{Config, agreement::Views, prior::SIZE};
+use super::prior::SIZE;
 use crate::{
     Camera, Mount, Pose, TargetSize,
-    calibrate::result::{Answer, Calibration, Determined, Scale},
+    calibrate::{
+        config::Config,
+        result::{Answer, Calibration, Determined, Scale},
+        views::Views,
+    },
     estimate::{JointFit, noise::Source},
     findings::{
         TargetFinding,

@@ -3,13 +3,12 @@
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3};
 
 use super::{
-    agreement::Views,
-    candidates::pairs_of,
     optics::{self, MeasuredBy},
     reach::Reach,
 };
 use crate::{
     Camera, Mount, Pose, Setup, Target, Workspace,
+    calibrate::views::{Views, pairs_of},
     estimate::{
         JointFit,
         predict::{self, PredictedTre, Volume},

@@ -7,10 +7,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{agreement::Views, boards::Boards};
+use super::boards::Boards;
 use crate::{
     TargetModel, Warning,
-    calibrate::result::Calibration,
+    calibrate::{result::Calibration, views::Views},
     estimate::{JointFit, Problem, TouchedBoard},
     findings::TouchFinding,
     math::linalg::{self, median},

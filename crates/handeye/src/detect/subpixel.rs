@@ -27,7 +27,8 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::GrayImage;
 use disc::Disc;
-use model::{Light, Parameters};
+use disc::Light;
+use model::Parameters;
 
 /// A corner known to about a pixel, and the board around it.
 #[derive(Debug, Clone, Copy)]

@@ -19,7 +19,7 @@ use super::{
 use crate::{
     GrayImage, ImageCorner, TargetModel,
     detect::outcome::{NotFound, Outcome},
-    model::target::PlacedTag,
+    model::target::kinds::PlacedTag,
 };
 
 /// A tag belongs to a group when its corners are this near to where they should be, in its sides:

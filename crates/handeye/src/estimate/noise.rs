@@ -36,6 +36,8 @@ pub enum Source {
     Touch,
 }
 
+pub(crate) type Variances = [f64; Source::ALL.len()];
+
 impl Source {
     /// Every source, in the order of their numbers.
     pub const ALL: [Source; 8] = [

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::{kinematics::Arm, names::natural, target::TargetModel};
+use super::{kinematics::Arm, names::natural};
 use crate::{
     Camera, Correspondence, Intrinsics, Mount, Observation, Placement, Pose, Setup, Touch,
-    Workspace,
+    Workspace, model::target::kinds::TargetModel,
 };
 
 /// Everything that was measured in one cell.

@@ -372,7 +372,7 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
     use crate::model::print::{Shape, art};
-    use crate::model::target::AprilTagFamily;
+    use crate::model::target::kinds::AprilTagFamily;
 
     fn boards() -> Vec<TargetModel> {
         let (columns, rows, pitch_mm) = (5, 4, 20.0);

@@ -2,13 +2,14 @@
 
 use nalgebra::Matrix6;
 
-use super::{Judge, Judged, pairs_of, stored};
+use super::judge::{Judge, Judged};
 use crate::{
     Error, HandEye,
     calibrate::{
-        Config,
-        agreement::Views,
+        answers::stored,
+        config::Config,
         result::{Answer, Calibration, Candidate, PoseCovariance, rows},
+        views::{Views, pairs_of},
     },
     estimate::{
         JointFit, evaluate,

@@ -7,7 +7,7 @@ use crate::{
     Intrinsics, Pose,
     detect::detect,
     math::random::Random,
-    model::target::AprilTagFamily,
+    model::target::kinds::AprilTagFamily,
     simulate::{Conditions, Occlusion, Optics, Scene, Shape},
 };
 

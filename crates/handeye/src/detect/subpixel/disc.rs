@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::{REACH, RoughCorner, Unfit, model::Light};
+use super::{REACH, RoughCorner, Unfit};
 use crate::{GrayImage, detect::saturated::is_saturated};
 
 /// Fewer pixels than this do not determine nine parameters.
@@ -129,4 +129,13 @@ fn markers_around(
             None => q.x.abs().min(q.y.abs()) > clean,
         }
     }))
+}
+
+/// How the slope of the light gets into the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Light {
+    /// Black and white reflect it: lamps, vignetting.
+    Multiplies,
+    /// It lies over black and white alike: glare.
+    Adds,
 }

@@ -7,20 +7,11 @@ use nalgebra::SVector;
 
 use super::disc::{Disc, LANES, Lane, Pixels};
 use crate::{
-    detect::{erf::erf, saturated::share_within},
+    detect::{erf::erf, saturated::share_within, subpixel::disc::Light},
     math::gram::{accumulate, pairs},
 };
 
 pub(super) type Parameters = SVector<f64, 9>;
-
-/// How the slope of the light gets into the picture.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Light {
-    /// Black and white reflect it: lamps, vignetting.
-    Multiplies,
-    /// It lies over black and white alike: glare.
-    Adds,
-}
 
 /// The model at one set of parameters: `cx cy θ₁ θ₂ a b ln(s) gx gy`.
 pub(super) struct Model {

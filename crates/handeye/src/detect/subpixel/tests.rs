@@ -1,10 +1,11 @@
 use super::{
     disc::{LANES, Pixels},
-    model::{Light, Model},
+    model::Model,
     *,
 };
 use crate::{
     Intrinsics, Pose, TargetModel,
+    detect::subpixel::disc::Light,
     math::random::Random,
     simulate::{Optics, Scene},
 };

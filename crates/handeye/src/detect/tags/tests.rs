@@ -27,7 +27,7 @@ fn aprilgrid(border_bits: u32, corner_squares: bool) -> TargetModel {
         tags_y: 4,
         tag_mm: 24.0,
         spacing: 0.3,
-        family: crate::model::target::AprilTagFamily::Tag36h11,
+        family: crate::model::target::kinds::AprilTagFamily::Tag36h11,
         first_id: 0,
         corner_squares,
         border_bits,

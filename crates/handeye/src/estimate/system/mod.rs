@@ -22,13 +22,16 @@ use super::{
     touched::{self, TouchedBoard},
 };
 use crate::{
-    estimate::system::state::{BoardBlock, State, System, Variances},
+    estimate::{
+        noise::Variances,
+        system::state::{BoardBlock, State, System},
+    },
     math::linalg,
     solve::least_squares::{self},
 };
 pub(crate) use groups::Steps;
 use sights::Sights;
-use views::{SeenMount, ViewNoise, divide};
+use views::{SeenMount, divide};
 
 /// A step shorter than this, squared and in units of the information, needs no check: the model is
 /// as good as linear there.

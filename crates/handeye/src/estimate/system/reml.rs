@@ -4,17 +4,14 @@ use std::ops::AddAssign;
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
 
-use super::{
-    super::{
-        joint::{PRIOR_TOUCHES, PRIOR_VIEWS},
-        noise::{KnownNoise, NoiseModel, Sigma, Source},
-    },
-    views::ViewNoise,
+use super::super::{
+    joint::{PRIOR_TOUCHES, PRIOR_VIEWS},
+    noise::{KnownNoise, NoiseModel, Sigma, Source},
 };
 use crate::{
     estimate::{
         noise::LEAST_SIGMA,
-        system::state::{BoardBlock, System},
+        system::state::{BoardBlock, System, ViewNoise},
     },
     math::linalg,
 };

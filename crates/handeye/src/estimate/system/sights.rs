@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::super::{Problem, extra::ExtraKind, noise::Source};
-use crate::estimate::system::state::Variances;
+use crate::estimate::noise::Variances;
 
 /// `Σ (cᵀ S c + 2 sᵀ c)/θ_picture`.
 pub(super) struct Sights {

@@ -4,12 +4,13 @@ use crate::{
     HandEye,
     estimate::{
         NoiseModel, Problem, Source,
-        system::{Sights, ViewNoise},
+        noise::{COLUMNS, Factor},
+        system::sights::Sights,
         touched::TouchRows,
     },
     solve::{least_squares, least_squares::Vector12},
 };
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6};
 
 /// Where the fit stands.
 #[derive(Debug, Clone)]
@@ -54,4 +55,9 @@ pub(crate) struct BoardBlock {
     pub(super) cholesky: Cholesky<f64, Dyn>,
 }
 
-pub(crate) type Variances = [f64; Source::ALL.len()];
+/// What a view's six equations were divided by, and the noise's factor, divided likewise.
+pub(crate) struct ViewNoise {
+    pub factor: Factor,
+    pub columns: [Source; COLUMNS],
+    pub root: Matrix6<f64>,
+}

@@ -5,22 +5,18 @@ use nalgebra::{Matrix6, Vector6};
 use super::super::{
     Problem,
     extra::{self, Extra, ExtraKind},
-    noise::{self, COLUMNS, Factor, Source},
+    noise::{self},
     touched,
 };
 use crate::{
     HandEye, Setup,
-    estimate::system::state::{State, System, Variances},
+    estimate::{
+        noise::Variances,
+        system::state::{State, System, ViewNoise},
+    },
     math::lie,
     solve::least_squares::{self, View},
 };
-
-/// What a view's six equations were divided by, and the noise's factor, divided likewise.
-pub(super) struct ViewNoise {
-    pub factor: Factor,
-    pub columns: [Source; COLUMNS],
-    pub root: Matrix6<f64>,
-}
 
 impl System {
     /// Writes the equations of one view.

@@ -2,7 +2,7 @@
 
 use std::{mem::discriminant, ops::Range};
 
-use super::TargetModel;
+use crate::model::target::kinds::TargetModel;
 
 impl TargetModel {
     /// The dictionary of the markers on the board, and which they are.

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::{PlacedTag, TargetModel};
+use crate::model::target::kinds::{PlacedTag, TargetModel};
 
 /// Place of a corner that exists, in metres.
 pub(super) fn in_plane(target: &TargetModel, id: u32) -> Vector2<f64> {

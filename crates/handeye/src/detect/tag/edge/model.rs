@@ -10,7 +10,7 @@ use crate::{
     math::gram::{accumulate, pairs},
 };
 
-pub(in super::super) type Parameters = SVector<f64, 6>;
+pub(in crate::detect) type Parameters = SVector<f64, 6>;
 
 /// Pixels that are computed at once.
 pub(super) const LANES: usize = 8;

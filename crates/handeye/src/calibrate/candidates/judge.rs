@@ -1,0 +1,35 @@
+//! What every candidate is judged by.
+
+use nalgebra::Matrix6;
+
+use crate::{
+    Camera, Mount, Pose,
+    calibrate::{result::Candidate, views::Views, workpiece::Workpiece},
+    estimate::{self, predict, touches::TouchPairs},
+};
+
+/// What every candidate is judged by.
+pub(super) struct Judge<'a> {
+    pub(super) views: &'a Views<'a>,
+    pub(super) paired: &'a [TouchPairs],
+    pub(super) known: estimate::KnownNoise,
+    pub(super) workpiece: &'a Workpiece<'a>,
+}
+
+/// A candidate with what its choice needs.
+pub(super) struct Judged {
+    pub(super) candidate: Candidate,
+    pub(super) tre: Option<predict::PredictedTre>,
+    /// Misfit of each capture when it was left out.
+    pub(super) held_out: Vec<Option<(f64, f64)>>,
+}
+
+impl Judge<'_> {
+    /// Covariance of an answer for the camera. Where the arm deviates, every answer misses what the best one does, and
+    /// its distance from that one.
+    pub(super) fn of_camera(&self, own: Matrix6<f64>, x: &Pose<Mount, Camera>) -> Matrix6<f64> {
+        let Some((best, covariance)) = self.workpiece.rigid() else { return own };
+        let off = best.local(x);
+        covariance + off * off.transpose()
+    }
+}

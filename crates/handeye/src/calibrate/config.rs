@@ -1,0 +1,32 @@
+//! What the user wants of a calibration.
+
+use crate::{
+    calibrate::unknown::Unknown, estimate::noise::KnownNoise, register::IcpConfig, solve::Method,
+};
+
+/// What the user wants of a calibration.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Config {
+    /// A published method to run as published, instead of choosing among candidates.
+    pub method: Option<Method>,
+    /// Parameters of the nearest-neighbour candidate of the two-step refinement.
+    pub icp: IcpConfig,
+    /// Noise figures that are known.
+    pub known: KnownNoise,
+    /// Error (95 %, predicted) that the job tolerates, mm.
+    pub max_error_mm: Option<f64>,
+    /// What is free beside both poses.
+    pub unknown: Unknown,
+    /// In which frame the answer is, where images and scans do not agree.
+    pub answer_frame: AnswerFrame,
+}
+
+/// The frame of the camera in which the answer is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AnswerFrame {
+    /// That of the scans, where there are any.
+    #[default]
+    Scan,
+    /// That of the images.
+    Image,
+}
