@@ -63,7 +63,7 @@ impl Outcome {
     /// Spoilt captures whose reason says what happened.
     pub fn named(&self, kind: Mistake) -> usize {
         let words: &[&str] = match kind {
-            Mistake::Turned => &["turned"],
+            Mistake::Turned => &["rotated"],
             Mistake::Exchanged => &["exchanged"],
             Mistake::Stale => &["robot pose is that of", "robot pose of the"],
             Mistake::Shifted => {

@@ -100,12 +100,19 @@ const COMMANDS: [&str; 10] = [
     "export",
     "init",
     "target",
-    "repeat",
+    "compare",
     "detect",
     "simulate",
     "demo",
     "completions",
 ];
+
+#[test]
+fn the_first_name_of_compare_still_works() {
+    let folder = Folder::new();
+    let by_both = ["compare", "repeat"].map(|name| handeye(&folder, &[name, "--help"]).stdout);
+    assert_eq!(by_both[0], by_both[1]);
+}
 
 #[test]
 fn the_help_of_every_command_has_an_example_and_fits_the_screen() {

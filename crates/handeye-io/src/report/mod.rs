@@ -339,7 +339,7 @@ fn candidates(c: &Calibration) -> String {
         .collect();
     let table = format!(
         "<div class=\"scroll\"><table><tr><th>candidate</th><th>captures<br>in sample, mm</th><th>in sample,<br>degrees</th>\
-         <th>captures<br>left out, mm</th><th>touches,<br>mm</th><th>not seen<br>before, mm</th><th>predicted<br>at work, mm</th></tr>{rows}</table></div>\
+         <th>captures<br>held out, mm</th><th>touches,<br>mm</th><th>not seen<br>before, mm</th><th>predicted<br>at work, mm</th></tr>{rows}</table></div>\
          {notes}<p>{}.</p><p class=\"note\">All figures are root mean squares. The residual of what an answer was made from never \
          chooses: it falls whenever more is fitted, also when the answer gets worse.</p>",
         capital(&escape(&c.why))
