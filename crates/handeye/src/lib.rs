@@ -1,4 +1,40 @@
-//! Hand-eye calibration.
+//! Hand-eye calibration: where a camera sits on a robot or beside it, and how certain that is.
+//!
+//! One function is the flow: [`calibrate()`] takes a [`Session`] (what robot, camera and touches measured) and returns a
+//! [`Calibration`] (the answer with its covariance, the verdict, and the findings beside it).
+//!
+//! ```
+//! use handeye::{Base, Camera, Config, Flange, Observation, Pose, Session, Setup, Target, Verdict, calibrate};
+//! # use handeye::simulate::Cell;
+//! # let (simulated, truth) = Cell { touches: 0, ..Cell::new(Setup::EyeInHand, 1) }.session(1)?;
+//! # let recorded: Vec<(Pose<Base, Flange>, Pose<Camera, Target>)> = simulated
+//! #     .observations
+//! #     .iter()
+//! #     .map(|o| (o.base_from_flange, o.candidates[0].camera_from_target))
+//! #     .collect();
+//! // what the robot reported and what the camera saw of the board, in metres, twelve captures or more
+//! let captures = recorded.into_iter().enumerate().map(|(k, (base_from_flange, camera_from_target))| {
+//!     Observation::bare(format!("{k:03}"), base_from_flange, camera_from_target)
+//! });
+//! let session = Session::of_captures(Setup::EyeInHand, captures.collect());
+//!
+//! let result = calibrate(&session, &Config::default())?;
+//!
+//! assert_eq!(result.verdict, Verdict::Accepted, "{:?}", result.reasons);
+//! let flange_from_camera = result.hand_eye.mount_from_camera.expect("accepted answers are determined");
+//! let predicted = result.predicted_tre_mm.as_ref().expect("and their error is predicted");
+//! println!("camera at {:.4} m, 95 % of the points within {:.2} mm", flange_from_camera.translation(), predicted.p95);
+//! # assert!(flange_from_camera.distance_to(&truth.hand_eye.mount_from_camera) < 2e-3);
+//! # Ok::<(), handeye::Error>(())
+//! ```
+//!
+//! Images, scans and touches make better answers than poses alone: [`detect`] finds boards to a hundredth of a pixel and
+//! lifts their corners onto scans, and an [`Observation`] takes both. Frames are types: [`Pose`]`<A, B>` takes points of `B`
+//! to `A`, and only poses that fit can be multiplied. Lengths are metres, angles radians.
+//!
+//! The rooms, from the ground up: [`math`], [`frame`], [`model`] (what there is), [`findings`] (what is noticed),
+//! [`detect`], [`intrinsics`], [`solve`] (closed forms), [`register`] (points, scans, parts), [`estimate`] (the joint fit),
+//! [`mistakes`], [`calibrate`](mod@calibrate), [`tools`], [`simulate`].
 
 pub mod calibrate;
 pub mod detect;
