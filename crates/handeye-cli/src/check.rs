@@ -78,7 +78,7 @@ fn apply(
     Ok(Some(Applied { explanation: which.max(1), old_manifest }))
 }
 
-fn misfit(score: Option<&Score>) -> String {
+fn residual(score: Option<&Score>) -> String {
     score.map_or("no agreement at all".into(), |s| {
         let agree = if s.agree == 0 { "none".into() } else { s.agree.to_string() };
         format!("{:.2} mm, {:.3} degrees, {agree} agree", s.translation_mm, s.rotation_deg)
@@ -99,7 +99,7 @@ fn closer(times: f64) -> String {
 /// What speaks for an explanation.
 fn evidence(declared: Option<&Score>, e: &Explanation) -> String {
     let Some(after) = &e.after else { return String::new() };
-    let mut text = format!("    median residual  {}\n", misfit(Some(after)));
+    let mut text = format!("    median residual  {}\n", residual(Some(after)));
     text += &match (e.p_value, declared) {
         (Some(p), _) => format!("    evidence         chance of it in a right dataset: {p:.1e}\n"),
         (None, Some(d)) => {
@@ -133,7 +133,7 @@ fn text(answer: &Answer, apply: Option<usize>) -> String {
     // with another target or unit than declared, captures are not compared at all
     if a.readings_tried > 0 || a.explanations.is_empty() {
         text += &format!("\n  as declared, of {} captures\n", a.captures);
-        text += &format!("    median residual  {}\n", misfit(a.declared.as_ref()));
+        text += &format!("    median residual  {}\n", residual(a.declared.as_ref()));
     }
     for (k, e) in a.explanations.iter().enumerate() {
         text += "\n";
@@ -148,7 +148,7 @@ fn text(answer: &Answer, apply: Option<usize>) -> String {
         let what = format!("next best of {} readings: {}", a.readings_tried, r.message);
         text += "\n";
         text += &output::wrapped("   ", &what);
-        text += &format!("    median residual  {}\n", misfit(Some(&r.after)));
+        text += &format!("    median residual  {}\n", residual(Some(&r.after)));
     }
     if !a.not_seen.is_empty() {
         text += "\n";

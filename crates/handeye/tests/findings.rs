@@ -60,3 +60,11 @@ fn the_numbers_of_a_finding_stand_in_its_headline_and_in_its_data() {
     assert_eq!(read, found);
     assert_eq!(reservation(&read).as_deref(), words);
 }
+
+#[test]
+fn what_would_reject_and_did_not_is_said_in_its_own_words() {
+    let warnings = [("no-clear-majority", "half of the captures say otherwise")];
+    let found = result(Verdict::Accepted, &warnings, &[]);
+    let said = reservation(&found);
+    assert_eq!(said.as_deref(), Some("Accepted, but: half of the captures say otherwise"));
+}

@@ -91,7 +91,7 @@ pub(super) fn estimate<'a>(
         Judge { views: &views, paired: &trusted, known: config.known, workpiece: &workpiece };
     compare(&judge, (&fit, joint.as_ref()), &volume, config, result);
     map_error(&workpiece, result);
-    report_touches(&views, &paired, joint.as_ref(), result);
+    result.touches = touches_at(result, &views, &paired, joint.as_ref());
     let rests_on_arm = result.chosen.as_deref() == Some(WITH_ARM);
     let found = arm.filter(|_| rests_on_arm).map(|a| a.fit);
     Some((views, found))
@@ -370,13 +370,13 @@ fn why(best: &Judged, all: &[Judged], volume: &Volume, config: &Config) -> Strin
 }
 
 /// Where the chosen answer puts each touched corner.
-pub(crate) fn report_touches(
+fn touches_at(
+    result: &Calibration,
     views: &Views,
     paired: &[TouchPairs],
     joint: Option<&Joint>,
-    result: &mut Calibration,
-) {
-    let Some(x) = result.hand_eye.mount_from_camera else { return };
+) -> Vec<TouchResult> {
+    let Some(x) = result.hand_eye.mount_from_camera else { return vec![] };
     let chosen = |name: &str| result.chosen.as_deref().is_some_and(|n| n.starts_with(name));
     let (registered, fused) = (chosen("two-step"), chosen("joint"));
     let taken = |touch: usize| joint.is_some_and(|j| j.used.contains(&touch));
@@ -390,5 +390,5 @@ pub(crate) fn report_touches(
             used: registered || fused && taken(p.touch),
         }
     };
-    result.touches = paired.iter().map(one).collect();
+    paired.iter().map(one).collect()
 }

@@ -60,7 +60,8 @@ pub fn reservation(result: &Calibration) -> Option<String> {
     for f in all {
         let changes = f.severity == Severity::ChangesAnswer && !is_part(&f.code);
         if changes && !codes.contains(&f.code) {
-            let of_code = row(&f.code).map(|row| row.headline.to_owned());
+            let of_code = row(&f.code).map(|row| row.headline).filter(|words| !words.is_empty());
+            let of_code = of_code.map(str::to_owned);
             headlines.push(f.headline.or(of_code).unwrap_or(f.message));
             codes.push(f.code);
         }
