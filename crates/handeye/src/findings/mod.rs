@@ -108,36 +108,59 @@ impl Finding {
     }
 }
 
-impl From<Finding> for Warning {
-    fn from(finding: Finding) -> Self {
+impl<F: Into<Finding>> From<F> for Warning {
+    fn from(found: F) -> Self {
+        let finding = found.into();
         let mut warning = Self::new(finding.code(), finding.message());
         warning.finding = Some(Box::new(finding));
         warning
     }
 }
 
-/// A finding of each subject is a finding, and a warning.
-macro_rules! subjects {
-    ($($of:ident($subject:ty)),*) => {
-        $(impl From<$subject> for Finding {
-            fn from(found: $subject) -> Self {
-                Self::$of(found)
-            }
-        }
-        impl From<$subject> for Warning {
-            fn from(found: $subject) -> Self {
-                Finding::from(found).into()
-            }
-        })*
-    };
+impl From<CameraFinding> for Finding {
+    fn from(found: CameraFinding) -> Self {
+        Self::Camera(found)
+    }
 }
-subjects!(
-    Camera(CameraFinding),
-    Captures(CaptureFinding),
-    Frames(FramesFinding),
-    Movement(MovementFinding),
-    Robot(RobotFinding),
-    Streams(StreamFinding),
-    Target(TargetFinding),
-    Touches(TouchFinding)
-);
+
+impl From<CaptureFinding> for Finding {
+    fn from(found: CaptureFinding) -> Self {
+        Self::Captures(found)
+    }
+}
+
+impl From<FramesFinding> for Finding {
+    fn from(found: FramesFinding) -> Self {
+        Self::Frames(found)
+    }
+}
+
+impl From<MovementFinding> for Finding {
+    fn from(found: MovementFinding) -> Self {
+        Self::Movement(found)
+    }
+}
+
+impl From<RobotFinding> for Finding {
+    fn from(found: RobotFinding) -> Self {
+        Self::Robot(found)
+    }
+}
+
+impl From<StreamFinding> for Finding {
+    fn from(found: StreamFinding) -> Self {
+        Self::Streams(found)
+    }
+}
+
+impl From<TargetFinding> for Finding {
+    fn from(found: TargetFinding) -> Self {
+        Self::Target(found)
+    }
+}
+
+impl From<TouchFinding> for Finding {
+    fn from(found: TouchFinding) -> Self {
+        Self::Touches(found)
+    }
+}
