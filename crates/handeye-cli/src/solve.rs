@@ -1,9 +1,6 @@
 //! `handeye solve`: poses in, answer out.
 
-use handeye::{
-    Calibration, Config, Method, Warning,
-    calibrate::{certificate::certify_result, findings},
-};
+use handeye::{Calibration, Config, Method};
 use handeye_io::read_poses;
 
 use crate::{
@@ -15,26 +12,10 @@ use crate::{
 pub fn run(args: &SolveArgs, manners: &Manners) -> Result<u8, Failure> {
     let method = args.method.as_deref().map(method).transpose()?;
     let input = read_poses(&args.pairs)?;
-    let mut calibration = input.calibrate(&Config { method, ..Config::default() })?;
-    if args.certify {
-        certify(&mut calibration);
-    }
+    let calibration = input.calibrate(&Config { method, ..Config::default() })?;
+    let calibration = if args.certify { calibration.certified() } else { calibration };
     show(&calibration, manners);
     Ok(calibration.exit_code())
-}
-
-/// Adds the certificate, or a warning that says why there is none.
-fn certify(calibration: &mut Calibration) {
-    let message = match certify_result(calibration) {
-        Ok(Some(found)) => {
-            calibration.certificate = Some(found);
-            return;
-        }
-        Ok(None) => "there is no answer, so there is nothing to certify".to_owned(),
-        Err(error) => format!("the least-squares fit cannot be certified: {error}"),
-    };
-    calibration.warnings.push(Warning::new("not-certified", message));
-    findings::record(calibration);
 }
 
 fn show(calibration: &Calibration, manners: &Manners) {

@@ -3,15 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use handeye::{
-    Calibration, Config, Session, Setup, Verdict, Warning, calibrate,
-    calibrate::{findings, result::SceneKind},
-    calibrate_moving,
-    estimate::noise::KnownNoise,
-    findings::{CameraFinding, Finding, FramesFinding},
+    Calibration, Config, Session, Setup, Verdict, calibrate, estimate::noise::KnownNoise,
 };
 
 use crate::{
-    Dataset, Error, Place, WorkspaceFrame, causes, checkup,
+    Dataset, Error, Place, WorkspaceFrame, checkup,
     error::unusable,
     files,
     hash::Hash,
@@ -33,24 +29,14 @@ pub fn calibrate_dataset(
     check_workspace(dataset)?;
     let measured = measure::measure(dataset, progress)?;
     let config = configured(dataset, config);
-    let calibrated = match &dataset.motion {
-        Some(motion) => {
-            let crate::dataset::Motion { robot, joints, times } = motion;
-            calibrate_moving(&measured.session, robot, joints, times, &config)
-        }
-        None => calibrate(&measured.session, &config),
-    };
-    let mut calibration = calibrated
-        .map_err(|source| Error::Values { place: Place::file(&dataset.manifest), source })?;
-    explain(&mut calibration, &measured);
-    if !refuse_basic_mistake(&mut calibration, dataset, &measured)? {
-        say_what_is_wrong(&mut calibration, dataset, &measured);
-    }
-    findings::record(&mut calibration);
+    let calibration = calibrate(&measured.session, &config)
+        .map_err(|source| Error::Values { place: Place::file(&dataset.manifest), source })?
+        .with(&measured.noticed, &measured.session);
+    let calibration = explained(calibration, dataset, &measured)?;
     let manifest = files::text(&dataset.manifest)?;
     let inputs = format!("{manifest}{:?}", measured.session);
-    calibration.run_id = Some(run_id(&inputs, &calibration));
-    Ok((calibration, measured.session))
+    let id = run_id(&inputs, &calibration);
+    Ok((calibration.of_run(id), measured.session))
 }
 
 /// A configuration with what the manifest says of noise and limits.
@@ -90,113 +76,27 @@ fn check_workspace(dataset: &Dataset) -> Result<(), Error> {
     Err(unusable(&dataset.manifest, what))
 }
 
-/// Whether scans in another unit look like this.
-fn is_of_another_unit(warning: &Warning) -> bool {
-    match warning.finding.as_deref() {
-        Some(Finding::Frames(found)) => !matches!(found, FramesFinding::NotSeparable),
-        Some(Finding::Camera(found)) => matches!(found, CameraFinding::DepthOff { .. }),
-        _ => false,
-    }
-}
-
-/// Refuses what rests on another layout of the target, or on scans in another unit: a few captures may fit by chance,
-/// and scans would be dropped for images alone. Says whether there is such a mistake.
-fn refuse_basic_mistake(
-    calibration: &mut Calibration,
+/// A result with what reading the files says of it: a mistake on which all of it rests, or one that explains why it is
+/// not accepted.
+fn explained(
+    calibration: Calibration,
     dataset: &Dataset,
     measured: &Measured,
-) -> Result<bool, Error> {
-    let Some(found) = checkup::basic_mistake(dataset, measured)? else { return Ok(false) };
-    calibration.verdict = Verdict::Rejected;
-    calibration.undetermined.clear();
-    calibration.reasons = vec![found.sentence()];
-    calibration.warnings.retain(|w| !is_of_another_unit(w));
-    Ok(true)
-}
-
-/// Where an answer is not accepted and `check` knows why, that is the first reason.
-fn say_what_is_wrong(calibration: &mut Calibration, dataset: &Dataset, measured: &Measured) {
-    let nothing_seen = 2 * measured.not_found.len() > dataset.captures.len();
+) -> Result<Calibration, Error> {
+    if let Some(found) = checkup::basic_mistake(dataset, measured)? {
+        return Ok(calibration.refused_for(found.sentence()));
+    }
+    let nothing_seen = 2 * measured.noticed.not_found.len() > dataset.captures.len();
     let is_refused = match calibration.verdict {
         Verdict::Accepted => false,
         Verdict::Rejected => true,
         Verdict::Undetermined => nothing_seen,
     };
-    if !is_refused {
-        return;
-    }
-    let Some(why) = checkup::diagnosis(dataset, measured) else { return };
-    // what nothing can be determined from is no reason of its own
-    let follows = |reason: &String| nothing_seen || why.starts_with(reason.as_str());
-    calibration.reasons.retain(|reason| !follows(reason));
-    calibration.reasons.insert(0, why);
-}
-
-/// Adds to the result what reading the files told.
-fn explain(calibration: &mut Calibration, measured: &Measured) {
-    calibration.warnings.extend(measured.warnings.iter().cloned());
-    if measured.colour_step.is_some() {
-        let scans = calibration.scans.get_or_insert_default();
-        scans.colour_step = measured.colour_step.clone();
-    }
-    for (id, reason) in &measured.not_found {
-        if let Some(capture) = calibration.captures.iter_mut().find(|c| c.id == *id) {
-            capture.reason = Some(reason.clone());
-        }
-    }
-    if let Some(scene) = &measured.scene {
-        calibration.scans.get_or_insert_default().scene = Some(scene.clone());
-    }
-    name_camera_used(calibration);
-    causes::tell(calibration, &measured.session);
-    explain_missing(calibration, measured);
-}
-
-/// A camera calibrated from the views is refined with the robot's poses: what is printed is what was used.
-fn name_camera_used(calibration: &mut Calibration) {
-    let Some(used) = calibration.camera.map(|c| c.intrinsics) else { return };
-    for warning in &mut calibration.warnings {
-        if let Some(Finding::Camera(CameraFinding::CalibratedFromViews { calibrated, .. })) =
-            warning.finding.as_deref()
-        {
-            let (calibrated, used) = (*calibrated, Some(used));
-            *warning = CameraFinding::CalibratedFromViews { calibrated, used }.into();
-        }
-    }
-}
-
-/// Says first what most captures miss.
-fn explain_missing(calibration: &mut Calibration, measured: &Measured) {
-    let (missing, all) = (measured.not_found.len(), calibration.captures.len());
-    let Some((id, reason)) = measured.not_found.first().filter(|_| 2 * missing > all) else {
-        return;
-    };
-    let (code, message) = match measured.scene.as_ref().map(|scene| scene.kind) {
-        None => (
-            "target-not-found",
-            format!(
-                "the target was not found in {missing} images of {all} captures ({id}: {reason}): \
-                 check [target]"
-            ),
-        ),
-        Some(SceneKind::Scene) => (
-            "scans-not-placed",
-            format!(
-                "{missing} of {all} scans have no place in the scene ({id}: {reason}): scan a scene with \
-                 shape on all sides, from places that see much in common"
-            ),
-        ),
-        Some(SceneKind::Object) => (
-            "target-not-found",
-            format!(
-                "{missing} of {all} scans do not show the object ({id}: {reason}): check [object]"
-            ),
-        ),
-    };
-    if measured.scene.is_some() && calibration.verdict != Verdict::Accepted {
-        calibration.reasons.insert(0, message.clone());
-    }
-    calibration.warnings.insert(0, Warning::new(code, message));
+    let why = is_refused.then(|| checkup::diagnosis(dataset, measured)).flatten();
+    Ok(match why {
+        Some(why) => calibration.explained_by(why, nothing_seen),
+        None => calibration,
+    })
 }
 
 /// The name of a run: the same inputs and the same result have the same one.

@@ -8,7 +8,6 @@
 pub mod bag;
 pub mod calibrate;
 mod camera;
-mod causes;
 pub mod checkup;
 mod dataset;
 pub mod drawing;

@@ -13,7 +13,7 @@ use std::{
 use handeye::{
     Camera, GrayImage, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
     SurfaceCorner, Target, TargetModel, TargetPose, Warning,
-    calibrate::result::{ColourStepResult, SceneResult},
+    calibrate::beside::Measuring,
     detect::{self, NotFound, sphere, surface},
     findings::{CameraFinding, camera::FromViews},
     intrinsics::{self, lens},
@@ -31,14 +31,8 @@ pub struct Measured {
     pub session: Session,
     /// Calibration of the camera from the views, where the dataset gave none.
     pub camera_rms_px: Option<f64>,
-    /// How depths on the two colours of the print differ, where scans tell it.
-    pub colour_step: Option<ColourStepResult>,
-    /// How scans were placed, where a shape takes a board's place.
-    pub scene: Option<SceneResult>,
-    /// Why captures show no target, by name.
-    pub not_found: Vec<(String, String)>,
-    /// What to know.
-    pub warnings: Vec<Warning>,
+    /// What was noticed on the way.
+    pub noticed: Measuring,
 }
 
 /// One capture's files.
@@ -111,7 +105,8 @@ pub fn measure(
     let not_found = captures.filter_map(|(c, s)| Some((c.id.clone(), s.not_found.clone()?)));
     let not_found = not_found.collect();
     let session = session(dataset, seen, poses, camera);
-    Ok(Measured { session, camera_rms_px, colour_step, scene: None, not_found, warnings })
+    let noticed = Measuring { warnings, not_found, colour_step, scene: None };
+    Ok(Measured { session, camera_rms_px, noticed })
 }
 
 fn look_at_all(
@@ -393,30 +388,19 @@ fn session(
         })
         .collect();
     Session {
-        setup: dataset.setup,
         camera_from_views: dataset.intrinsics.is_none(),
         target: dataset.target.clone(),
         target_size: dataset.target_size,
         camera,
         lens_sigma: dataset.lens_sigma,
-        observations,
         placements,
         touches: dataset.touches.clone(),
         correspondences: dataset.correspondences.clone(),
-        workspace: dataset.workspace.map(|w| w.corners),
-        known_position: dataset.known_position,
-        arm: dataset.arm.clone(),
+        ..dataset.session(observations)
     }
 }
 
 fn observation(c: &CaptureSource, seen: Seen, candidates: Vec<TargetPose>) -> Observation {
     let Seen { corners, surface, .. } = seen;
-    Observation {
-        capture: c.id.clone(),
-        base_from_flange: c.base_from_flange,
-        joints: c.joints.clone(),
-        corners,
-        surface,
-        candidates,
-    }
+    Observation { corners, surface, candidates, ..c.observation() }
 }

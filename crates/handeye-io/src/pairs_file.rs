@@ -1,14 +1,10 @@
 //! Poses of robot and target as JSON: pairs, or two streams.
 
-use std::{
-    collections::{BTreeMap, HashSet},
-    path::Path,
-};
+use std::{collections::HashSet, path::Path};
 
 use handeye::{
     Base, Calibration, Camera, Config, Flange, Frame, Observation, Pose, Session, Setup, Stamped,
-    Streams, Target, calibrate::findings, calibrate_sequence, calibrate_streams,
-    calibrate_unscaled, estimate::KnownNoise, solve::FEWEST_POSES,
+    Streams, Target, calibrate, estimate::KnownNoise, solve::FEWEST_POSES,
 };
 use serde::{
     Deserialize, Deserializer,
@@ -36,8 +32,6 @@ pub enum MeasuredPoses {
 pub struct PosesFile {
     /// Its poses.
     pub measured: MeasuredPoses,
-    /// Target distances are known up to one factor.
-    pub unknown_scale: bool,
     /// What it says of the robot's noise.
     pub noise: KnownNoise,
 }
@@ -46,19 +40,15 @@ impl PosesFile {
     /// Calibrates from its poses; what it says of noise comes before `config`.
     ///
     /// # Errors
-    /// As [`calibrate_sequence`].
+    /// As [`calibrate()`].
     pub fn calibrate(&self, config: &Config) -> Result<Calibration, handeye::Error> {
         let config = Config { known: self.noise, ..config.clone() };
-        let mut calibration = match &self.measured {
-            MeasuredPoses::Streams(streams) => calibrate_streams(streams, &config),
-            MeasuredPoses::Pairs(session) if self.unknown_scale => {
-                calibrate_unscaled(session, &config)
-            }
-            MeasuredPoses::Pairs(session) => calibrate_sequence(session, &BTreeMap::new(), &config),
+        let calibration = match &self.measured {
+            MeasuredPoses::Streams(streams) => calibrate(&streams.session(), &config),
+            MeasuredPoses::Pairs(session) => calibrate(session, &config),
         }?;
-        findings::record(&mut calibration);
-        calibration.run_id = Some(run_id(&format!("{self:?}"), &calibration));
-        Ok(calibration)
+        let id = run_id(&format!("{self:?}"), &calibration);
+        Ok(calibration.of_run(id))
     }
 }
 
@@ -163,7 +153,9 @@ pub fn poses_from_json(text: &str, path: &Path) -> Result<PosesFile, Error> {
             let what = format!("`pairs` is empty: at least {FEWEST_POSES} are needed, {MORE}");
             return Err(unusable(path, what));
         }
-        (Some(pairs), None, None) => MeasuredPoses::Pairs(Box::new(session(setup, pairs, path)?)),
+        (Some(pairs), None, None) => {
+            MeasuredPoses::Pairs(Box::new(session(setup, pairs, unknown_scale, path)?))
+        }
         (None, Some(robot), Some(camera)) => {
             if let Some(empty) = empty_stream(&robot, &camera) {
                 let what = format!(
@@ -192,7 +184,7 @@ pub fn poses_from_json(text: &str, path: &Path) -> Result<PosesFile, Error> {
             ));
         }
     };
-    Ok(PosesFile { measured, unknown_scale, noise })
+    Ok(PosesFile { measured, noise })
 }
 
 /// What to take beyond the fewest.
@@ -288,7 +280,12 @@ fn broken_element(whole: &Value, error: &serde_json::Error) -> Option<Element> {
     })
 }
 
-fn session(setup: Setup, pairs: Vec<Pair>, path: &Path) -> Result<Session, Error> {
+fn session(
+    setup: Setup,
+    pairs: Vec<Pair>,
+    unknown_scale: bool,
+    path: &Path,
+) -> Result<Session, Error> {
     let mut seen = HashSet::new();
     let mut observations = Vec::new();
     for (k, pair) in pairs.into_iter().enumerate() {
@@ -303,7 +300,7 @@ fn session(setup: Setup, pairs: Vec<Pair>, path: &Path) -> Result<Session, Error
             pair.camera_from_target,
         ));
     }
-    Ok(Session::of_captures(setup, observations))
+    Ok(Session { unknown_scale, in_sequence: true, ..Session::of_captures(setup, observations) })
 }
 
 fn streams(

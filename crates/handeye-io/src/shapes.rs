@@ -11,6 +11,7 @@ use std::{
 
 use handeye::{
     Observation, Scan, Session, TargetPose,
+    calibrate::beside::Measuring,
     calibrate::result::{SceneKind, ScenePair, SceneResult},
     register::{
         DenseConfig, Stop, Surface, register_surfaces,
@@ -69,10 +70,12 @@ pub(crate) fn measure(
     Ok(Measured {
         session: session(dataset, &all),
         camera_rms_px: None,
-        colour_step: None,
-        scene: Some(all.result()),
-        not_found,
-        warnings: dataset.warnings.clone(),
+        noticed: Measuring {
+            warnings: dataset.warnings.clone(),
+            not_found,
+            colour_step: None,
+            scene: Some(all.result()),
+        },
     })
 }
 
@@ -233,18 +236,8 @@ fn half(scan: &Scan, first: usize) -> Option<Surface> {
 
 fn session(dataset: &Dataset, all: &Scans) -> Session {
     let observe = |c: &CaptureSource| Observation {
-        capture: c.id.clone(),
-        base_from_flange: c.base_from_flange,
-        joints: c.joints.clone(),
-        corners: vec![],
-        surface: vec![],
         candidates: all.pose(&c.id).into_iter().collect(),
+        ..c.observation()
     };
-    let observations = dataset.captures.iter().map(observe).collect();
-    Session {
-        workspace: dataset.workspace.map(|w| w.corners),
-        known_position: dataset.known_position,
-        arm: dataset.arm.clone(),
-        ..Session::of_captures(dataset.setup, observations)
-    }
+    dataset.session(dataset.captures.iter().map(observe).collect())
 }

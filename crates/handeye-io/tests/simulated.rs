@@ -104,7 +104,7 @@ fn views_check_the_camera_that_is_given() {
         let values = "width = 640\nheight = 480\nfy = 600.0\ncx = 319.5\ncy = 239.5\n";
         measured(&format!("{values}fx = {fx:.1}\n{calibrate}"))
     };
-    let says = |m: &measure::Measured, code: &str| m.warnings.iter().any(|w| w.code == code);
+    let says = |m: &measure::Measured, code: &str| m.noticed.warnings.iter().any(|w| w.code == code);
     let asked = "calibrate = \"brown-conrady\"\n";
     assert!(!says(&given(600.0, asked), "camera-disagrees"));
     assert!(says(&given(615.0, asked), "camera-disagrees"));
@@ -144,7 +144,7 @@ fn imported_corners_that_are_half_a_pixel_off_are_told_the_pixel_origin() {
         let declared = format!("pixel_origin = \"{origin}\"");
         fs::write(&manifest, text.replace("pixel_origin = \"centre\"", &declared)).unwrap();
         let measured = measure::measure(&Dataset::open(&folder).unwrap(), &|_, _| {}).unwrap();
-        let warning = measured.warnings.into_iter().find(|w| w.code == "half-pixel");
+        let warning = measured.noticed.warnings.into_iter().find(|w| w.code == "half-pixel");
         warning.map(|w| w.message)
     };
     assert_eq!(said("centre"), None);

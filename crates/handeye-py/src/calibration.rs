@@ -1,10 +1,9 @@
 //! Calibrations: from poses, from a folder, from their own JSON.
 
-use std::{collections::BTreeMap, path::PathBuf};
+use std::path::PathBuf;
 
 use handeye::{
-    Calibration, Config, Observation, Pose, Session, Stamped, Streams, calibrate::findings,
-    calibrate_sequence, calibrate_streams, calibrate_unscaled, estimate::noise::KnownNoise,
+    Calibration, Config, Observation, Pose, Session, Stamped, Streams, estimate::noise::KnownNoise,
     model::session::KnownPosition,
 };
 use handeye_io::{
@@ -149,18 +148,15 @@ pub fn solve(
     };
     let mut session = Session::of_captures(setup(setup_name)?, poses.map(observation).collect());
     session.known_position = known.map(known_position).transpose()?;
+    (session.unknown_scale, session.in_sequence) = (unknown_scale, true);
     check_distances(&session)?;
     let config = Config {
         method: method_name.map(method).transpose()?,
         known: noise(robot_rotation_deg, robot_position_mm)?,
         ..Config::default()
     };
-    let work = move || match unknown_scale {
-        true => calibrate_unscaled(&session, &config),
-        false => calibrate_sequence(&session, &BTreeMap::new(), &config),
-    };
-    let mut calibration = working::compute(py, work)?.map_err(|error| errors::of_core(&error))?;
-    findings::record(&mut calibration);
+    let work = move || handeye::calibrate(&session, &config);
+    let calibration = working::compute(py, work)?.map_err(|error| errors::of_core(&error))?;
     Ok(Calibrated { calibration, measured: None })
 }
 
@@ -216,10 +212,8 @@ pub fn solve_streams(
     if let Some(k) = streams.camera.iter().position(|s| s.pose.is_too_far()) {
         return Err(errors::input(format!("camera_from_target[{k}] lies beyond any camera")));
     }
-    let mut calibration =
-        working::compute(py, move || calibrate_streams(&streams, &Config::default()))?
-            .map_err(|error| errors::of_core(&error))?;
-    findings::record(&mut calibration);
+    let work = move || handeye::calibrate(&streams.session(), &Config::default());
+    let calibration = working::compute(py, work)?.map_err(|error| errors::of_core(&error))?;
     Ok(Calibrated { calibration, measured: None })
 }
 

@@ -5,13 +5,10 @@
 //! else is held against the recommended estimator, which knows its uncertainty: what that refuses, and answers that are
 //! grossly off beside it, are refused; what it has to say else comes as a warning.
 
-use std::collections::BTreeMap;
-
 use handeye::{
     Base, Calibration, Camera, Config, Flange, HandEye, Method, Mount, Observation, Pose, PosePair,
     Session, Setup, Target, Verdict,
     calibrate::result,
-    calibrate_sequence,
     math::{lie, linalg::median},
     solve,
 };
@@ -328,11 +325,11 @@ impl Cell {
             Observation::bare(k.to_string(), robot, seen)
         };
         let observations = self.equations.iter().enumerate().map(observation).collect();
-        let session = Session::of_captures(Setup::EyeInHand, observations);
+        let session =
+            Session { in_sequence: true, ..Session::of_captures(Setup::EyeInHand, observations) };
         // how good is good enough, a script without a job does not say
         let config = Config { max_error_mm: Some(f64::INFINITY), ..Config::default() };
-        calibrate_sequence(&session, &BTreeMap::new(), &config)
-            .map_err(|error| errors::of_core(&error))
+        handeye::calibrate(&session, &config).map_err(|error| errors::of_core(&error))
     }
 }
 

@@ -52,10 +52,7 @@ pub mod solve;
 pub mod tools;
 
 pub use calibrate::result::Calibration;
-pub use calibrate::sequence::calibrate_sequence;
-pub use calibrate::streams::{Stamped, Streams, calibrate_moving, calibrate_streams};
-pub use calibrate::unscaled::calibrate_unscaled;
-pub use calibrate::{AnswerFrame, Config, Unknown, calibrate, unjudged};
+pub use calibrate::{AnswerFrame, Config, calibrate, unjudged};
 pub use error::Error;
 pub use findings::Warning;
 pub use frame::{
@@ -70,7 +67,7 @@ pub use model::observation::{
     TargetPose, Touch, Workspace,
 };
 pub use model::scan::Scan;
-pub use model::session::{KnownPosition, LensSigma, Session, TargetSize};
+pub use model::session::{KnownPosition, LensSigma, Motion, Session, Stamped, Streams, TargetSize};
 pub use model::target::TargetModel;
 pub use model::verdict::Verdict;
 /// Vectors, matrices and rotations of this library's functions, in the version that they take.

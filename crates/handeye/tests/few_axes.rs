@@ -3,12 +3,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-use std::collections::BTreeMap;
-
 use handeye::{
     Base, Calibration, Camera, Config, Flange, Method, Observation, Point, Pose, Session, Setup,
-    Target, TargetModel, Touch, Verdict, calibrate, calibrate_sequence, estimate::KnownNoise,
-    math::random::Random, model::session::KnownPosition, simulate::Cell,
+    Target, TargetModel, Touch, Verdict, calibrate, estimate::KnownNoise, math::random::Random,
+    model::session::KnownPosition, simulate::Cell,
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 
@@ -150,7 +148,8 @@ fn rounding_is_no_drift() {
             first * UnitQuaternion::from_scaled_axis(turn)
         };
         let session = seen_from((0..15).map(place));
-        let found = calibrate_sequence(&session, &BTreeMap::new(), &Config::default()).unwrap();
+        let found =
+            calibrate(&Session { in_sequence: true, ..session }, &Config::default()).unwrap();
         assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
         assert!(found.warnings.is_empty(), "{:?}", found.warnings);
         let x = found.hand_eye.mount_from_camera.unwrap();

@@ -4,10 +4,7 @@
 
 use std::path::Path;
 
-use handeye::{
-    Base, Flange, Pose,
-    calibrate::streams::{Stamped, Stream},
-};
+use handeye::{Base, Flange, Pose, Stamped, calibrate::streams::Stream};
 use nalgebra::Isometry3;
 
 use super::survey::{Edge, Survey};

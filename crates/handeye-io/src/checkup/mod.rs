@@ -191,7 +191,7 @@ fn examine(measured: &Measured, judged: &Judged) -> Result<Checkup, Error> {
     let name = |i: &usize| session.observations[*i].capture.clone();
     let basic = basic_mistake(dataset, measured)?;
     if seen.len() < score::FEWEST && basic.is_none() {
-        return Err(too_few(dataset, seen.len(), measured.not_found.first()));
+        return Err(too_few(dataset, seen.len(), measured.noticed.not_found.first()));
     }
     let mut checkup = match basic {
         // with another target or unit everything else looks wrong as well
@@ -206,7 +206,7 @@ fn examine(measured: &Measured, judged: &Judged) -> Result<Checkup, Error> {
         }
     };
     checkup.not_seen = blind.iter().map(name).collect();
-    checkup.warnings = measured.warnings.clone();
+    checkup.warnings = measured.noticed.warnings.clone();
     Ok(checkup)
 }
 

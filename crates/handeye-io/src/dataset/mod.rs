@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 
 use handeye::{
     AnswerFrame, Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics,
-    LensSigma, Pose, Scan, Setup, Target, TargetModel, TargetSize, Touch, Warning, Workspace,
+    LensSigma, Motion, Observation, Pose, Scan, Session, Setup, Target, TargetModel, TargetSize,
+    Touch, Warning, Workspace,
     intrinsics::LensModel,
     model::{kinematics::Arm, session::KnownPosition},
 };
@@ -29,7 +30,6 @@ use crate::{
 };
 pub use manifest::PixelOrigin;
 pub(crate) use manifest::{Manifest, Source};
-pub use motion::Motion;
 pub(crate) use motion::TIMES;
 use opening::Opening;
 pub(crate) use rereading::{Rereading, rereadings};
@@ -106,6 +106,8 @@ pub struct CaptureSource {
     pub base_from_flange: Pose<Base, Flange>,
     /// Its joint values (rad, m), where it gave those.
     pub joints: Vec<f64>,
+    /// When it was taken, by the camera's clock, s, where the robot did not stop for it.
+    pub time_s: Option<f64>,
     /// The picture's file.
     pub image: Option<PathBuf>,
     /// The scan's file.
@@ -116,6 +118,28 @@ pub struct CaptureSource {
     pub camera_from_target: Option<Pose<Camera, Target>>,
     /// Which record of the robot's file.
     pub(crate) robot_record: usize,
+}
+
+impl CaptureSource {
+    /// What is known of it before its files are looked at.
+    pub(crate) fn observation(&self) -> Observation {
+        let bare = Observation::bare(self.id.clone(), self.base_from_flange, Pose::identity());
+        let (joints, time_s) = (self.joints.clone(), self.time_s);
+        Observation { joints, time_s, candidates: vec![], ..bare }
+    }
+}
+
+impl Dataset {
+    /// The session of these captures, with what the manifest says of cell and arm.
+    pub(crate) fn session(&self, observations: Vec<Observation>) -> Session {
+        Session {
+            workspace: self.workspace.map(|w| w.corners),
+            known_position: self.known_position,
+            arm: self.arm.clone(),
+            motion: self.motion.clone(),
+            ..Session::of_captures(self.setup, observations)
+        }
+    }
 }
 
 /// A board lying still, and the files of what the camera saw of it.

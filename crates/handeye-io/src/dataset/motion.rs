@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, path::Path};
 
-use handeye::{Base, Flange, Pose, Stamped};
+use handeye::{Base, Flange, Motion, Pose, Stamped};
 
 use super::{
     CaptureSource,
@@ -18,18 +18,7 @@ use crate::{
 /// The usual name of the file of times.
 pub(crate) const TIMES: &str = "times.csv";
 
-/// Where robot and captures were when.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Motion {
-    /// Where the flange was, by the robot's clock.
-    pub robot: Vec<Stamped<Pose<Base, Flange>>>,
-    /// What its joint values were, where they are known (rad, m).
-    pub joints: Vec<Stamped<Vec<f64>>>,
-    /// When each capture was taken, by the camera's clock, s.
-    pub times: BTreeMap<String, f64>,
-}
-
-/// Reads the times, and gives every capture the robot's pose that the clocks as they are say.
+/// Reads the times, and gives every capture its own and the robot's pose that the clocks as they are say.
 pub(super) fn of(
     spec: &MotionSpec,
     robot: &[Named<Pose<Base, Flange>>],
@@ -45,7 +34,6 @@ pub(super) fn of(
         robot.iter().map(stamped).collect::<Result<_, _>>()?;
     let place = source.place("motion.times");
     let known = times(&spec.times, source, root)?;
-    let mut times = BTreeMap::new();
     for capture in captures {
         let Some(time) = known.get(plain(&capture.id)) else {
             let what = format!("{} has no time of the capture {}", spec.times, capture.id);
@@ -53,12 +41,12 @@ pub(super) fn of(
                 "give every capture a line: its name, without the ending, and its time in seconds";
             return Err(malformed(place, what, advice));
         };
-        times.insert(capture.id.clone(), *time);
+        capture.time_s = Some(*time);
         if let Some(near) = nearest(&robot, *time) {
             capture.base_from_flange = near;
         }
     }
-    Ok(Motion { robot, joints, times })
+    Ok(Motion { robot, joints })
 }
 
 fn stamped(named: &Named<Pose<Base, Flange>>) -> Result<Stamped<Pose<Base, Flange>>, Error> {

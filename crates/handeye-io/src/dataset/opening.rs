@@ -469,6 +469,7 @@ fn capture(id: String, indices: &[usize], series: &[Series], parts: &Parts) -> C
         id,
         robot_record: record.unwrap_or(0),
         base_from_flange: robot.unwrap_or(Pose::identity()),
+        time_s: None,
         joints: record.map_or_else(Vec::new, |i| parts.robot[i].joints.clone()),
         image: at("images").map(|i| parts.images[i].clone()),
         scan: at("scans").map(|i| parts.scans[i].clone()),

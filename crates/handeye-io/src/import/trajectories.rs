@@ -5,9 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use handeye::{
-    Calibration, Config, Setup, Stamped, Verdict, calibrate_streams, math::linalg::median,
-};
+use handeye::{Calibration, Config, Setup, Stamped, Verdict, calibrate, math::linalg::median};
 
 use super::{
     Declared, Direction, Imported, declared, split,
@@ -234,8 +232,9 @@ fn proven(
     ways: [Directions; 2],
     source: &Path,
 ) -> Result<(Directions, String), Error> {
-    let found =
-        |way: Directions| calibrate_streams(&recorded.streams(setup, way), &Config::default()).ok();
+    let found = |way: Directions| {
+        calibrate(&recorded.streams(setup, way).session(), &Config::default()).ok()
+    };
     let both = ways.map(found);
     let fits = |c: &Option<Calibration>| c.as_ref().is_some_and(|c| c.verdict == Verdict::Accepted);
     let open_one = if ways[0].0 == ways[1].0 { ways.map(|w| w.1) } else { ways.map(|w| w.0) };

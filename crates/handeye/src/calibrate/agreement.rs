@@ -6,25 +6,32 @@ use super::{doubt, gate, movement, rejected};
 use crate::{
     Error, Observation, Pose, PosePair, Target,
     calibrate::{
-        config::Config,
-        result::Calibration,
-        views::{Captures, FARTHEST, Views, first_report},
+        evidence::Evidence,
+        notes::Notes,
+        rejected::Rejected,
+        unknown::Task,
+        views::{self, Captures, FARTHEST, Views},
     },
-    estimate::evaluate,
+    estimate::{
+        JointFit,
+        evaluate::{self, Diversity},
+    },
     findings::{CaptureFinding, RobotFinding, robot::Inverted},
     math::linalg::median,
     mistakes::{self, Convention},
-    model::{session::Session, verdict::Verdict},
+    model::session::Session,
     solve::{
         consensus::{self, Consensus, Readings},
         motions,
     },
 };
 
-fn no_consensus(session: &Session, readings: &[Readings], error: &Error, result: &mut Calibration) {
-    for capture in &mut result.captures {
-        capture.used = false;
-    }
+/// What is said of a session no captures of which agree.
+fn no_consensus(
+    session: &Session,
+    readings: &[Readings],
+    error: &Error,
+) -> (Option<Diversity>, Notes) {
     let pairs: Vec<PosePair> = readings
         .iter()
         .filter_map(|r| {
@@ -32,21 +39,16 @@ fn no_consensus(session: &Session, readings: &[Readings], error: &Error, result:
             Some(PosePair { anchor_from_mount: r.anchor_from_mount, camera_from_target })
         })
         .collect();
+    let open = Notes::open(error, views::camera_in_words(session.setup));
     if let Error::TooFewPoses { .. } = error {
-        result.reasons.push(error.to_string());
-        result
-            .undetermined
-            .push(format!("the pose of the camera on the {}", session.setup.mount()));
-        return;
+        return (None, open);
     }
-    result.diversity = (pairs.len() > 1).then(|| evaluate::diversity(&pairs));
-    result.reasons.push(error.to_string());
-    result.undetermined.push(format!("the pose of the camera on the {}", session.setup.mount()));
+    let diversity = (pairs.len() > 1).then(|| evaluate::diversity(&pairs));
     if !motions::rotates(&pairs) {
-        return;
+        return (diversity, open);
     }
-    result.verdict = Verdict::Rejected;
-    suspect_conventions(readings, bare(session), None, result);
+    let inverted = suspect_conventions(readings, bare(session), None).unwrap_or_default();
+    (diversity, Notes { rejects: true, ..inverted.then(open) })
 }
 
 /// An inversion explains the data when most captures agree under it, the misfit in position falls
@@ -75,12 +77,12 @@ fn inversion(
     }
 }
 
+/// Poses that are inverted, where most captures agree as soon as they are turned round.
 fn suspect_conventions(
     readings: &[Readings],
     bare: bool,
     found: Option<&Consensus>,
-    result: &mut Calibration,
-) {
+) -> Option<Notes> {
     let all = mistakes::conventions(readings, found);
     let declared = all.iter().find(|e| e.convention == Convention::AsDeclared).copied();
     let better = |e: &&mistakes::Evidence| {
@@ -96,17 +98,12 @@ fn suspect_conventions(
             })
     };
     let explaining: Vec<&mistakes::Evidence> = all.iter().filter(better).collect();
-    let Some(best) = explaining.iter().min_by(|a, b| a.median_m.total_cmp(&b.median_m)) else {
-        return;
-    };
-    let finding = RobotFinding::Inverted {
+    let best = explaining.iter().min_by(|a, b| a.median_m.total_cmp(&b.median_m))?;
+    Some(Notes::against(RobotFinding::Inverted {
         which: inversion(&explaining, best, bare),
         before_mm: declared.map(|d| d.median_m * 1e3),
         after_mm: best.median_m * 1e3,
-    };
-    result.reasons.push(finding.message());
-    result.warnings.insert(0, finding.into());
-    result.verdict = Verdict::Rejected;
+    }))
 }
 
 /// The captures that agree.
@@ -117,42 +114,24 @@ pub(super) struct Agreement<'a> {
     pub movement: Option<movement::Suspected>,
 }
 
-/// Finds the agreement, names what does not agree, and hands on what does.
-pub(super) fn agree<'a>(
-    session: &'a Session,
-    config: &Config,
-    result: &mut Calibration,
-) -> Option<Agreement<'a>> {
+/// Finds the agreement, if there is one, names what does not agree, and hands on what does.
+pub(super) fn agree<'a>(session: &'a Session, task: &Task) -> (Evidence, Option<Agreement<'a>>) {
     let shift = session.target.as_ref().map_or(Vector3::zeros(), |t| t.reference().vector());
     let target_from_corner: Pose<Target, Target> =
         Pose::claim(nalgebra::Isometry3::translation(shift.x, shift.y, shift.z));
     let readings: Vec<Readings> =
         session.observations.iter().map(|o| readings(session, o, &target_from_corner)).collect();
-    result.captures = session.observations.iter().map(first_report).collect();
+    let all = Evidence::of_captures(session, task.unknown.open());
     let found = match consensus::consensus(&readings) {
         Ok(found) => found,
-        Err(error) => {
-            suspect_units(&session.observations.iter().collect::<Vec<_>>(), result);
-            no_consensus(session, &readings, &error, result);
-            if !doubt::suspect_size(&readings, session.target.as_ref(), None, result) {
-                doubt::suspect_order(&readings, None, result);
-            }
-            return None;
-        }
+        Err(error) => return (none_agree(session, &readings, &error, all), None),
     };
     let captures = Captures { session, readings: &readings, target_from_corner };
-    let (found, fit) = gate::gate(&captures, found, config);
+    let (found, fit) = gate::gate(&captures, found, task.config);
     let indices: Vec<usize> = (0..readings.len()).filter(|&i| found.agrees[i]).collect();
     let used: Vec<&Observation> = indices.iter().map(|&i| &session.observations[i]).collect();
-    suspect_units(&used, result);
-    rejected::name(&captures, &found, fit.as_ref(), result);
-    if !doubt::suspect_size(&readings, session.target.as_ref(), Some(&found), result)
-        && !doubt::suspect_order(&readings, Some(&found), result)
-    {
-        suspect_conventions(&readings, bare(session), Some(&found), result);
-    }
+    let evidence = some_agree(&captures, (&found, &used), fit.as_ref(), all);
     let of = |&i: &usize| captures.view(i, found.reading[i]);
-    warn_few(indices.len(), result);
     let views = Views {
         session,
         used,
@@ -161,21 +140,55 @@ pub(super) fn agree<'a>(
         indices,
     };
     let movement = fit.and_then(|fit| movement::look(&captures, &found, &fit));
-    Some(Agreement { views, found, movement })
+    (evidence, Some(Agreement { views, found, movement }))
+}
+
+/// What is known where no captures agree.
+fn none_agree(
+    session: &Session,
+    readings: &[Readings],
+    error: &Error,
+    mut all: Evidence,
+) -> Evidence {
+    all.captures.iter_mut().for_each(|c| c.used = false);
+    let units = suspect_units(&session.observations.iter().collect::<Vec<_>>());
+    let (diversity, open) = no_consensus(session, readings, error);
+    let mistake = doubt::suspect_whole(readings, session.target.as_ref(), None);
+    let (mistake, target_scale) = mistake.unwrap_or_default();
+    Evidence { diversity, target_scale, notes: mistake.then(units).then(open), ..all }
+}
+
+/// What is known where some do: why the others do not, and whether those are the right ones.
+fn some_agree(
+    captures: &Captures,
+    (found, used): (&Consensus, &[&Observation]),
+    fit: Option<&JointFit>,
+    all: Evidence,
+) -> Evidence {
+    let (session, readings) = (captures.session, captures.readings);
+    let units = suspect_units(used);
+    let Rejected { captures: reported, names, notes } =
+        rejected::name(captures, found, fit, all.captures);
+    let mistake = doubt::suspect_whole(readings, session.target.as_ref(), Some(found));
+    let inverted = || {
+        let notes = suspect_conventions(readings, bare(session), Some(found))?;
+        Some((notes, None))
+    };
+    let (mistake, target_scale) = mistake.or_else(inverted).unwrap_or_default();
+    let notes = mistake.then(units).then(notes).then(few(used.len()));
+    Evidence { captures: reported, rejected: names, target_scale, notes, ..all }
 }
 
 /// Fewer captures than this are answered with a warning.
 const FEW: usize = 8;
 
-fn warn_few(used: usize, result: &mut Calibration) {
-    if used < FEW {
-        result.warnings.push(CaptureFinding::Few { used, of_a_ball: false }.into());
-    }
+fn few(used: usize) -> Notes {
+    Notes::of((used < FEW).then_some(CaptureFinding::Few { used, of_a_ball: false }))
 }
 
 /// Millimetres read as metres put the flange beyond any robot's reach, and the target beyond any
 /// camera's. Captures that do not belong have no say.
-fn suspect_units(used: &[&Observation], result: &mut Calibration) {
+fn suspect_units(used: &[&Observation]) -> Notes {
     let reach = |o: &&Observation| o.base_from_flange.translation().norm();
     let far = used.iter().map(reach).fold(0.0, f64::max);
     let distance = |o: &&Observation| {
@@ -186,11 +199,8 @@ fn suspect_units(used: &[&Observation], result: &mut Calibration) {
     let target =
         (distance > FARTHEST).then_some(RobotFinding::TargetLengthUnit { distance_m: distance });
     let robot = (far > FARTHEST).then_some(RobotFinding::LengthUnit { farthest_m: far });
-    for finding in target.into_iter().chain(robot) {
-        result.reasons.push(finding.message());
-        result.warnings.push(finding.into());
-        result.verdict = Verdict::Rejected;
-    }
+    let all = target.into_iter().chain(robot).map(Notes::against);
+    all.fold(Notes::default(), Notes::then)
 }
 
 /// Whether the target poses came from elsewhere; those of scanned shapes are our own, with a covariance.

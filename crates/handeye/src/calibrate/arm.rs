@@ -9,10 +9,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::joint::held_out_views;
 use crate::{
-    HandEye, Observation, Pose, Setup, Touch,
+    Observation, Pose, Setup, Touch,
     calibrate::{
         config::Config,
-        result::{ArmDeviation, ArmHeldOut, ArmResult, Calibration},
+        result::{ArmDeviation, ArmHeldOut, ArmResult},
         views::Views,
     },
     estimate::{Extra, ExtraKind, JointFit, Problem, Source, evaluate, joint},
@@ -302,17 +302,15 @@ impl ArmFit {
         self.arm.by_deviations(joints, &self.which)
     }
 
-    /// Says what was found.
-    pub(super) fn report(&self, views: &Views, tre_mm: Option<f64>, result: &mut Calibration) {
-        let own = self.fit.hand_eye.retarget(views.target_from_corner.inverse());
-        result.arm = Some(self.result(&own, tre_mm));
+    /// That it deviates.
+    pub(super) fn finding(&self) -> RobotFinding {
         let (parameters, (before_mm, after_mm)) = (self.which.len(), self.robot_mm);
-        let finding = RobotFinding::ArmDeviates { parameters, before_mm, after_mm };
-        result.warnings.push(finding.into());
+        RobotFinding::ArmDeviates { parameters, before_mm, after_mm }
     }
 
     /// For files; the answer about the target's own origin.
-    fn result(&self, answer: &HandEye, predicted_tre_mm: Option<f64>) -> ArmResult {
+    pub(super) fn as_result(&self, views: &Views, predicted_tre_mm: Option<f64>) -> ArmResult {
+        let answer = self.fit.hand_eye.retarget(views.target_from_corner.inverse());
         let values = self.values();
         let one = |(k, d): (usize, &Deviation)| {
             let sigma = self.fit.extra(ExtraKind::Arm(k)).map_or(0.0, |x| x.1);

@@ -12,9 +12,11 @@ use super::{
 use crate::{
     Camera, Mount, Observation, Pose, PosePair,
     calibrate::{
-        config::Config,
-        result::{Answer, BudgetEntry, Calibration, Candidate, PoseCovariance, rows},
-        views,
+        evidence::{Choice, Evidence},
+        notes::Notes,
+        result::{Answer, BudgetEntry, Candidate, CaptureResult, PoseCovariance, rows},
+        unknown::Task,
+        views::camera_in_words,
     },
     estimate::{
         evaluate::{self, Misfit},
@@ -24,40 +26,41 @@ use crate::{
     findings::{CaptureFinding, TouchFinding},
     math::linalg::median,
     mistakes,
-    model::{session::Session, verdict::Verdict},
-    solve::points::{self, PointFit, PointView},
+    model::session::Session,
+    solve::{
+        self,
+        points::{self, PointFit, PointView},
+    },
 };
 
 /// Name of the method.
 const METHOD: &str = "ball-least-squares";
 
-pub(super) fn from_balls(session: &Session, config: &Config, result: &mut Calibration) {
-    result.captures = session.observations.iter().map(views::first_report).collect();
+/// What the centres of a ball say.
+pub(super) fn from_balls(session: &Session, task: &Task) -> Evidence {
     let seen: Vec<usize> =
         (0..session.observations.len()).filter(|&i| view(session, i).is_some()).collect();
-    for (i, capture) in result.captures.iter_mut().enumerate() {
+    let views: Vec<PointView> = seen.iter().filter_map(|&i| view(session, i)).collect();
+    let mut all = Evidence::of_captures(session, task.unknown.open());
+    for (i, capture) in all.captures.iter_mut().enumerate() {
         capture.used = seen.contains(&i);
         capture.reason = (!capture.used).then(|| "no ball was found in its scan".to_owned());
     }
-    if !session.touches.is_empty() {
-        result.warnings.push(TouchFinding::OfABall.into());
-    }
-    let views: Vec<PointView> = seen.iter().filter_map(|&i| view(session, i)).collect();
-    if let Some(method) = config.method {
-        let method = method.name();
-        result.warnings.push(CaptureFinding::MethodNotForBalls { method }.into());
-    }
+    let touched = (!session.touches.is_empty()).then_some(TouchFinding::OfABall);
+    let method = task.config.method.map(solve::Method::name);
+    let named = method.map(|method| CaptureFinding::MethodNotForBalls { method });
+    all.notes = Notes::of(touched).then(Notes::of(named));
     match points::fit_points(&views) {
         Ok(fit) => {
-            conclude(session, &seen, &views, &fit, result);
-            if let Some(moved) = movement::look_in(&recorded(session, (&seen, &views), &fit)) {
-                movement::apply(moved, result);
+            let found = conclude(session, &seen, &views, &fit, all);
+            match movement::look_in(&recorded(session, (&seen, &views), &fit)) {
+                Some(moved) => movement::covered(moved, found),
+                None => found,
             }
         }
         Err(error) => {
-            result.reasons.push(error.to_string());
-            let what = format!("the pose of the camera on the {}", session.setup.mount());
-            result.undetermined.push(what);
+            all.notes.add(Notes::open(error, camera_in_words(session.setup)));
+            all
         }
     }
 }
@@ -114,25 +117,24 @@ fn conclude(
     seen: &[usize],
     views: &[PointView],
     fit: &PointFit,
-    result: &mut Calibration,
-) {
+    all: Evidence,
+) -> Evidence {
     let missed = points::held_out(views, fit);
-    report_captures(seen, (views, fit), &missed, result);
+    let (captures, rejected) = with_residuals(seen, (views, fit), &missed, all.captures);
     let pairs: Vec<PosePair> =
         views.iter().zip(&fit.agrees).filter(|(_, a)| **a).map(|(v, _)| pair(v, fit)).collect();
-    result.diversity = Some(evaluate::diversity(&pairs));
-    if pairs.len() < FEW {
-        let used = pairs.len();
-        result.warnings.push(CaptureFinding::Few { used, of_a_ball: true }.into());
-    }
+    let used = pairs.len();
+    let few = (used < FEW).then_some(CaptureFinding::Few { used, of_a_ball: true });
     let factor = touches::small_sample(fit.degrees_of_freedom);
     let covariance = fit.covariance * factor;
     let own: Matrix6<f64> = covariance.fixed_view::<6, 6>(0, 0).into_owned();
     let free = mistakes::free_of(&own, &fit.mount_from_camera.rotation());
-    result.undetermined.extend(mistakes::in_words(&free, &pairs, session.setup));
-    if !free.is_empty() {
-        result.determined = Some(verdict::determined(&fit.mount_from_camera, &free));
-    }
+    let undetermined = mistakes::in_words(&free, &pairs, session.setup);
+    let nothing_left = "nothing is left to judge the noise by: take more captures";
+    let unjudged = fit.degrees_of_freedom < 1.0 && undetermined.is_empty();
+    let reasons = unjudged.then(|| nothing_left.to_owned()).into_iter().collect();
+    let open = Notes { reasons, undetermined, rejects: unjudged, ..Notes::of(few) };
+    let determined = (!free.is_empty()).then(|| verdict::determined(&fit.mount_from_camera, &free));
     let volume = volume(session, views, &fit.mount_from_camera);
     let tre =
         volume.filter(|_| factor.is_finite()).map(|v| predict::tre(&v, &own, |_| Vector3::zeros()));
@@ -149,45 +151,51 @@ fn conclude(
             anchor_from_target: Some(rows(&of_target)),
         },
     };
-    fill(answer, (fit, &missed), tre, views, result);
+    let (choice, candidate) = chosen(answer, (fit, &missed), tre);
+    Evidence {
+        notes: all.notes.then(open),
+        captures,
+        rejected,
+        diversity: Some(evaluate::diversity(&pairs)),
+        determined,
+        choice: Some(choice),
+        candidates: vec![candidate],
+        error_budget: budget(fit, views),
+        ..Evidence::default()
+    }
 }
 
 /// Fewer captures are answered with a warning.
 const FEW: usize = 8;
 
-fn fill(
-    answer: Answer,
+/// The answer, which is the only candidate.
+fn chosen(
+    hand_eye: Answer,
     (fit, missed): (&PointFit, &[Option<f64>]),
     tre: Option<PredictedTre>,
-    views: &[PointView],
-    result: &mut Calibration,
-) {
+) -> (Choice, Candidate) {
     let agreeing = fit.misfits_m.iter().zip(&fit.agrees).filter(|(_, a)| **a).map(|(m, _)| *m);
     let in_sample = misfit(agreeing);
     let held_out = misfit(missed.iter().flatten().copied());
-    result.method = METHOD.into();
-    result.chosen = Some(METHOD.into());
-    result.why =
-        "centres of a ball have one answer: the camera that puts them all at one place".into();
-    result.hand_eye = answer;
-    result.residual = in_sample;
-    result.held_out = held_out;
-    result.error_budget = budget(fit, views);
-    result.candidates = vec![Candidate {
+    let candidate = Candidate {
         name: METHOD.into(),
-        hand_eye: answer,
+        hand_eye,
         in_sample,
         held_out,
         touch_rms_mm: None,
         held_out_mm: held_out.translation_rms_mm,
         predicted_tre_mm: tre.as_ref().map(|t| t.rms),
         note: None,
-    }];
-    result.predicted_tre_mm = tre;
-    if fit.degrees_of_freedom < 1.0 && result.undetermined.is_empty() {
-        result.reasons.push("nothing is left to judge the noise by: take more captures".into());
-        result.verdict = Verdict::Rejected;
-    }
+    };
+    let choice = Choice {
+        name: METHOD.into(),
+        why: "centres of a ball have one answer: the camera that puts them all at one place".into(),
+        hand_eye,
+        predicted_tre_mm: tre,
+        residual: in_sample,
+        held_out,
+    };
+    (choice, candidate)
 }
 
 fn misfit(values: impl Iterator<Item = f64>) -> Misfit {
@@ -220,14 +228,16 @@ fn pair(v: &PointView, fit: &PointFit) -> PosePair {
     PosePair { anchor_from_mount: v.anchor_from_mount, camera_from_target }
 }
 
-fn report_captures(
+/// The captures with their residuals, and the names of those that do not agree.
+fn with_residuals(
     seen: &[usize],
     (views, fit): (&[PointView], &PointFit),
     missed: &[Option<f64>],
-    result: &mut Calibration,
-) {
+    mut captures: Vec<CaptureResult>,
+) -> (Vec<CaptureResult>, Vec<String>) {
+    let mut rejected = vec![];
     for (k, &i) in seen.iter().enumerate() {
-        let capture = &mut result.captures[i];
+        let capture = &mut captures[i];
         capture.camera_from_target = Some(pair(&views[k], fit).camera_from_target);
         capture.residual_mm = Some(fit.misfits_m[k] * 1e3);
         capture.held_out_mm = missed[k].map(|m| m * 1e3);
@@ -235,9 +245,10 @@ fn report_captures(
         if !capture.used {
             let mm = fit.misfits_m[k] * 1e3;
             capture.reason = Some(format!("its ball is {mm:.1} mm from where the others put it"));
-            result.rejected.push(capture.id.clone());
+            rejected.push(capture.id.clone());
         }
     }
+    (captures, rejected)
 }
 
 fn volume(session: &Session, views: &[PointView], x: &Pose<Mount, Camera>) -> Option<Volume> {
@@ -256,7 +267,10 @@ mod tests {
     use nalgebra::{Matrix3, Rotation3};
 
     use super::*;
-    use crate::{Point, Setup, SurfaceCorner, TargetModel, calibrate, math::random::Random};
+    use crate::{
+        Calibration, Config, Point, Setup, SurfaceCorner, TargetModel, Verdict, calibrate,
+        math::random::Random,
+    };
 
     const COUNT: usize = 64;
     /// Scatter of the robot's positions, m.

@@ -5,28 +5,30 @@ mod registered;
 
 use super::{
     alternatives::{Alternatives, Averaged},
-    arm,
+    arm::{self, ArmFit},
     boards::{self, Boards},
     budget, captures,
     joint::{self, Joint, held_out_views},
     known_position, named,
     optics::{self, MeasuredBy, Optics},
     reach::Reach,
-    verdict,
+    size, verdict,
     workpiece::{Workpiece, volume},
     wrong_touches,
 };
 use registered::stored_registration;
 
 use crate::{
-    HandEye,
+    Error, HandEye,
     calibrate::{
         answers::{as_fitted, blocks, excess, stated_covariance, stored},
         candidates::judge::{Judge, Judged},
         config::Config,
-        result::{Calibration, Candidate, TouchResult, WITH_ARM},
-        views,
-        views::{Views, pairs_of},
+        evidence::{Choice, Evidence, HeldOut},
+        notes::Notes,
+        result::{Candidate, Determined, TouchResult, WITH_ARM},
+        unknown::{self, Task},
+        views::{self, Views, camera_in_words, pairs_of},
     },
     estimate::{
         JointFit, Problem,
@@ -39,88 +41,138 @@ use crate::{
     solve::{self, Method, consensus::Consensus, least_squares::Matrix12},
 };
 
-/// Makes and judges all candidates, chooses one, and reports the touches. With the views comes the
-/// fit in which the arm deviates, where the choice rests on it.
+/// What is known once a candidate is chosen.
+pub(super) struct Estimated<'a> {
+    pub evidence: Evidence,
+    /// The views as they were fitted; `None` where nothing could be.
+    pub views: Option<Views<'a>>,
+    /// The fit in which the arm deviates, where the choice rests on it.
+    pub with_arm: Option<JointFit>,
+}
+
+/// Makes and judges all candidates, chooses one, and reports the touches.
 pub(super) fn estimate<'a>(
     mut views: Views<'a>,
     found: &Consensus,
     optics: &Optics,
-    config: &Config,
-    result: &mut Calibration,
-) -> Option<(Views<'a>, Option<JointFit>)> {
-    let Averaged { problem, fit, as_declared } =
-        fit_views(&mut views, found, optics, config, result)?;
-    let volume = volume(&views, &fit)?;
-    let paired = captures::pair_touches(&views, &fit, result);
-    let (boards, trusted) = right_touches(&views, &paired, optics, (&problem, &fit), result);
-    let joint = joint::fit(&views, &boards, &problem.extras, &fit, &config.known);
-    if let Some(joint) = &joint {
-        joint.warn(&views, result);
-    }
+    task: &Task,
+    agreed: Evidence,
+) -> Estimated<'a> {
+    let diversity = Some(evaluate::diversity(&pairs_of(&views)));
+    let mut evidence = Evidence { diversity, ..agreed };
+    let fitted = match fit_views(&mut views, found, optics, task) {
+        Ok(fitted) => fitted,
+        Err(error) => {
+            let open = Notes::open(error, camera_in_words(views.session.setup));
+            evidence.notes.add(open);
+            return Estimated { evidence, views: None, with_arm: None };
+        }
+    };
+    let (factor, later) = (unknown::scale(&fitted.fit), unknown::clock(&fitted.fit));
+    evidence.unit_and_clock = task.unknown.found(factor, later);
+    evidence = evidence.with_open_unit_named();
+    let Some(volume) = volume(&views, &fitted.fit) else {
+        return Estimated { evidence, views: None, with_arm: None };
+    };
+    let (evidence, with_arm) = fuse(&views, &fitted, &volume, optics, task, evidence);
+    Estimated { evidence, views: Some(views), with_arm }
+}
+
+/// The fit of views and touches, what it says of camera, depth, tip and arm, and the choice of a candidate.
+fn fuse(
+    views: &Views,
+    Averaged { problem, fit, as_declared }: &Averaged,
+    volume: &Volume,
+    optics: &Optics,
+    task: &Task,
+    mut evidence: Evidence,
+) -> (Evidence, Option<JointFit>) {
+    let config = task.config;
+    let (paired, unseen) = captures::pair_touches(views, fit);
+    let (boards, trusted, wrong) = right_touches(views, &paired, optics, (problem, fit));
+    let joint = joint::fit(views, &boards, &problem.extras, fit, &config.known);
+    let (tip, of_touches) = joint.as_ref().map(|j| j.findings(views)).unwrap_or_default();
+    let notes = &mut evidence.notes;
+    notes.add(unseen.then(wrong).then(of_touches));
     let used = joint.as_ref().map_or(&[][..], |j| &j.used);
-    let (best, whole) = joint.as_ref().map_or((&fit, &problem), |j| (&j.fit, &j.problem));
-    let as_declared = joint.as_ref().map_or(as_declared, |j| j.as_declared);
-    verdict::judge_size(
-        &views,
-        (&fit, best),
-        (1.0 + optics.size, as_declared.size),
-        config,
-        result,
-    );
-    let arm = arm::look(&views, whole, best, used, config).unwrap_or_else(|finding| {
-        result.warnings.push(finding.into());
-        None
-    });
-    name_free(&views, &fit, best, result);
-    known_position::judge(whole, best, &views, &config.known, result);
-    let reach = arm.as_ref().and_then(|a| Reach::new(&views, a, &volume));
+    let (best, whole) = joint.as_ref().map_or((fit, problem), |j| (&j.fit, &j.problem));
+    let as_declared = joint.as_ref().map_or(*as_declared, |j| j.as_declared);
+    if !notes.rejects
+        && let Some((scale, said)) =
+            size::judge(views, (fit, best), (1.0 + optics.size, as_declared.size), task)
+    {
+        (evidence.target_scale, _) = (Some(scale), notes.add(said));
+    }
+    let (arm, inconsistent) = match arm::look(views, whole, best, used, config) {
+        Ok(arm) => (arm, None),
+        Err(finding) => (None, Some(finding)),
+    };
+    notes.add(Notes::of(inconsistent));
+    let (determined, open) = name_free(views, fit, best);
+    notes.add(open);
+    notes.add(Notes::of(known_position::judge(whole, best, views, &config.known)));
+    let reach = arm.as_ref().and_then(|a| Reach::new(views, a, volume));
     let (best, whole) = match (&arm, &reach) {
         (Some(arm), Some(_)) => (&arm.fit, &arm.problem),
         _ => (best, whole),
     };
-    let measured = MeasuredBy { unit_is_free: config.unknown.scale, as_declared };
-    let workpiece = Workpiece::new(&views, &volume, best, measured, reach.as_ref());
-    optics.report(views.session, best, as_declared, result);
-    if let Some(arm) = &arm {
-        arm.report(&views, workpiece.rms_of_best_mm().filter(|_| reach.is_some()), result);
-    }
+    let refined = optics.refined(views.session, best, as_declared);
+    notes.add(refined.notes);
+    notes.add(Notes::of(arm.as_ref().map(ArmFit::finding)));
+    let measured = MeasuredBy { unit_is_free: task.unknown.scale.is_some(), as_declared };
+    let workpiece = Workpiece::new(views, volume, best, measured, reach.as_ref());
     let has_board = views.session.target.is_some();
-    result.error_budget = budget::budget(whole, best, &workpiece, has_board);
-    result.advice = budget::advice(whole, best, &workpiece, has_board);
-    let judge =
-        Judge { views: &views, paired: &trusted, known: config.known, workpiece: &workpiece };
-    compare(&judge, (&fit, joint.as_ref()), &volume, config, result);
-    map_error(&workpiece, result);
-    result.touches = touches_at(result, &views, &paired, joint.as_ref());
-    let rests_on_arm = result.chosen.as_deref() == Some(WITH_ARM);
-    let found = arm.filter(|_| rests_on_arm).map(|a| a.fit);
-    Some((views, found))
+    let tre_of_arm = workpiece.rms_of_best_mm().filter(|_| reach.is_some());
+    let evidence = Evidence {
+        determined,
+        tip,
+        camera: refined.camera,
+        depth: refined.depth,
+        arm: arm.as_ref().map(|a| a.as_result(views, tre_of_arm)),
+        error_budget: budget::budget(whole, best, &workpiece, has_board),
+        advice: budget::advice(whole, best, &workpiece, has_board),
+        ..evidence
+    };
+    let judge = Judge { views, paired: &trusted, known: config.known, workpiece: &workpiece };
+    let evidence = compare(&judge, (fit, joint.as_ref()), (volume, &paired), task, evidence);
+    let rests_on_arm = evidence.choice.as_ref().is_some_and(|c| c.name == WITH_ARM);
+    (evidence, arm.filter(|_| rests_on_arm).map(|a| a.fit))
 }
 
 /// Makes all candidates and chooses one; a method asked for by name is judged alone.
 fn compare(
     judge: &Judge,
     (fit, joint): (&JointFit, Option<&Joint>),
-    volume: &Volume,
-    config: &Config,
-    result: &mut Calibration,
-) {
+    (volume, paired): (&Volume, &[TouchPairs]),
+    task: &Task,
+    mut evidence: Evidence,
+) -> Evidence {
+    let (views, config) = (judge.views, task.config);
     let mut candidates = judge.view_candidates(fit, joint.is_some(), config);
-    candidates.extend(judge.touch_candidates(fit, config, result));
+    let (of_touches, notes) = judge.touch_candidates(fit, config);
+    evidence.notes.add(notes);
+    candidates.extend(of_touches);
     if config.method.is_none() {
         candidates.extend(joint.and_then(|j| judge.joint_candidate(j)));
         candidates.extend(judge.arm_candidate(fit));
+    } else if candidates.is_empty() && evidence.notes.undetermined.is_empty() {
+        evidence.notes.add(named::failure(views, config).unwrap_or_default());
     }
-    if let Some(method) = config.method
-        && candidates.is_empty()
-    {
-        named::name_failure(judge.views, method, result);
+    let mut chosen = choose(&candidates, volume, config);
+    if config.method.is_some() {
+        evidence.unit_and_clock = named::unit(views, task, &evidence);
+        chosen = chosen.map(|c| named::by_likeliest(views, fit, config, &evidence, c));
     }
-    choose(candidates, judge.views, volume, config, result);
-    if let Some(method) = config.method {
-        named::judge_by_likeliest(judge.views, fit, config, result);
-        named::report_scale(judge.views, method, result);
+    if let Some((choice, held_out)) = &mut chosen {
+        evidence.captures = captures::held_out(views, held_out, evidence.captures);
+        evidence.touches = touches_at(choice, views, paired, joint);
+        let x = choice.hand_eye.mount_from_camera.as_ref();
+        if let (Some(tre), Some(x)) = (&mut choice.predicted_tre_mm, x) {
+            tre.map = judge.workpiece.map(x);
+        }
     }
+    let candidates = candidates.into_iter().map(|c| c.candidate).collect();
+    Evidence { choice: chosen.map(|(choice, _)| choice), candidates, ..evidence }
 }
 
 /// The likeliest answer of views alone, and what it says beside both poses.
@@ -128,74 +180,51 @@ fn fit_views(
     views: &mut Views,
     found: &Consensus,
     optics: &Optics,
-    config: &Config,
-    result: &mut Calibration,
-) -> Option<Averaged> {
-    let setup = views.session.setup;
-    result.diversity = Some(evaluate::diversity(&pairs_of(views)));
+    task: &Task,
+) -> Result<Averaged, Error> {
     if !optics.extras.is_empty() {
         views.views = optics::with_sights(views);
     }
-    config.unknown.set_free(views, &found.hand_eye);
-    let extras = [optics.extras.as_slice(), &config.unknown.extras()].concat();
+    task.unknown.set_free(views, &found.hand_eye);
+    let extras = [optics.extras.as_slice(), &task.unknown.extras()].concat();
     let problem = views::views_problem(views.session, &views.views, &extras);
     let alternatives = Alternatives::of(views.session);
-    let Averaged { problem, mut fit, as_declared } =
-        match alternatives.fit(&problem, &found.hand_eye, &config.known) {
-            Ok(averaged) => averaged,
-            Err(error) => {
-                result.reasons.push(error.to_string());
-                result
-                    .undetermined
-                    .push(format!("the pose of the camera on the {}", setup.mount()));
-                return None;
-            }
-        };
-    captures::orient_target(views, &mut fit);
-    config.unknown.report(&fit, result);
-    let problem = views::views_problem(views.session, &views.views, &problem.extras);
-    Some(Averaged { problem, fit, as_declared })
+    let mut averaged = alternatives.fit(&problem, &found.hand_eye, &task.config.known)?;
+    captures::orient_target(views, &mut averaged.fit);
+    let problem = views::views_problem(views.session, &views.views, &averaged.problem.extras);
+    Ok(Averaged { problem, ..averaged })
 }
 
-/// The predicted error of the chosen answer all over the workpiece.
-fn map_error(workpiece: &Workpiece, result: &mut Calibration) {
-    let x = result.hand_eye.mount_from_camera.as_ref();
-    if let (Some(tre), Some(x)) = (&mut result.predicted_tre_mm, x) {
-        tre.map = workpiece.map(x);
-    }
-}
-
-/// The touches that can be of the corners they name, by board and by pair; the others are reported.
+/// The touches that can be of the corners they name, by board and by pair, and what is said of the others.
 fn right_touches(
     views: &Views,
     paired: &[TouchPairs],
     optics: &Optics,
     (problem, fit): (&Problem, &JointFit),
-    result: &mut Calibration,
-) -> (Boards, Vec<TouchPairs>) {
+) -> (Boards, Vec<TouchPairs>, Notes) {
     let mut boards = boards::boards(views, fit, optics);
     let wrong = wrong_touches::find(views, &boards, problem, fit);
     wrong.left_out_of(&mut boards);
     let right = |p: &&TouchPairs| !wrong.which.contains(&p.touch);
     let trusted = paired.iter().filter(right).cloned().collect();
-    wrong.report(result);
-    (boards, trusted)
+    (boards, trusted, wrong.notes)
 }
 
-/// Names what the best answer leaves free, and what views alone would have.
-fn name_free(views: &Views, fit: &JointFit, best: &JointFit, result: &mut Calibration) {
+/// What the best answer leaves unconstrained, and what views alone would.
+fn name_free(views: &Views, fit: &JointFit, best: &JointFit) -> (Option<Determined>, Notes) {
     let (setup, pairs) = (views.session.setup, pairs_of(views));
     let free = mistakes::free_directions(best);
-    result.undetermined.extend(mistakes::in_words(&free, &pairs, setup));
     if !free.is_empty() {
-        result.determined = Some(verdict::determined(&best.hand_eye.mount_from_camera, &free));
-        return;
+        let undetermined = mistakes::in_words(&free, &pairs, setup);
+        let determined = verdict::determined(&best.hand_eye.mount_from_camera, &free);
+        return (Some(determined), Notes { undetermined, ..Notes::default() });
     }
     let by_views = mistakes::free_directions(fit);
-    if !by_views.is_empty() {
+    let alone = (!by_views.is_empty()).then(|| {
         let what = mistakes::in_words(&by_views, &pairs, setup).join(", ");
-        result.warnings.push(TouchFinding::AloneDetermine { what }.into());
-    }
+        TouchFinding::AloneDetermine { what }
+    });
+    (None, Notes::of(alone))
 }
 
 impl Judge<'_> {
@@ -237,13 +266,7 @@ impl Judge<'_> {
     }
 
     /// An answer from views, and what it missed when each was left out.
-    fn judged(
-        &self,
-        fit: &JointFit,
-        name: String,
-        answer: &HandEye,
-        left_out: Vec<Option<(f64, f64)>>,
-    ) -> Judged {
+    fn judged(&self, fit: &JointFit, name: String, answer: &HandEye, left_out: HeldOut) -> Judged {
         let views = self.views;
         let x = answer.mount_from_camera;
         let tre = self.workpiece.tre(&x);
@@ -322,27 +345,19 @@ impl Judge<'_> {
     }
 }
 
-/// The least predicted error wins; the residual has no say.
-fn choose(
-    candidates: Vec<Judged>,
-    views: &Views,
-    volume: &Volume,
-    config: &Config,
-    result: &mut Calibration,
-) {
+/// The least predicted error wins; the residual has no say. With the choice comes the leave-one-out residual of each view.
+fn choose(candidates: &[Judged], volume: &Volume, config: &Config) -> Option<(Choice, HeldOut)> {
     let best = candidates.iter().filter(|c| c.tre.is_some()).min_by(|a, b| by_prediction(a, b));
-    let best = best.or(candidates.last());
-    if let Some(best) = best {
-        result.method = best.candidate.name.clone();
-        result.chosen = Some(best.candidate.name.clone());
-        result.why = why(best, &candidates, volume, config);
-        result.hand_eye = best.candidate.hand_eye;
-        result.predicted_tre_mm = best.tre.clone();
-        result.residual = best.candidate.in_sample;
-        result.held_out = best.candidate.held_out;
-        named::captures_held_out(views, &best.held_out, result);
-    }
-    result.candidates = candidates.into_iter().map(|c| c.candidate).collect();
+    let best = best.or(candidates.last())?;
+    let choice = Choice {
+        name: best.candidate.name.clone(),
+        why: why(best, candidates, volume, config),
+        hand_eye: best.candidate.hand_eye,
+        predicted_tre_mm: best.tre.clone(),
+        residual: best.candidate.in_sample,
+        held_out: best.candidate.held_out,
+    };
+    Some((choice, best.held_out.clone()))
 }
 
 fn by_prediction(a: &Judged, b: &Judged) -> std::cmp::Ordering {
@@ -371,14 +386,14 @@ fn why(best: &Judged, all: &[Judged], volume: &Volume, config: &Config) -> Strin
 
 /// Where the chosen answer puts each touched corner.
 fn touches_at(
-    result: &Calibration,
+    choice: &Choice,
     views: &Views,
     paired: &[TouchPairs],
     joint: Option<&Joint>,
 ) -> Vec<TouchResult> {
-    let Some(x) = result.hand_eye.mount_from_camera else { return vec![] };
-    let chosen = |name: &str| result.chosen.as_deref().is_some_and(|n| n.starts_with(name));
-    let (registered, fused) = (chosen("two-step"), chosen("joint"));
+    let Some(x) = choice.hand_eye.mount_from_camera else { return vec![] };
+    let (registered, fused) =
+        (choice.name.starts_with("two-step"), choice.name.starts_with("joint"));
     let taken = |touch: usize| joint.is_some_and(|j| j.used.contains(&touch));
     let one = |p: &TouchPairs| {
         let difference_mm = touches::touch_error(p, &x) * 1e3;

@@ -2,9 +2,11 @@
 
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
-    TargetPose, Touch, Warning,
+    TargetPose, Touch,
     calibrate::{
-        result::Calibration,
+        evidence::{Choice, Evidence, HeldOut},
+        notes::Notes,
+        result::CaptureResult,
         views::{Views, own_pose},
     },
     detect::{
@@ -127,13 +129,9 @@ pub(super) fn oriented(
     placement
 }
 
-/// Pairs touches with what the camera measured of their corners.
-pub(super) fn pair_touches(
-    views: &Views,
-    fit: &JointFit,
-    result: &mut Calibration,
-) -> Vec<TouchPairs> {
-    let Some(target) = &views.session.target else { return vec![] };
+/// Pairs touches with what the camera measured of their corners; the others are named.
+pub(super) fn pair_touches(views: &Views, fit: &JointFit) -> (Vec<TouchPairs>, Notes) {
+    let Some(target) = &views.session.target else { return <_>::default() };
     let session = views.session;
     let chosen: Vec<Observation> =
         views.used.iter().zip(&views.views).map(|(o, v)| as_chosen(o, v, views, target)).collect();
@@ -143,8 +141,7 @@ pub(super) fn pair_touches(
         session.placements.iter().map(|p| oriented(p, &session.touches, &x, target)).collect();
     let (paired, missing) =
         touches::pair_touches(session.setup, target, &chosen, &placements, &session.touches);
-    result.warnings.extend(without_view(session, &missing).into_iter().map(Warning::from));
-    paired
+    (paired, Notes::of(without_view(session, &missing)))
 }
 
 /// One finding for each placement whose touches pair with nothing; touches are sorted by placement.
@@ -176,31 +173,32 @@ fn as_chosen(o: &Observation, v: &View, views: &Views, target: &TargetModel) -> 
     o
 }
 
-/// Fills in the misfits of the captures that are used.
-pub(super) fn report_captures(views: &Views, result: &mut Calibration) {
-    let Some(answer) = answer(result, views) else { return };
+/// The captures with the leave-one-out residual of every view.
+pub(super) fn held_out(
+    views: &Views,
+    left_out: &HeldOut,
+    mut captures: Vec<CaptureResult>,
+) -> Vec<CaptureResult> {
+    for (&i, left_out) in views.indices.iter().zip(left_out) {
+        captures[i].held_out_deg = left_out.map(|h| h.0.to_degrees());
+        captures[i].held_out_mm = left_out.map(|h| h.1 * 1e3);
+    }
+    captures
+}
+
+/// With the residuals, under the chosen answer, of the captures that are used.
+pub(super) fn with_residuals(views: &Views, mut found: Evidence) -> Evidence {
+    let Some(choice) = &mut found.choice else { return found };
+    let Some(answer) = answer(choice, views) else { return found };
     for (v, &i) in views.views.iter().zip(&views.indices) {
         let (angle, distance) = answer.loop_misfit(&v.pair);
-        let capture = &mut result.captures[i];
+        let capture = &mut found.captures[i];
         capture.camera_from_target = Some(own_pose(v, views));
         capture.residual_deg = Some(angle.to_degrees());
         capture.residual_mm = Some(distance * 1e3);
     }
-    report_pixels(views, &answer, result);
-}
-
-/// The chosen answer about the target's first corner.
-fn answer(result: &Calibration, views: &Views) -> Option<HandEye> {
-    let stored = HandEye {
-        mount_from_camera: result.hand_eye.mount_from_camera?,
-        anchor_from_target: result.hand_eye.anchor_from_target?,
-    };
-    Some(stored.retarget(views.target_from_corner))
-}
-
-fn report_pixels(views: &Views, answer: &HandEye, result: &mut Calibration) {
     let (Some(target), Some(camera)) = (&views.session.target, &views.session.camera) else {
-        return;
+        return found;
     };
     let own = answer.retarget(views.target_from_corner.inverse());
     let (mut sum, mut count) = (0.0, 0.0);
@@ -208,7 +206,7 @@ fn report_pixels(views: &Views, answer: &HandEye, result: &mut Calibration) {
         let o = views.used[k];
         let pose = own_pose(&views.views[k], views);
         let map = relabelling(o, &pose, target);
-        let capture = &mut result.captures[i];
+        let capture = &mut found.captures[i];
         capture.reprojection_px =
             evaluate::reprojection_px(&own, o, views.session.setup, target, &map, camera);
         capture.residual_px = picture_residual(o, &pose, target, &map, camera);
@@ -217,7 +215,17 @@ fn report_pixels(views: &Views, answer: &HandEye, result: &mut Calibration) {
             (sum, count) = (sum + n * px * px, count + n);
         }
     }
-    result.residual.reprojection_rms_px = (count > 0.0).then(|| f64::sqrt(sum / count));
+    choice.residual.reprojection_rms_px = (count > 0.0).then(|| f64::sqrt(sum / count));
+    found
+}
+
+/// The chosen answer about the target's first corner.
+fn answer(choice: &Choice, views: &Views) -> Option<HandEye> {
+    let stored = HandEye {
+        mount_from_camera: choice.hand_eye.mount_from_camera?,
+        anchor_from_target: choice.hand_eye.anchor_from_target?,
+    };
+    Some(stored.retarget(views.target_from_corner))
 }
 
 /// RMS distance (px) of corners to the target model seen from the picture's own best pose.

@@ -2,10 +2,22 @@
 
 use super::result::{Calibration, CaptureResult};
 use crate::{
-    Error, HandEye, PosePair,
+    Error, HandEye, PosePair, Warning,
     estimate::certify::{Certificate, certify},
     solve::{self, Method},
 };
+
+impl Calibration {
+    /// With its certificate, or with a warning that says why there is none.
+    pub fn certified(self) -> Self {
+        let message = match certify_result(&self) {
+            Ok(Some(found)) => return Self { certificate: Some(found), ..self },
+            Ok(None) => "there is no answer, so there is nothing to certify".to_owned(),
+            Err(error) => format!("the least-squares fit cannot be certified: {error}"),
+        };
+        self.noting([Warning::new("not-certified", message)])
+    }
+}
 
 /// The certificate of a calibration, over the captures it used; where the minimum next to the
 /// answer is not proven global, that next to a closed form is tried. `None` without an answer.

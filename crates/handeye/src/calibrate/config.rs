@@ -1,8 +1,6 @@
 //! What the user wants of a calibration.
 
-use crate::{
-    calibrate::unknown::Unknown, estimate::noise::KnownNoise, register::IcpConfig, solve::Method,
-};
+use crate::{estimate::noise::KnownNoise, register::IcpConfig, solve::Method};
 
 /// What the user wants of a calibration.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,8 +13,6 @@ pub struct Config {
     pub known: KnownNoise,
     /// Error (95 %, predicted) that the job tolerates, mm.
     pub max_error_mm: Option<f64>,
-    /// What is free beside both poses.
-    pub unknown: Unknown,
     /// In which frame the answer is, where images and scans do not agree.
     pub answer_frame: AnswerFrame,
 }

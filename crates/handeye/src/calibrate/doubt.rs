@@ -2,19 +2,15 @@
 
 use crate::{
     HandEye, PosePair, TargetModel,
-    calibrate::{
-        result::{Calibration, Scale},
-        views::Captures,
-    },
+    calibrate::{notes::Notes, result::Scale, views::Captures},
     findings::{CaptureFinding, captures::ListedOrder},
     math::linalg::median,
     mistakes::{
         self, TargetScale,
-        explain::{self},
+        explain::{self, Diagnosis},
         score,
         score::{Fault, Order},
     },
-    model::verdict::Verdict,
     solve::consensus::{self, Consensus, Readings},
 };
 
@@ -27,12 +23,7 @@ const NEARLY_AS_MANY: f64 = 0.75;
 const SAME_ANSWER: (f64, f64) = (0.035, 0.02);
 
 /// Rejects an answer that too few captures confirm, or against which nearly as many stand.
-pub(super) fn doubt(
-    captures: &Captures,
-    found: &Consensus,
-    wrong: &[usize],
-    result: &mut Calibration,
-) {
+pub(super) fn doubt(captures: &Captures, found: &Consensus, wrong: &[usize]) -> Notes {
     let used = found.agrees.iter().filter(|a| **a).count();
     let (seen, out) = (used + wrong.len(), wrong.len());
     let finding = if out > 0 && (used < FEWEST_CONFIRMED || 2 * used == seen) {
@@ -40,11 +31,9 @@ pub(super) fn doubt(
     } else if let Some(others) = second_agreement(captures, found, wrong, used) {
         CaptureFinding::TwoAnswers { used, others, rest: out }
     } else {
-        return;
+        return Notes::default();
     };
-    result.reasons.push(finding.message());
-    result.warnings.push(finding.into());
-    result.verdict = Verdict::Rejected;
+    Notes::against(finding)
 }
 
 /// How many of the captures left out agree on another place of the camera, if nearly as many.
@@ -72,27 +61,31 @@ fn same_answer(a: &HandEye, b: &HandEye) -> bool {
 /// Captures that agree within this are taken to be in order. mm and degrees.
 const IN_ORDER: (f64, f64) = (15.0, 2.5);
 
-/// Looks for one order of all robot poses in which most captures agree, where as declared they do
-/// not; whether there is one.
-pub(super) fn suspect_order(
+/// One mistake in all captures that explains why they do not agree well: a target of another size (and that size), or
+/// robot poses in another order.
+pub(super) fn suspect_whole(
     readings: &[Readings],
+    target: Option<&TargetModel>,
     found: Option<&Consensus>,
-    result: &mut Calibration,
-) -> bool {
-    let n = readings.len();
+) -> Option<(Notes, Option<Scale>)> {
     if found.is_some_and(|f| agrees_well(readings, f)) {
-        return false;
+        return None;
     }
+    let diagnosis = explain::explain(readings, &[]);
+    let size = target.and_then(|target| suspect_size(&diagnosis, target));
+    size.or_else(|| Some((suspect_order(readings.len(), &diagnosis)?, None)))
+}
+
+/// One order of all robot poses in which most captures agree.
+fn suspect_order(n: usize, diagnosis: &Diagnosis) -> Option<Notes> {
     let in_order = |s: &score::Score| {
         2 * s.agree > n && s.translation_mm < IN_ORDER.0 && s.rotation_deg < IN_ORDER.1
     };
-    let diagnosis = explain::explain(readings, &[]);
-    let order = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
+    let (order, after) = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
         (Fault::Order(order), Some(after)) if in_order(&after) => Some((*order, after)),
         _ => None,
-    });
-    let Some((order, after)) = order else { return false };
-    let finding = CaptureFinding::OutOfOrder {
+    })?;
+    Some(Notes::against(CaptureFinding::OutOfOrder {
         order: match order {
             Order::Reversed => ListedOrder::Reversed,
             Order::Shifted(k) if 2 * k > n => ListedOrder::Before(n - k),
@@ -101,44 +94,24 @@ pub(super) fn suspect_order(
         agreeing: after.agree,
         of: n,
         within_mm: after.translation_mm,
-    };
-    result.reasons.insert(0, finding.message());
-    result.warnings.insert(0, finding.into());
-    result.verdict = Verdict::Rejected;
-    true
+    }))
 }
 
 /// Captures that agree under a target of another size are far nearer than under the declared one.
 const EXPLAINED_BY_SIZE: f64 = 0.2;
 
-/// Looks for one size of the target under which most captures agree, where under the declared one they do not;
-/// whether there is one.
-pub(super) fn suspect_size(
-    readings: &[Readings],
-    target: Option<&TargetModel>,
-    found: Option<&Consensus>,
-    result: &mut Calibration,
-) -> bool {
-    let Some(target) = target else { return false };
-    if found.is_some_and(|f| agrees_well(readings, f)) {
-        return false;
-    }
-    let diagnosis = explain::explain(readings, &[]);
+/// One size of the target under which most captures agree.
+fn suspect_size(diagnosis: &Diagnosis, target: &TargetModel) -> Option<(Notes, Option<Scale>)> {
     let before = diagnosis.declared.map_or(f64::INFINITY, |s| s.translation_mm);
     let size = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
         (Fault::Scale(size), Some(after)) if after.translation_mm < EXPLAINED_BY_SIZE * before => {
             Some(*size)
         }
         _ => None,
-    });
-    let Some(size) = size else { return false };
+    })?;
     let finding = mistakes::size_finding(&size, target);
     let TargetScale { value, sigma, .. } = size;
-    result.target_scale = Some(Scale { value, sigma, used: false });
-    result.reasons.insert(0, finding.message());
-    result.warnings.insert(0, finding.into());
-    result.verdict = Verdict::Rejected;
-    true
+    Some((Notes::against(finding), Some(Scale { value, sigma, used: false })))
 }
 
 /// Whether most captures agree, within what robots and cameras in order do.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::{
+    Warning,
     calibrate::result::{Calibration, JudgedFinding},
     findings::severity::{DISAGREE, PARTS_OF_DISAGREE, Severity, row},
     model::verdict::Verdict,
@@ -25,7 +26,7 @@ pub fn findings(result: &Calibration) -> Vec<JudgedFinding> {
     let code = if result.verdict == Verdict::Undetermined { "undetermined" } else { "rejected" };
     let reasons = result.reasons.iter().filter(|r| !accepted && !is_warning(r));
     let of_reason = |reason: &String| judged(code, Severity::Rejects, reason.clone());
-    let of_warning = |w: &crate::Warning| {
+    let of_warning = |w: &Warning| {
         let is_reason = !accepted && result.reasons.contains(&w.message);
         let severity =
             if is_reason { Severity::Rejects } else { severity(&w.code, result.verdict) };
@@ -40,11 +41,6 @@ fn judged(code: &str, severity: Severity, message: String) -> JudgedFinding {
     let advice = row(code).map(|row| row.advice.to_owned());
     let code = code.to_owned();
     JudgedFinding { code, severity, message, headline: None, advice, data: BTreeMap::new() }
-}
-
-/// Writes the findings of a result into it; to be called whenever its warnings or reasons are complete.
-pub fn record(result: &mut Calibration) {
-    result.findings = findings(result);
 }
 
 /// Where a result is accepted with findings that change it: the sentence that says so first.
@@ -67,4 +63,30 @@ pub fn reservation(result: &Calibration) -> Option<String> {
         }
     }
     (!headlines.is_empty()).then(|| format!("Accepted, but: {}", headlines.join("; ")))
+}
+
+impl Calibration {
+    /// With what was noticed beside it, after what is said already.
+    pub(crate) fn noting<F: Into<Warning>>(self, later: impl IntoIterator<Item = F>) -> Self {
+        let later = later.into_iter().map(Into::into);
+        let warnings = self.warnings.iter().cloned().chain(later).collect();
+        Self { warnings, ..self }.recorded()
+    }
+
+    /// The same, to be said first.
+    pub(crate) fn noting_first<F: Into<Warning>>(self, first: impl IntoIterator<Item = F>) -> Self {
+        let first = first.into_iter().map(Into::into);
+        let warnings = first.chain(self.warnings.iter().cloned()).collect();
+        Self { warnings, ..self }.recorded()
+    }
+
+    /// Rejected, with these reasons alone.
+    pub(crate) fn rejected_for(self, reasons: Vec<String>) -> Self {
+        Self { verdict: Verdict::Rejected, reasons, ..self }.recorded()
+    }
+
+    /// With the findings of what it is now.
+    pub(crate) fn recorded(self) -> Self {
+        Self { findings: findings(&self), ..self }
+    }
 }

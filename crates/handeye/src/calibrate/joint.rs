@@ -11,7 +11,8 @@ use super::{
 use crate::{
     TargetModel,
     calibrate::{
-        result::{Calibration, TipResult},
+        notes::Notes,
+        result::TipResult,
         views::{Views, views_problem},
     },
     estimate::{
@@ -303,35 +304,33 @@ impl Joint {
         })
     }
 
-    /// Names touches left out, a wrong tip, and a conflict of views and touches.
-    pub(super) fn warn(&self, views: &Views, result: &mut Calibration) {
-        for &(k, p) in &self.left_out {
+    /// A tip that is off, and what is said of it, of rejected touches and of a conflict of views and touches.
+    pub(super) fn findings(&self, views: &Views) -> (Option<TipResult>, Notes) {
+        let outlier = |&(k, p_value): &(usize, f64)| {
             let touch = &views.session.touches[k];
             let (corner, placement) = (touch.corner, touch.placement.clone());
-            result.warnings.push(TouchFinding::Outlier { corner, placement, p_value: p }.into());
-        }
-        let Some(conflict) = self.conflict else { return };
-        if let Some(tip) = &self.wrong_tip {
-            let [x, y, z] = tip.offset.map(|v| v * 1e3).into();
-            let frame = if tip.in_flange { "flange" } else { "base" };
-            let sigma = |k| self.fit.extra(ExtraKind::Tip(k)).map_or(0.0, |t| t.1 * 1e3);
-            result.tip = Some(TipResult {
-                offset_mm: [x, y, z],
-                sigma_mm: std::array::from_fn(sigma),
-                frame: frame.into(),
-            });
-            let finding = TouchFinding::TipOff {
-                offset_mm: [x, y, z],
+            TouchFinding::Outlier { corner, placement, p_value }
+        };
+        let mut notes = Notes::of(self.left_out.iter().map(outlier));
+        let Some(conflict) = self.conflict else { return (None, notes) };
+        let tip = self.wrong_tip.as_ref().map(|tip| {
+            notes.note(TouchFinding::TipOff {
+                offset_mm: (tip.offset * 1e3).into(),
                 in_flange: tip.in_flange,
                 p_value: tip.p_value,
                 squares: squares(tip.offset.norm(), views.session.target.as_ref()),
-            };
-            result.warnings.push(finding.into());
-        }
+            });
+            let sigma = |k| self.fit.extra(ExtraKind::Tip(k)).map_or(0.0, |t| t.1 * 1e3);
+            TipResult {
+                offset_mm: (tip.offset * 1e3).into(),
+                sigma_mm: std::array::from_fn(sigma),
+                frame: if tip.in_flange { "flange" } else { "base" }.into(),
+            }
+        });
         if conflict.strength > 0.0 && conflict.p_value < CONFLICT {
-            let p_value = conflict.p_value;
-            result.warnings.push(TouchFinding::ViewsDisagree { p_value }.into());
+            notes.note(TouchFinding::ViewsDisagree { p_value: conflict.p_value });
         }
+        (tip, notes)
     }
 }
 

@@ -3,7 +3,6 @@
 use crate::{
     calibrate::{
         answers::stated_covariance,
-        result::Calibration,
         views::{Views, pairs_of},
     },
     estimate::{self, JointFit, Problem},
@@ -14,15 +13,14 @@ use crate::{
 /// Squared distance in standard deviations at which a known position contradicts the data.
 const CONTRADICTS: f64 = 12.0;
 
-/// Says what rests on a position that the user gave, or that the data disagree with it.
+/// What rests on a position that the user gave, or that the data disagree with it.
 pub(super) fn judge(
     whole: &Problem,
     best: &JointFit,
     views: &Views,
     known_noise: &estimate::KnownNoise,
-    result: &mut Calibration,
-) {
-    let Some(known) = &whole.known_position else { return };
+) -> Option<RobotFinding> {
+    let known = whole.known_position.as_ref()?;
     let without = Problem { known_position: None, ..whole.clone() };
     let fit = estimate::joint::refit(&without, best, known_noise);
     let (pairs, setup) = (pairs_of(views), views.session.setup);
@@ -32,16 +30,12 @@ pub(super) fn judge(
     if !free.is_empty() {
         let what = mistakes::in_words(&free, &pairs, setup).join(", ");
         let given_mm = known.value_m * 1e3;
-        result.warnings.push(RobotFinding::DeterminedByKnownPosition { what, given_mm }.into());
-    } else if let Some(covariance) = stated_covariance(&fit) {
-        let along = x.rotation().transpose() * known.axis;
-        let own = covariance.fixed_view::<3, 3>(3, 3).into_owned();
-        let variance = along.dot(&(own * along)) + known.sigma_m.powi(2);
-        if off * off > CONTRADICTS * variance {
-            let (given_mm, found_mm) = (known.value_m * 1e3, (known.value_m + off) * 1e3);
-            result
-                .warnings
-                .push(RobotFinding::KnownPositionDisagrees { given_mm, found_mm }.into());
-        }
+        return Some(RobotFinding::DeterminedByKnownPosition { what, given_mm });
     }
+    let along = x.rotation().transpose() * known.axis;
+    let own = stated_covariance(&fit)?.fixed_view::<3, 3>(3, 3).into_owned();
+    let variance = along.dot(&(own * along)) + known.sigma_m.powi(2);
+    let (given_mm, found_mm) = (known.value_m * 1e3, (known.value_m + off) * 1e3);
+    (off * off > CONTRADICTS * variance)
+        .then_some(RobotFinding::KnownPositionDisagrees { given_mm, found_mm })
 }

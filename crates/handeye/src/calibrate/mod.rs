@@ -16,13 +16,16 @@ mod alternatives;
 mod answers;
 mod arm;
 mod balls;
+pub mod beside;
 mod boards;
 mod budget;
 mod candidates;
 mod captures;
+mod causes;
 pub mod certificate;
 mod config;
 mod doubt;
+pub mod evidence;
 pub mod findings;
 mod gate;
 mod joint;
@@ -31,6 +34,7 @@ mod masked;
 mod moved;
 mod movement;
 mod named;
+mod notes;
 mod offset;
 mod optics;
 mod places;
@@ -41,88 +45,122 @@ mod rejected;
 pub(crate) mod repeated;
 pub mod result;
 mod scans;
-pub mod sequence;
+mod sequence;
 pub(crate) mod settle;
+mod size;
 mod sources;
 pub mod streams;
 pub(crate) mod unknown;
-pub mod unscaled;
+mod unscaled;
 mod verdict;
 pub(crate) mod views;
 mod workpiece;
 mod wrong_touches;
 
 use crate::{
-    Camera, Error, Mount, Pose, Session, Setup, TargetModel, Warning,
-    calibrate::result::{Answer, Calibration, UNJUDGED},
-    estimate::{evaluate::Misfit, touches},
-    model::verdict::Verdict,
+    Error, Session, TargetModel, calibrate::result::Calibration, estimate::touches,
+    model::session::Motion,
 };
 
 use agreement::Agreement;
+use candidates::Estimated;
 pub use captures::relabelling;
 pub use config::{AnswerFrame, Config};
+use evidence::Evidence;
+pub use evidence::unjudged;
+use notes::Notes;
 use optics::Optics;
-pub use unknown::Unknown;
-
-/// Version of the result's format.
-const FORMAT: &str = "handeye-calibration-1";
+use streams::Failure;
+use unknown::{Task, Unknown};
 
 /// Runs the whole calibration. Bad data end in a verdict, not in an error.
 ///
 /// # Errors
-/// [`Error::Invalid`] when the session holds nothing to calibrate from.
+/// [`Error::Invalid`] when the session holds nothing to calibrate from, or what has a unit of its own beside distances of
+/// unknown scale; where the robot was in motion, [`Error::NotFinite`] on times and poses that are no numbers, and
+/// [`Error::TooFewSamples`] without robot poses or captures that show the target.
 pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Error> {
+    if let Some(motion) = &session.motion {
+        return in_motion(session, motion, config);
+    }
     check(session)?;
+    let session = session.in_order();
+    let unknown = Unknown::of(&session);
+    if !session.unknown_scale {
+        return of_captures(&session, &Task { config, unknown });
+    }
+    match unscaled::in_metres(&session, config) {
+        Ok((session, scale)) => {
+            let unknown = Unknown { scale: Some(scale), ..unknown };
+            of_captures(&session, &Task { config, unknown })
+        }
+        Err(error) => {
+            let unknown = Unknown { scale: Some(1.0), ..unknown };
+            Ok(without_answer(&session, &Task { config, unknown }, &error))
+        }
+    }
+}
+
+/// The calibration of a robot that did not stop: the captures get the robot's poses of their moments.
+fn in_motion(session: &Session, motion: &Motion, config: &Config) -> Result<Calibration, Error> {
+    let found = streams::synchronize(session, motion, config)?;
+    let task = Task { config, unknown: found.unknown };
+    let result = match &found.failure {
+        None => of_captures(&found.session, &task)?,
+        // at any offset the motions are the same: the calibration names what they leave open
+        Some(Failure::NoOffset(error)) => {
+            let unknown = Unknown { time_offset_s: None, ..task.unknown };
+            let plain = of_captures(&found.session, &Task { config, unknown })?;
+            streams::without_offset(plain, error)
+        }
+        Some(Failure::Nothing(error)) => without_answer(&found.session, &task, error),
+    };
+    let first = found.findings(&result);
+    Ok(result.noting_first(first))
+}
+
+/// The calibration of captures, of which those count that do not repeat one another.
+fn of_captures(session: &Session, task: &Task) -> Result<Calibration, Error> {
     let mut session = session.in_order();
     let repeated = repeated::take_out(&mut session);
-    let mut result = calibrate_distinct(session, config);
-    repeated.report(&mut result);
-    Ok(result)
+    let plain = of_distinct(session.clone(), task);
+    let with_drift = match session.in_sequence {
+        true => sequence::with_drift(&session, task, &plain, |steady| of_distinct(steady, task))?,
+        false => None,
+    };
+    Ok(repeated.put_back(with_drift.unwrap_or(plain)))
 }
 
 /// The same of captures in the order of their names, each of which counts.
-pub(crate) fn calibrate_distinct(mut session: Session, config: &Config) -> Calibration {
+fn of_distinct(mut session: Session, task: &Task) -> Calibration {
     let touched_twice = touches::each_once(&mut session.touches);
+    let judged = |found: Evidence| verdict::judge(session.setup, task.config, found);
     if session.observations.is_empty() {
-        let mut result = empty(session.setup);
-        points::from_points(&session, &mut result);
-        verdict::conclude(config, &mut result);
-        return result;
+        return judged(points::from_points(&session));
     }
     if let Some(TargetModel::Sphere { .. }) = session.target {
-        let run = |session: &Session| {
-            let mut result = empty(session.setup);
-            balls::from_balls(session, config, &mut result);
-            verdict::conclude(config, &mut result);
-            result
-        };
-        let mut result = moved::answer_of_the_end(&session, run(&session), run);
-        moved::tell(false, &mut result);
-        return result;
+        let run = |session: &Session| judged(balls::from_balls(session, task));
+        let result = moved::answer_of_the_end(&session, run(&session), run);
+        return moved::told(result, false);
     }
+    let config = task.config;
     let run = |session: &Session| {
         sources::in_one_frame(session, config.answer_frame, |session| {
-            let mut result = from_views(session, (session, &Optics::of(session), 0), config);
-            verdict::conclude(config, &mut result);
-            result
+            judged(from_views(session, (session, &Optics::of(session), 0), task))
         })
     };
-    let mut found = run(&session);
-    let of_one_place = places::take_out(&mut session, &found);
-    if !of_one_place.is_empty() {
-        found = run(&session);
-    }
-    let mut result = moved::answer_of_the_end(&session, found, run);
-    let bent = scans::report(&session, &mut result);
-    moved::tell(bent, &mut result);
-    of_one_place.report(&mut result);
-    result.warnings.extend(touched_twice.into_iter().map(Warning::from));
-    result
+    let found = run(&session);
+    let (session, of_one_place) = places::take_out(&session, &found);
+    let found = if of_one_place.is_empty() { found } else { run(&session) };
+    let result = moved::answer_of_the_end(&session, found, run);
+    let scans = scans::look(&session, &result);
+    let result = Calibration { scans: scans.result, ..result.noting(scans.warnings) };
+    let result = moved::told(result, scans.is_bent);
+    of_one_place.put_back(result).noting(touched_twice)
 }
 
-/// Refuses a session that holds nothing.
-pub(crate) fn check(session: &Session) -> Result<(), Error> {
+/// Refuses a session that holds nothing, or too much.
+fn check(session: &Session) -> Result<(), Error> {
     if session.observations.is_empty() && session.correspondences.is_empty() {
         return Err(Error::Invalid(
             "nothing to calibrate from: no captures with a robot pose and a pose or an image of \
@@ -130,104 +168,52 @@ pub(crate) fn check(session: &Session) -> Result<(), Error> {
                 .into(),
         ));
     }
-    Ok(())
+    if session.unknown_scale { unscaled::check(session) } else { Ok(()) }
 }
 
 /// Most looks at camera and depth; the second settles it.
 const OPTICS_ROUNDS: usize = 3;
 
-/// Calibrates from `session`, which is `given` with camera and depth moved by `optics`.
+/// What views say of `session`, which is `given` with camera and depth moved by `optics`.
 fn from_views(
     given: &Session,
     (session, optics, round): (&Session, &Optics, usize),
-    config: &Config,
-) -> Calibration {
-    let mut result = empty(session.setup);
-    let Some(agreement) = agreement::agree(session, config, &mut result) else { return result };
-    let Agreement { views, found, movement } = agreement;
+    task: &Task,
+) -> Evidence {
+    let (evidence, agreement) = agreement::agree(session, task);
+    let Some(Agreement { views, found, movement }) = agreement else { return evidence };
     if round < OPTICS_ROUNDS
-        && let Some((moved, next)) = optics::look(given, &views, &found.hand_eye, optics, config)
+        && let Some((moved, next)) =
+            optics::look(given, &views, &found.hand_eye, optics, task.config)
     {
-        let again = from_views(given, (&moved, &next, round + 1), config);
-        if again.chosen.is_some() {
+        let again = from_views(given, (&moved, &next, round + 1), task);
+        if again.choice.is_some() {
             return again;
         }
     }
-    let Some((views, arm)) = candidates::estimate(views, &found, optics, config, &mut result)
-    else {
-        return result;
-    };
+    let Estimated { evidence, views, with_arm } =
+        candidates::estimate(views, &found, optics, task, evidence);
+    let Some(views) = views else { return evidence };
     // an arm that deviates has its own say about the lens: once more from there
     if round <= OPTICS_ROUNDS
-        && let Some((moved, next)) = arm.and_then(|fit| optics.moved_by(given, &fit))
+        && let Some((moved, next)) = with_arm.and_then(|fit| optics.moved_by(given, &fit))
     {
-        let again = from_views(given, (&moved, &next, OPTICS_ROUNDS + 1), config);
-        if again.chosen.is_some() {
+        let again = from_views(given, (&moved, &next, OPTICS_ROUNDS + 1), task);
+        if again.choice.is_some() {
             return again;
         }
     }
-    captures::report_captures(&views, &mut result);
-    if let Some(moved) = movement {
-        movement::apply(moved, &mut result);
+    let evidence = captures::with_residuals(&views, evidence);
+    match movement {
+        Some(moved) => movement::covered(moved, evidence),
+        None => evidence,
     }
-    result
 }
 
-/// The result of a session that has no answer.
-pub(crate) fn without_answer(session: &Session) -> Calibration {
-    let mut result = empty(session.setup);
-    result.captures = session.observations.iter().map(views::first_report).collect();
-    result.captures.iter_mut().for_each(|c| c.used = false);
-    result
-}
-
-/// A pose of the camera that comes from elsewhere: nothing was measured here, and nothing is said of its error.
-pub fn unjudged(setup: Setup, mount_from_camera: Pose<Mount, Camera>) -> Calibration {
-    let mut result = empty(setup);
-    result.hand_eye.mount_from_camera = Some(mount_from_camera);
-    result.method = UNJUDGED.into();
-    result.reasons = vec!["it comes from elsewhere, and nothing was measured here".into()];
-    (result.time_offset_s, result.scale) = (None, None);
-    result
-}
-
-fn empty(setup: Setup) -> Calibration {
-    Calibration {
-        format: FORMAT.into(),
-        setup,
-        verdict: Verdict::Undetermined,
-        reasons: vec![],
-        method: String::new(),
-        hand_eye: Answer::default(),
-        name: format!("{}_from_camera", setup.mount()),
-        chosen: None,
-        why: String::new(),
-        candidates: vec![],
-        predicted_tre_mm: None,
-        residual: Misfit::default(),
-        held_out: Misfit::default(),
-        captures: vec![],
-        touches: vec![],
-        rejected: vec![],
-        undetermined: vec![],
-        determined: None,
-        diversity: None,
-        error_budget: vec![],
-        advice: vec![],
-        time_offset_s: Some(0.0),
-        time_offset_sigma_s: None,
-        scale: Some(1.0),
-        scale_sigma: None,
-        target_scale: None,
-        movement: None,
-        camera: None,
-        depth: None,
-        scans: None,
-        tip: None,
-        arm: None,
-        certificate: None,
-        warnings: vec![],
-        findings: vec![],
-        run_id: None,
-    }
+/// The result of a session that has no answer, and why.
+fn without_answer(session: &Session, task: &Task, error: &Error) -> Calibration {
+    let notes = Notes::open(error, views::camera_in_words(session.setup));
+    let mut found = Evidence { notes, ..Evidence::of_captures(session, task.unknown.open()) };
+    found.captures.iter_mut().for_each(|c| c.used = false);
+    verdict::judge(session.setup, task.config, found)
 }

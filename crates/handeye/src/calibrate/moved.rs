@@ -1,7 +1,7 @@
 //! What a movement that was found does to the answer: what is said of it, and the answer of the captures since then.
 
 use crate::{
-    Calibration, Session, Setup, Verdict,
+    Calibration, Session, Setup, Verdict, Warning,
     calibrate::result::{CaptureResult, TouchResult},
     findings::{
         MovementFinding,
@@ -9,21 +9,17 @@ use crate::{
     },
 };
 
-/// Says what moved. `explained`: what was measured besides says already why captures disagree.
-pub(super) fn tell(explained: bool, result: &mut Calibration) {
-    let Some(movement) = &result.movement else { return };
-    let of =
-        |finding: fn(Movement, Setup) -> MovementFinding| finding(movement.clone(), result.setup);
-    let finding = match movement.kind {
-        MovementKind::Block if runs_to_the_end(movement) => return,
-        MovementKind::Block => of(MovementFinding::Displaced),
-        _ if explained => {
-            result.movement = None;
-            return;
-        }
-        _ => of(MovementFinding::Covered),
+/// With what is said of a movement. `explained`: what was measured besides says already why captures disagree.
+pub(super) fn told(result: Calibration, explained: bool) -> Calibration {
+    let Some(movement) = result.movement.clone() else { return result };
+    let of: fn(Movement, Setup) -> MovementFinding = match movement.kind {
+        MovementKind::Block if runs_to_the_end(&movement) => return result,
+        MovementKind::Block => MovementFinding::Displaced,
+        _ if explained => return Calibration { movement: None, ..result },
+        _ => MovementFinding::Covered,
     };
-    result.warnings.push(finding.into());
+    let finding = of(movement, result.setup);
+    result.noting([finding])
 }
 
 /// Whether a block says where the camera is now: `answer_of_the_end` has dealt with it.
@@ -41,7 +37,7 @@ pub(super) fn answer_of_the_end(
     let Some(m) = &all.movement else { return all };
     let first = session.observations.iter().position(|o| o.capture == m.first);
     let Some(first) = first.filter(|_| runs_to_the_end(m)) else { return all };
-    let mut end = run(&since(session, first));
+    let end = run(&since(session, first));
     if end.verdict != Verdict::Accepted {
         return not_determined(all);
     }
@@ -51,18 +47,20 @@ pub(super) fn answer_of_the_end(
         capture.reason = Some("taken before the camera or the target moved".into());
     }
     let names = before.iter().map(|c| c.id.clone());
-    end.rejected = names.chain(end.rejected).collect();
-    end.captures = before.into_iter().chain(end.captures).collect();
-    end.touches = all.touches.iter().map(|t| TouchResult { used: false, ..t.clone() }).collect();
     let finding = MovementFinding::AnswerOfTheEnd {
         movement: m.clone(),
         setup: session.setup,
         captures: session.observations.len() - first,
         touches: !session.touches.is_empty(),
     };
-    end.warnings.insert(0, finding.into());
-    end.movement = all.movement;
-    end
+    let unused = |t: &TouchResult| TouchResult { used: false, ..t.clone() };
+    Calibration {
+        rejected: names.chain(end.rejected.iter().cloned()).collect(),
+        captures: before.into_iter().chain(end.captures.iter().cloned()).collect(),
+        touches: all.touches.iter().map(unused).collect(),
+        movement: all.movement,
+        ..end.noting_first([finding])
+    }
 }
 
 /// What was measured from a capture on. Of touches, and of the images of the boards that were touched, nobody knows
@@ -76,11 +74,9 @@ fn since(session: &Session, first: usize) -> Session {
 }
 
 /// Where too few captures were taken since the camera moved, nobody knows where it is.
-fn not_determined(mut all: Calibration) -> Calibration {
+fn not_determined(all: Calibration) -> Calibration {
     let Some(m) = &all.movement else { return all };
-    let finding = MovementFinding::TooFewSince(m.clone(), all.setup);
-    all.reasons = vec![finding.message()];
-    all.warnings.insert(0, finding.into());
-    all.verdict = Verdict::Rejected;
-    all
+    let finding = Warning::from(MovementFinding::TooFewSince(m.clone(), all.setup));
+    let reasons = vec![finding.message.clone()];
+    all.rejected_for(reasons).noting_first([finding])
 }

@@ -23,8 +23,9 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
 
 use crate::{
-    Anchor, Calibration, Mount, Pose,
+    Anchor, Mount, Pose,
     calibrate::{
+        evidence::Evidence,
         masked::IMPROBABLE,
         result::{matrix, rows},
         views::Captures,
@@ -450,24 +451,26 @@ fn weighted(rows: &[Used], movement: Option<&Hypothesis>, variances: (f64, f64))
     Some(Linear { solution, log_evidence, left })
 }
 
-/// Widens the stated error by what the movement leaves open, and keeps what was found.
-pub(super) fn apply(found: Suspected, result: &mut Calibration) {
+/// The stated error widened by what the movement leaves open, and the movement where it is probable.
+pub(super) fn covered(found: Suspected, mut evidence: Evidence) -> Evidence {
     let mut movement = found.movement.clone();
-    if let Some(stated) = result.hand_eye.covariance.mount_from_camera
-        && let Some(spread) = found.beside(&matrix(&stated))
-    {
-        let squares = found.seen.iter().map(|p| {
-            let j = point_jacobian(p);
-            (j * spread * j.transpose()).trace()
-        });
-        movement.widened_mm = root_mean_square(squares.map(f64::sqrt)) * 1e3;
-        result.hand_eye.covariance.mount_from_camera = Some(rows(&(matrix(&stated) + spread)));
+    if let Some(choice) = &mut evidence.choice {
+        let stated = &mut choice.hand_eye.covariance.mount_from_camera;
+        if let Some(own) = stated.as_ref().map(matrix)
+            && let Some(spread) = found.beside(&own)
+        {
+            let squares = found.seen.iter().map(|p| {
+                let j = point_jacobian(p);
+                (j * spread * j.transpose()).trace()
+            });
+            movement.widened_mm = root_mean_square(squares.map(f64::sqrt)) * 1e3;
+            *stated = Some(rows(&(own + spread)));
+        }
+        choice.predicted_tre_mm =
+            choice.predicted_tre_mm.take().map(|tre| tre.widened(movement.widened_mm, WIDE));
     }
-    if let Some(tre) = &mut result.predicted_tre_mm {
-        let off = movement.widened_mm;
-        (tre.rms, tre.p95) = (tre.rms.hypot(off), tre.p95.hypot(WIDE * off));
-    }
-    result.movement = (movement.probability >= NAMED).then_some(movement);
+    let movement = (movement.probability >= NAMED).then_some(movement);
+    Evidence { movement, ..evidence }
 }
 
 #[cfg(test)]
@@ -475,7 +478,9 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
     use super::*;
-    use crate::{Base, Config, Flange, Session, Setup, Verdict, calibrate, simulate::Cell};
+    use crate::{
+        Base, Calibration, Config, Flange, Session, Setup, Verdict, calibrate, simulate::Cell,
+    };
     use nalgebra::{Isometry3, Vector3};
 
     const SETUP: Setup = Setup::EyeToHand;

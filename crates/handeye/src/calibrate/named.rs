@@ -3,67 +3,71 @@
 
 use super::{joint, verdict};
 use crate::{
-    calibrate::{answers, config::Config, result::Calibration, views, views::Views},
+    calibrate::{
+        answers,
+        config::Config,
+        evidence::{Choice, Evidence, HeldOut, UnitAndClock},
+        notes::Notes,
+        unknown::Task,
+        views::{self, Views, camera_in_words},
+    },
     estimate::{JointFit, evaluate},
-    model::verdict::Verdict,
     solve,
 };
 
-/// Where the motions leave something open, the misfit of the likeliest answer stands for the
+/// Where the motions leave something open, the residual of the likeliest answer stands for the
 /// method's own: the latter says nothing against the data.
-pub(super) fn judge_by_likeliest(
+pub(super) fn by_likeliest(
     views: &Views,
     fit: &JointFit,
     config: &Config,
-    result: &mut Calibration,
-) {
-    if result.undetermined.is_empty() || result.verdict == Verdict::Rejected {
-        return;
+    found: &Evidence,
+    (own, own_held_out): (Choice, HeldOut),
+) -> (Choice, HeldOut) {
+    if found.notes.undetermined.is_empty() || found.notes.rejects {
+        return (own, own_held_out);
     }
     let problem = views::views_problem(views.session, &views.views, &fit.extras);
     let left_out = joint::held_out_views(&problem, fit, &config.known);
-    result.held_out = evaluate::rms(&left_out);
-    captures_held_out(views, &left_out, result);
-    if verdict::contradictions(result).is_empty() {
-        result.residual =
-            evaluate::in_sample(&fit.hand_eye, &answers::as_fitted(fit, &views.views));
-        // for the misfits of the captures; the verdict hides it
-        result.hand_eye = answers::stored(views, &fit.hand_eye, None);
+    let held_out = evaluate::rms(&left_out);
+    let choice = Choice { held_out, ..own };
+    let (used, rejected) = (found.used(), found.rejected.len());
+    if !verdict::contradictions_of(used, rejected, &held_out).is_empty() {
+        return (choice, left_out);
     }
+    let choice = Choice {
+        residual: evaluate::in_sample(&fit.hand_eye, &answers::as_fitted(fit, &views.views)),
+        // for the residuals of the captures; the verdict hides it
+        hand_eye: answers::stored(views, &fit.hand_eye, None),
+        ..choice
+    };
+    (choice, left_out)
 }
 
-/// Says why the method has no answer where the data determine one.
-pub(super) fn name_failure(views: &Views, method: solve::Method, result: &mut Calibration) {
-    if !result.undetermined.is_empty() {
-        return;
-    }
-    let Err(error) = solve::solve(&views::pairs_of(views), method) else { return };
-    result.reasons.push(format!(
+/// Why the method has no answer where the data determine one.
+pub(super) fn failure(views: &Views, config: &Config) -> Option<Notes> {
+    let method = config.method?;
+    let error = solve::solve(&views::pairs_of(views), method).err()?;
+    let reason = format!(
         "{} has no answer for these captures (without a method by name there may be one): {error}",
         method.name()
-    ));
-    let mount = views.session.setup.mount();
-    result.undetermined.push(format!("the pose of the camera on the {mount}"));
+    );
+    Some(Notes::open(reason, camera_in_words(views.session.setup)))
 }
 
 /// The unit of the distances as the method has found it, where it does.
-pub(super) fn report_scale(views: &Views, method: solve::Method, result: &mut Calibration) {
-    if method == solve::Method::AndreffScaled
-        && result.undetermined.is_empty()
-        && let Ok(found) = solve::andreff::solve_with_scale(&views::pairs_of(views))
+pub(super) fn unit(views: &Views, task: &Task, found: &Evidence) -> UnitAndClock {
+    let estimated = found.unit_and_clock;
+    if task.config.method != Some(solve::Method::AndreffScaled)
+        || !found.notes.undetermined.is_empty()
     {
-        result.scale = Some(1.0 / found.scale);
+        return estimated;
     }
-}
-
-/// Misfit of every capture when it was left out.
-pub(super) fn captures_held_out(
-    views: &Views,
-    left_out: &[Option<(f64, f64)>],
-    result: &mut Calibration,
-) {
-    for (&i, left_out) in views.indices.iter().zip(left_out) {
-        result.captures[i].held_out_deg = left_out.map(|h| h.0.to_degrees());
-        result.captures[i].held_out_mm = left_out.map(|h| h.1 * 1e3);
+    match solve::andreff::solve_with_scale(&views::pairs_of(views)) {
+        Ok(own) => {
+            let taken_out = task.unknown.scale.unwrap_or(1.0);
+            UnitAndClock { scale: Some(1.0 / own.scale * taken_out), ..estimated }
+        }
+        Err(_) => estimated,
     }
 }

@@ -18,10 +18,10 @@ use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Mount, Pose, SurfaceCorner, TargetPose, Warning,
     calibrate::{
         config::AnswerFrame,
-        result::{matrix, rows},
+        result::{Answer, Candidate, PoseCovariance, matrix, rows},
     },
     detect,
-    estimate::predict,
+    estimate::predict::{self, PredictedTre},
     findings::{
         FramesFinding,
         frames::{Frame, OffsetOfScans},
@@ -160,25 +160,31 @@ impl Offset {
 
     /// The answer for the frame of the scans, from that for the images.
     pub(super) fn in_scan_frame(&self, image: &Calibration) -> Calibration {
-        let mut result = image.clone();
-        let own = result.hand_eye.mount_from_camera;
-        for answer in
-            result.candidates.iter_mut().map(|c| &mut c.hand_eye).chain([&mut result.hand_eye])
-        {
-            answer.mount_from_camera = answer.mount_from_camera.map(|x| self.pose(&x));
-            let covariance = &mut answer.covariance.mount_from_camera;
-            *covariance = covariance.map(|c| rows(&self.spread(&matrix(&c))));
-        }
-        if let Some(tre) = &mut result.predicted_tre_mm {
-            let p = Vector3::z() * self.distance;
-            let own = predict::point_covariance(&p, &self.covariance).trace() * 1e6;
-            (tre.rms, tre.p95) = (tre.rms.hypot(own.sqrt()), tre.p95.hypot(own.sqrt() * WIDE));
-            tre.map = None;
-        }
-        if let Some(x) = own {
-            result.warnings.insert(0, self.warning(&x, AnswerFrame::Scan));
-        }
-        result
+        let moved = |answer: &Answer| {
+            let covariance = answer.covariance.mount_from_camera;
+            Answer {
+                mount_from_camera: answer.mount_from_camera.map(|x| self.pose(&x)),
+                covariance: PoseCovariance {
+                    mount_from_camera: covariance.map(|c| rows(&self.spread(&matrix(&c)))),
+                    ..answer.covariance
+                },
+                ..*answer
+            }
+        };
+        let candidate = |c: &Candidate| Candidate { hand_eye: moved(&c.hand_eye), ..c.clone() };
+        let own = predict::point_covariance(&(Vector3::z() * self.distance), &self.covariance);
+        let tre = image.predicted_tre_mm.clone().map(|tre| {
+            let widened = tre.widened((own.trace() * 1e6).sqrt(), WIDE);
+            PredictedTre { map: None, ..widened }
+        });
+        let finding = image.hand_eye.mount_from_camera.map(|x| self.warning(&x, AnswerFrame::Scan));
+        let result = Calibration {
+            candidates: image.candidates.iter().map(candidate).collect(),
+            hand_eye: moved(&image.hand_eye),
+            predicted_tre_mm: tre,
+            ..image.clone()
+        };
+        result.noting_first(finding)
     }
 
     fn pose(&self, image: &Pose<Mount, Camera>) -> Pose<Mount, Camera> {

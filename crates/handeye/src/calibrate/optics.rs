@@ -14,10 +14,10 @@ use super::{
 };
 use crate::{
     Camera, ImageCorner, Intrinsics, Observation, Pose, SurfaceCorner, Target, TargetModel,
-    Warning,
     calibrate::{
         config::Config,
-        result::{Calibration, CameraResult, DepthResult},
+        notes::Notes,
+        result::{CameraResult, DepthResult},
         views,
         views::{Views, views_problem},
     },
@@ -48,6 +48,14 @@ pub(super) struct Optics {
     focal: f64,
     depth_scale: f64,
     depth_bias_m: f64,
+}
+
+/// What of camera and depth is not as declared.
+#[derive(Default)]
+pub(super) struct Refined {
+    pub camera: Option<CameraResult>,
+    pub depth: Option<DepthResult>,
+    pub notes: Notes,
 }
 
 /// A move below this part of its standard deviation needs no further look.
@@ -177,62 +185,67 @@ impl Optics {
         Some(session)
     }
 
-    /// Reports what camera and depth turned out to be.
-    pub(super) fn report(
+    /// What camera, depth and shape of the target turned out to be, where they are not as declared.
+    pub(super) fn refined(
         &self,
         session: &Session,
         fit: &JointFit,
         as_declared: Declared<f64>,
-        result: &mut Calibration,
-    ) {
-        let at = |which: usize| fit.extra(ExtraKind::Camera(which));
-        let refined = session.camera_from_views || as_declared.lens < 0.5;
-        if refined
+    ) -> Refined {
+        let mut found = Refined::default();
+        if (session.camera_from_views || as_declared.lens < 0.5)
             && self.is_free(LENS)
             && let Some(camera) = session.camera
         {
-            let rest = SVector::from_fn(|i, _| at(LENS + i).map_or(0.0, |x| x.0));
-            let intrinsics = camera.moved(&rest);
-            let sigma = |i: usize| at(LENS + i).map_or(0.0, |x| x.1);
-            let share = camera.fy / camera.fx;
-            let both = covariance(fit, LENS, LENS + 1);
-            let fy = (share * sigma(0)).powi(2) + sigma(1).powi(2) + 2.0 * share * both;
-            result.camera = Some(CameraResult {
-                intrinsics,
-                sigma_fx: sigma(0),
-                sigma_fy: fy.max(0.0).sqrt(),
-                sigma_cx: sigma(2),
-                sigma_cy: sigma(3),
-            });
+            let camera = refined_camera(&camera, fit);
             if let (Some(given), false) = (&self.given, session.camera_from_views) {
-                let sigmas = [sigma(0), fy.max(0.0).sqrt(), sigma(2), sigma(3)];
-                let finding = CameraFinding::refined(given, &intrinsics, sigmas);
-                result.warnings.push(finding.into());
+                let sigmas = [camera.sigma_fx, camera.sigma_fy, camera.sigma_cx, camera.sigma_cy];
+                found.notes.note(CameraFinding::refined(given, &camera.intrinsics, sigmas));
             }
+            found.camera = Some(camera);
         }
         if as_declared.shape < 0.5 {
-            result.warnings.extend(shape_findings(session, fit).into_iter().map(Warning::from));
+            found.notes.add(Notes::of(shape_findings(session, fit)));
         }
-        if as_declared.depth < 0.5
-            && let (Some((s, sigma)), Some((b, sigma_b))) = (at(DEPTH_SCALE), at(DEPTH_BIAS))
-        {
-            let scale = (1.0 + self.depth_scale) * (1.0 + s) - 1.0;
-            let bias_mm = (self.depth_bias_m + (1.0 + self.depth_scale) * b) * 1e3;
-            let depth = DepthResult {
-                scale: 1.0 + scale,
-                sigma_scale: sigma,
+        found.depth = self.depth(fit).filter(|_| as_declared.depth < 0.5);
+        if let Some(DepthResult { scale, sigma_scale, bias_mm, sigma_bias_mm }) = found.depth {
+            found.notes.note(CameraFinding::DepthOff {
+                scale,
+                sigma_scale,
                 bias_mm,
-                sigma_bias_mm: sigma_b * 1e3,
-            };
-            let DepthResult { scale, sigma_scale, bias_mm, sigma_bias_mm } = depth;
-            let finding = CameraFinding::DepthOff { scale, sigma_scale, bias_mm, sigma_bias_mm };
-            result.warnings.push(finding.into());
-            result.depth = Some(depth);
+                sigma_bias_mm,
+            });
         }
+        found
+    }
+
+    /// The depth of scans as the fit has it, where it is free.
+    fn depth(&self, fit: &JointFit) -> Option<DepthResult> {
+        let (s, sigma_scale) = fit.extra(ExtraKind::Camera(DEPTH_SCALE))?;
+        let (b, sigma_b) = fit.extra(ExtraKind::Camera(DEPTH_BIAS))?;
+        let scale = (1.0 + self.depth_scale) * (1.0 + s) - 1.0;
+        let bias_mm = (self.depth_bias_m + (1.0 + self.depth_scale) * b) * 1e3;
+        Some(DepthResult { scale: 1.0 + scale, sigma_scale, bias_mm, sigma_bias_mm: sigma_b * 1e3 })
     }
 
     fn is_free(&self, which: usize) -> bool {
         self.extras.iter().any(|e| e.kind == ExtraKind::Camera(which))
+    }
+}
+
+/// The camera as the fit has it.
+fn refined_camera(camera: &Intrinsics, fit: &JointFit) -> CameraResult {
+    let at = |i: usize| fit.extra(ExtraKind::Camera(LENS + i)).unwrap_or((0.0, 0.0));
+    let sigma = |i: usize| at(i).1;
+    let share = camera.fy / camera.fx;
+    let both = covariance(fit, LENS, LENS + 1);
+    let fy = (share * sigma(0)).powi(2) + sigma(1).powi(2) + 2.0 * share * both;
+    CameraResult {
+        intrinsics: camera.moved(&SVector::from_fn(|i, _| at(i).0)),
+        sigma_fx: sigma(0),
+        sigma_fy: fy.max(0.0).sqrt(),
+        sigma_cx: sigma(2),
+        sigma_cy: sigma(3),
     }
 }
 

@@ -32,25 +32,26 @@ const EXACT: f64 = 1e-5;
 /// Chance of an F as large where errors do not belong to places.
 const IMPROBABLE: f64 = 1e-3;
 
-/// Takes captures out whose errors are those of another one at the same place, as an answer shows them.
-pub(super) fn take_out(session: &mut Session, found: &Calibration) -> Uncounted {
-    let Some(hand_eye) = answer(found) else { return Uncounted::none() };
+/// The session without captures whose errors are those of another one at the same place, as an answer shows them.
+pub(super) fn take_out(session: &Session, found: &Calibration) -> (Session, Uncounted) {
+    let all_count = || (session.clone(), Uncounted::none());
+    let Some(hand_eye) = answer(found) else { return all_count() };
     // rejected ones as well: where places differ, captures of one agree with each other alone
     let places = places(&session.observations);
     if !errors_belong_to(&places, |i| misfit(session, &hand_eye, i)) {
-        return Uncounted::none();
+        return all_count();
     }
     let first_of = |i: usize| places.iter().find(|p| p[1..].contains(&i)).map(|p| p[0]);
-    let names: Vec<String> = session.observations.iter().map(|o| o.capture.clone()).collect();
     let (mut kept, mut out) = (vec![], vec![]);
-    for (i, capture) in session.observations.drain(..).enumerate() {
+    for (i, capture) in session.observations.iter().enumerate() {
         match first_of(i) {
-            Some(first) => out.push((capture, names[first].clone())),
-            None => kept.push(capture),
+            Some(first) => {
+                out.push((capture.clone(), session.observations[first].capture.clone()));
+            }
+            None => kept.push(capture.clone()),
         }
     }
-    session.observations = kept;
-    Uncounted::of_one_place(out)
+    (Session { observations: kept, ..session.clone() }, Uncounted::of_one_place(out))
 }
 
 fn answer(found: &Calibration) -> Option<HandEye> {

@@ -5,17 +5,22 @@ use nalgebra::{Matrix3, Vector3};
 use super::workpiece::workspace_volume;
 use crate::{
     Camera, Error, Mount, Pose,
-    calibrate::result::{Answer, Calibration, Candidate, PoseCovariance, rows},
+    calibrate::{
+        evidence::{Choice, Evidence},
+        notes::Notes,
+        result::{Answer, Candidate, PoseCovariance, rows},
+    },
     estimate::{
         evaluate::Misfit,
         predict::{self, Volume},
         touches::{self, Registration, TouchPairs},
     },
     findings::TouchFinding,
-    model::{session::Session, verdict::Verdict},
+    model::session::Session,
 };
 
-pub(super) fn from_points(session: &Session, result: &mut Calibration) {
+/// What point pairs alone say.
+pub(super) fn from_points(session: &Session) -> Evidence {
     let touches = as_touches(session);
     let all: Vec<&TouchPairs> = touches.iter().collect();
     let found = match touches::fit_touches(&all, &Pose::identity(), Registration::Svd) {
@@ -25,29 +30,29 @@ pub(super) fn from_points(session: &Session, result: &mut Calibration) {
                 Error::Collinear { .. } => "rotation about the line of the points",
                 _ => "the pose of the camera",
             };
-            result.reasons.push(error.to_string());
-            result.undetermined.push(what.into());
-            return;
+            return Evidence { notes: Notes::open(error, what.into()), ..Evidence::default() };
         }
     };
     let held_out = touches::held_out(&touches, &Pose::identity(), Registration::Svd);
     let volume = point_volume(session, &touches, &found.mount_from_camera);
     let tre = found.covariance.zip(volume).map(|(c, v)| predict::tre(&v, &c, |_| Vector3::zeros()));
-    weak_directions(&touches, result);
+    let mut notes = Notes::of(nearly_collinear(&touches));
     if held_out.is_none() && touches.len() > 3 {
         let what = "without one of the points the others lie on one line or are too few: the rotation rests on a single point that nothing checks; add points away from the line";
-        result.reasons.push(what.into());
-        result.verdict = Verdict::Rejected;
+        notes.reasons.push(what.into());
+        notes.rejects = true;
     }
     let candidate = candidate(&found, held_out, tre.as_ref().map(|t| t.rms));
-    result.method = candidate.name.clone();
-    result.chosen = Some(candidate.name.clone());
-    result.why = "point pairs alone have one answer: their rigid registration".into();
-    result.hand_eye = candidate.hand_eye;
-    result.residual = candidate.in_sample;
-    result.held_out = candidate.held_out;
-    result.predicted_tre_mm = tre;
-    result.candidates = vec![candidate];
+    let choice = Choice {
+        name: candidate.name.clone(),
+        why: "point pairs alone have one answer: their rigid registration".into(),
+        hand_eye: candidate.hand_eye,
+        predicted_tre_mm: tre,
+        residual: candidate.in_sample,
+        held_out: candidate.held_out,
+    };
+    let candidates = vec![candidate];
+    Evidence { notes, choice: Some(choice), candidates, ..Evidence::default() }
 }
 
 /// Every point pair as a touch of its own.
@@ -104,7 +109,7 @@ fn point_volume(
 /// Spread across a line of points, over the spread along it, below which the user is warned.
 const NEARLY_COLLINEAR: f64 = 0.05;
 
-fn weak_directions(touches: &[TouchPairs], result: &mut Calibration) {
+fn nearly_collinear(touches: &[TouchPairs]) -> Option<TouchFinding> {
     let points: Vec<Vector3<f64>> = touches.iter().map(|t| t.pairs[0].in_camera.vector()).collect();
     let mean = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
     let scatter: Matrix3<f64> = points.iter().map(|p| (p - mean) * (p - mean).transpose()).sum();
@@ -112,7 +117,5 @@ fn weak_directions(touches: &[TouchPairs], result: &mut Calibration) {
         scatter.symmetric_eigen().eigenvalues.iter().map(|e| e.max(0.0).sqrt()).collect();
     s.sort_by(|a, b| b.total_cmp(a));
     let ratio = s[1] / s[0];
-    if ratio < NEARLY_COLLINEAR.sqrt() {
-        result.warnings.push(TouchFinding::NearlyCollinear { ratio }.into());
-    }
+    (ratio < NEARLY_COLLINEAR.sqrt()).then_some(TouchFinding::NearlyCollinear { ratio })
 }

@@ -11,7 +11,8 @@ use super::doubt;
 use crate::{
     Pose, Target, TargetModel,
     calibrate::{
-        result::Calibration,
+        notes::Notes,
+        result::CaptureResult,
         views::{Captures, FARTHEST},
     },
     estimate::JointFit,
@@ -47,13 +48,22 @@ enum Reason {
     Stale(usize),
 }
 
+/// Captures that do not agree.
+pub(super) struct Rejected {
+    /// All captures of the session, those that do not agree with the reason.
+    pub captures: Vec<CaptureResult>,
+    /// Names of those that do not.
+    pub names: Vec<String>,
+    pub notes: Notes,
+}
+
 /// Names every capture that does not agree, with the likeliest reason.
 pub(super) fn name(
     captures: &Captures,
     found: &Consensus,
     fit: Option<&JointFit>,
-    result: &mut Calibration,
-) {
+    mut reported: Vec<CaptureResult>,
+) -> Rejected {
     let n = captures.readings.len();
     let wrong: Vec<usize> = (0..n)
         .filter(|&i| !found.agrees[i] && !captures.readings[i].camera_from_target.is_empty())
@@ -65,23 +75,24 @@ pub(super) fn name(
         test.half_turn = test.common_half_turn(&wrong);
         test
     });
+    let (mut names, mut notes) = (vec![], Notes::default());
     for &i in &wrong {
         let known = test.as_ref().and_then(|t| t.reason(i));
         let cause =
             known.map_or_else(|| disagreement(captures, found, i), |r| cause(captures, i, &r));
-        result.captures[i].used = false;
-        result.captures[i].reason = Some(cause.in_words());
+        reported[i].used = false;
+        reported[i].reason = Some(cause.in_words());
         let capture = captures.session.observations[i].capture.clone();
-        result.rejected.push(capture.clone());
+        names.push(capture.clone());
         if wrong.len() <= MOST_WARNINGS || !matches!(cause, Cause::Disagrees { .. }) {
-            result.warnings.push(CaptureFinding::Rejected { capture, cause }.into());
+            notes.note(CaptureFinding::Rejected { capture, cause });
         }
     }
     if wrong.len() > MOST_WARNINGS {
-        let captures = result.rejected.clone();
-        result.warnings.push(CaptureFinding::ManyRejected { captures, of: n }.into());
+        notes.note(CaptureFinding::ManyRejected { captures: names.clone(), of: n });
     }
-    doubt::doubt(captures, found, &wrong, result);
+    notes.add(doubt::doubt(captures, found, &wrong));
+    Rejected { captures: reported, names, notes }
 }
 
 /// What happened to a capture.

@@ -68,21 +68,22 @@ impl Uncounted {
         self.captures.is_empty()
     }
 
-    /// Puts them back into the result, as captures that do not count.
-    pub(crate) fn report(self, result: &mut Calibration) {
+    /// The result with these captures put back into it, as some that do not count.
+    pub(crate) fn put_back(self, result: Calibration) -> Calibration {
         let Self { captures, finding, does } = self;
         if captures.is_empty() {
-            return;
+            return result;
         }
         let names = captures.iter().map(|(o, _)| o.capture.clone()).collect();
-        result.warnings.push(finding(names).into());
+        let mut all = result.captures.clone();
         for (capture, first) in captures {
             let mut report = views::first_report(&capture);
             report.used = false;
             report.reason =
                 Some(format!("{does} capture {first}: one capture of each pose counts"));
-            let at = result.captures.iter().position(|c| natural(&c.id, &report.id).is_gt());
-            result.captures.insert(at.unwrap_or(result.captures.len()), report);
+            let at = all.iter().position(|c| natural(&c.id, &report.id).is_gt());
+            all.insert(at.unwrap_or(all.len()), report);
         }
+        Calibration { captures: all, ..result.noting([finding(names)]) }
     }
 }

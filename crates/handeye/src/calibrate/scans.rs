@@ -26,26 +26,35 @@ struct Seen<'a> {
     surface: Vec<SurfaceCorner>,
 }
 
-/// Fills in what the scans say, and warns of what is wrong; true where the target is bent.
-pub(super) fn report(session: &Session, result: &mut Calibration) -> bool {
-    let Some(target) = session.target.as_ref().filter(|t| !t.is_empty()) else { return false };
-    let seen = seen(session, target, result);
+/// What the scans say beside the answer.
+#[derive(Default)]
+pub(super) struct OfScans {
+    pub result: Option<ScanResult>,
+    /// Whether the target is bent.
+    pub is_bent: bool,
+    pub warnings: Vec<Warning>,
+}
+
+/// What the scans say of board and frames, under an answer.
+pub(super) fn look(session: &Session, answer: &Calibration) -> OfScans {
+    let none = OfScans::default();
+    let Some(target) = session.target.as_ref().filter(|t| !t.is_empty()) else { return none };
+    let seen = seen(session, target, answer);
     if seen.is_empty() {
-        return false;
+        return none;
     }
     let flatness = flat(&seen, target);
-    let bent = flatness.as_ref().is_some_and(|f| f.is_bent(target));
-    if let Some(found) = flatness.as_ref().filter(|_| bent) {
-        result.warnings.push(not_flat(&found.board, seen.len()));
-    }
-    let found = ScanResult {
+    let is_bent = flatness.as_ref().is_some_and(|f| f.is_bent(target));
+    let not_flat = flatness.as_ref().filter(|_| is_bent).map(|f| not_flat(&f.board, seen.len()));
+    let (frames, apart) = agreement(session, &seen, target);
+    let result = ScanResult {
         colour_step: None,
         flatness: flatness.map(|f| as_result(&f, &seen)),
-        frames: agreement(session, &seen, target, &mut result.warnings),
+        frames,
         scene: None,
     };
-    result.scans = Some(found);
-    bent
+    let warnings = not_flat.into_iter().chain(apart.into_iter().map(Warning::from)).collect();
+    OfScans { result: Some(result), is_bent, warnings }
 }
 
 fn seen<'a>(session: &'a Session, target: &TargetModel, result: &Calibration) -> Vec<Seen<'a>> {
@@ -131,8 +140,23 @@ fn agreement(
     session: &Session,
     seen: &[Seen],
     target: &TargetModel,
-    warnings: &mut Vec<Warning>,
-) -> Option<FramesResult> {
+) -> (Option<FramesResult>, Vec<FramesFinding>) {
+    let Some(found) = compared(session, seen, target) else { return (None, vec![]) };
+    let worth = |part: Part| match part {
+        Part::Scale => found.values[0].abs() > LEAST.0,
+        Part::Tilt => found.values.fixed_rows::<3>(1).norm() > LEAST.1,
+        Part::Shift => found.values.fixed_rows::<3>(4).norm() > LEAST.2,
+    };
+    if !found.separable {
+        // numbers for parts that the captures do not tell apart would be wrong by more than they say
+        return (None, vec![FramesFinding::NotSeparable]);
+    }
+    let named = found.proven.iter().filter(|p| worth(**p));
+    (Some(frames_result(&found)), named.map(|p| disagreement(*p, &found)).collect())
+}
+
+/// The frames of images and scans, over all captures.
+fn compared(session: &Session, seen: &[Seen], target: &TargetModel) -> Option<Frames> {
     let camera = session.camera.as_ref()?;
     let excess = optics::excess(session, target, camera);
     let planes = |s: &Seen| {
@@ -142,20 +166,7 @@ fn agreement(
             s.surface.iter().map(|c| (c.in_camera.vector(), c.covariance)).collect();
         Some(TwoPlanes { picture: plane_of_pose(&posed.pose)?, scan: plane_of_points(&points)? })
     };
-    let found = frames(&seen.iter().filter_map(planes).collect::<Vec<_>>())?;
-    let worth = |part: Part| match part {
-        Part::Scale => found.values[0].abs() > LEAST.0,
-        Part::Tilt => found.values.fixed_rows::<3>(1).norm() > LEAST.1,
-        Part::Shift => found.values.fixed_rows::<3>(4).norm() > LEAST.2,
-    };
-    if !found.separable {
-        // numbers for parts that the captures do not tell apart would be wrong by more than they say
-        warnings.push(FramesFinding::NotSeparable.into());
-        return None;
-    }
-    let named = found.proven.iter().filter(|p| worth(**p));
-    warnings.extend(named.map(|p| disagreement(*p, &found)));
-    Some(frames_result(&found))
+    frames(&seen.iter().filter_map(planes).collect::<Vec<_>>())
 }
 
 fn frames_result(found: &Frames) -> FramesResult {
@@ -181,16 +192,15 @@ fn frames_result(found: &Frames) -> FramesResult {
     }
 }
 
-fn disagreement(part: Part, found: &Frames) -> Warning {
+fn disagreement(part: Part, found: &Frames) -> FramesFinding {
     let (v, s) = (&found.values, &found.sigmas);
     let axes = |first: usize, unit: f64| OfAxes {
         values: std::array::from_fn(|k| v[first + k] * unit),
         sigmas: std::array::from_fn(|k| s[first + k] * unit),
     };
-    let finding = match part {
+    match part {
         Part::Scale => FramesFinding::Scale { value: v[0], sigma: s[0] },
         Part::Tilt => FramesFinding::Tilt(axes(1, 1f64.to_degrees())),
         Part::Shift => FramesFinding::Shift(axes(4, 1e3)),
-    };
-    finding.into()
+    }
 }

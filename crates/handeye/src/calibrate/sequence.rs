@@ -13,10 +13,10 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
 use crate::{
-    Calibration, Config, Error, HandEye, PosePair, Session, Verdict, Warning,
+    Calibration, Config, Error, HandEye, Observation, PosePair, Session, Verdict, Warning,
     calibrate::{
-        self, repeated,
-        result::{Answer, Candidate, PoseCovariance, rows},
+        result::{Answer, Candidate, CaptureResult, PoseCovariance, rows},
+        unknown::Task,
     },
     detect::sight::{CLOCK, TARGET_SCALE},
     estimate::{
@@ -87,66 +87,31 @@ fn is_no_drift(warning: &Warning) -> bool {
     }
 }
 
-/// Calibrates from bare target poses that were taken one after the other, in the order of their
-/// names (`img_2` before `img_10`), or at `times` (s) by name of the capture. Where their errors
-/// show no drift, and for anything but bare poses, the result is that of [`calibrate::calibrate`].
-///
-/// # Errors
-/// As [`calibrate::calibrate`].
-pub fn calibrate_sequence(
+/// The calibration of bare target poses that were taken one after the other, in the order of their times or names
+/// (`img_2` before `img_10`), where their errors drift; `None` where no drift is to be seen beside the `plain`
+/// calibration, and for anything but bare poses. `run` calibrates a session.
+pub(super) fn with_drift(
     session: &Session,
-    times: &BTreeMap<String, f64>,
-    config: &Config,
-) -> Result<Calibration, Error> {
-    calibrate::check(session)?;
-    let mut session = session.in_order();
-    let repeated = repeated::take_out(&mut session);
-    let mut result = of_distinct(&session, times, config)?;
-    repeated.report(&mut result);
-    Ok(result)
-}
-
-/// The same of captures that do not repeat one another.
-fn of_distinct(
-    session: &Session,
-    times: &BTreeMap<String, f64>,
-    config: &Config,
-) -> Result<Calibration, Error> {
-    let plain = calibrate::calibrate_distinct(session.clone(), config);
+    task: &Task,
+    plain: &Calibration,
+    run: impl Fn(Session) -> Calibration,
+) -> Result<Option<Calibration>, Error> {
     let bare = session.target.is_none()
         && session.touches.is_empty()
         && session.correspondences.is_empty()
         && session.known_position.is_none()
         && session.observations.iter().all(|o| o.corners.is_empty() && o.candidates.len() == 1);
-    if !bare || config.method.is_some() {
-        return Ok(plain);
-    }
-    let in_order = in_order(session, times);
-    Ok(with_drift(&in_order, times, config, &plain)?.unwrap_or(plain))
-}
-
-fn in_order(session: &Session, times: &BTreeMap<String, f64>) -> Session {
-    let mut session = session.in_order();
-    let time = |name: &String| times.get(name).copied().unwrap_or(f64::INFINITY);
-    session.observations.sort_by(|a, b| time(&a.capture).total_cmp(&time(&b.capture)));
-    session
-}
-
-/// The result with drift; `None` where there is none to be seen.
-fn with_drift(
-    session: &Session,
-    times: &BTreeMap<String, f64>,
-    config: &Config,
-    plain: &Calibration,
-) -> Result<Option<Calibration>, Error> {
     let Some(start) = answer(plain) else { return Ok(None) };
-    let wrong = plain.warnings.iter().any(is_no_drift);
-    let mut used = used(session, plain);
-    if wrong || used.iter().filter(|u| **u).count() < FEWEST {
+    if !bare || task.config.method.is_some() || plain.warnings.iter().any(is_no_drift) {
         return Ok(None);
     }
-    let mut sequence = sequence(session, times, config, &start);
-    let Some(found) = fit(&mut sequence, &mut used, config, &start)? else { return Ok(None) };
+    let session = in_order(session);
+    let mut used = used(&session, plain);
+    if used.iter().filter(|u| **u).count() < FEWEST {
+        return Ok(None);
+    }
+    let mut sequence = sequence(&session, task, &start);
+    let Some(found) = fit(&mut sequence, &mut used, task, &start)? else { return Ok(None) };
     let free = mistakes::free_directions(&found.fit);
     let held_out = held_out(&found, &used);
     let too_far = |m: Option<f64>, most: f64| m.is_none_or(|m| m > most);
@@ -158,27 +123,30 @@ fn with_drift(
     if !free.is_empty() {
         return Ok((sequence.side == Side::Camera).then(|| loose(&found, plain)));
     }
-    let steady = without(session, &sequence, &found);
-    let mut result = calibrate::calibrate_distinct(steady.in_order(), config);
-    if result.hand_eye.mount_from_camera.is_none() {
+    let steady = run(without(&session, &sequence, &found).in_order());
+    if steady.hand_eye.mount_from_camera.is_none() {
         return Ok(None);
     }
     let names: Vec<String> = session.observations.iter().map(|o| o.capture.clone()).collect();
-    report(&names, &sequence, &found, &used, config, plain, &mut result);
-    Ok(Some(result))
+    let drifting = Drifting { names: &names, sequence: &sequence, found: &found, held_out };
+    Ok(Some(drifting.result(task, plain, steady)))
+}
+
+fn in_order(session: &Session) -> Session {
+    let mut session = session.in_order();
+    let time = |o: &Observation| o.time_s.unwrap_or(f64::INFINITY);
+    session.observations.sort_by(|a, b| time(a).total_cmp(&time(b)));
+    session
 }
 
 /// The result for a camera that walks away in its holder: nobody knows where it sits after the captures.
 fn loose(found: &DriftFit, plain: &Calibration) -> Calibration {
-    let mut result = plain.clone();
     let drift = in_numbers(Side::Camera, found);
-    result.reasons = vec![format!(
+    let reasons = vec![format!(
         "errors change slowly from capture to capture: {}; it has no single pose on its mount: fasten it, and take the captures again",
         drift.in_words()
     )];
-    result.verdict = Verdict::Rejected;
-    result.warnings.push(StreamFinding::Drift { drift, is_fitted: false }.into());
-    result
+    plain.clone().rejected_for(reasons).noting([StreamFinding::Drift { drift, is_fitted: false }])
 }
 
 fn answer(plain: &Calibration) -> Option<HandEye> {
@@ -192,32 +160,25 @@ fn answer(plain: &Calibration) -> Option<HandEye> {
 fn used(session: &Session, plain: &Calibration) -> Vec<bool> {
     let by_name: BTreeMap<&str, bool> =
         plain.captures.iter().map(|c| (c.id.as_str(), c.used)).collect();
-    let one = |o: &crate::Observation| by_name.get(o.capture.as_str()).copied().unwrap_or(false);
+    let one = |o: &Observation| by_name.get(o.capture.as_str()).copied().unwrap_or(false);
     session.observations.iter().map(one).collect()
 }
 
-fn sequence(
-    session: &Session,
-    times: &BTreeMap<String, f64>,
-    config: &Config,
-    at: &HandEye,
-) -> Sequence {
-    let unknown = &config.unknown;
+fn sequence(session: &Session, task: &Task, at: &HandEye) -> Sequence {
+    let unknown = &task.unknown;
     let scale = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), ANYTHING);
     let clock = Extra::about_zero(ExtraKind::Camera(CLOCK), ANYTHING);
-    let extras =
-        [unknown.scale.then_some(scale), (!unknown.velocities.is_empty()).then_some(clock)];
-    let view = |o: &crate::Observation| {
+    let extras = [unknown.scale.map(|_| scale), unknown.time_offset_s.map(|_| clock)];
+    let view = |o: &Observation| {
         let pair = PosePair {
             anchor_from_mount: session.setup.anchor_from_mount(o.base_from_flange),
             camera_from_target: o.candidates[0].camera_from_target,
         };
-        unknown.freed(&View::bare(pair), unknown.velocities.get(&o.capture), at)
+        unknown.freed(&View::bare(pair), o.velocity.as_ref(), at)
     };
     let views: Vec<View> = session.observations.iter().map(view).collect();
     let n = views.len();
-    let at_time: Option<Vec<f64>> =
-        session.observations.iter().map(|o| times.get(&o.capture).copied()).collect();
+    let at_time: Option<Vec<f64>> = session.observations.iter().map(|o| o.time_s).collect();
     let after = match at_time {
         Some(t) if n > 1 && t[n - 1] > t[0] => {
             let mean = (t[n - 1] - t[0]) / (n - 1) as f64;
@@ -234,10 +195,10 @@ fn sequence(
 fn fit(
     sequence: &mut Sequence,
     used: &mut Vec<bool>,
-    config: &Config,
+    task: &Task,
     start: &HandEye,
 ) -> Result<Option<DriftFit>, Error> {
-    let known = &config.known;
+    let known = &task.config.known;
     let mut near = drift::without_drift(sequence, used, start, known)?;
     let mut best: Option<(Side, DriftFit)> = None;
     for side in [Side::Target, Side::Camera] {
@@ -259,7 +220,7 @@ fn fit(
     let fit =
         |used: &[bool], near: &JointFit, free| drift::fit_drift(sequence, used, near, known, free);
     let mut free = Free::Pose;
-    if config.unknown.scale {
+    if task.unknown.scale.is_some() {
         let unit = fit(used, &near, Free::PoseAndUnit)?;
         if unit.fit.log_likelihood - found.fit.log_likelihood > GAIN_OF_ONE {
             (free, found) = (Free::PoseAndUnit, unit);
@@ -315,59 +276,121 @@ fn without(session: &Session, sequence: &Sequence, found: &DriftFit) -> Session 
     session
 }
 
-/// Puts the fit with drift into the result for the captures without it.
-fn report(
-    names: &[String],
-    sequence: &Sequence,
-    found: &DriftFit,
-    used: &[bool],
-    config: &Config,
-    plain: &Calibration,
-    result: &mut Calibration,
-) {
-    let (fit, held_out) = (&found.fit, held_out(found, used));
-    let inflation = touches::small_sample(fit.degrees_of_freedom);
-    let covariance = fit.covariance.as_ref().map(|c| c * inflation);
-    let block = |k: usize| -> Option<Matrix6<f64>> {
-        covariance.as_ref().map(|c| c.fixed_view::<6, 6>(k, k).into_owned())
+/// A fit with drift, and the captures that it is of.
+struct Drifting<'a> {
+    names: &'a [String],
+    sequence: &'a Sequence,
+    found: &'a DriftFit,
+    held_out: Misfit,
+}
+
+impl Drifting<'_> {
+    /// The result with drift, from the `plain` one and the `steady` one, of the captures without their drift.
+    fn result(&self, task: &Task, plain: &Calibration, steady: Calibration) -> Calibration {
+        let Self { sequence, found, held_out, .. } = *self;
+        let fit = &found.fit;
+        let inflation = touches::small_sample(fit.degrees_of_freedom);
+        let hand_eye = stated(fit, inflation);
+        let tre = predicted(sequence, found, inflation);
+        let drift = in_numbers(sequence.side, found);
+        let own = Candidate {
+            name: NAME.into(),
+            hand_eye,
+            in_sample: steady.residual,
+            held_out,
+            touch_rms_mm: None,
+            held_out_mm: held_out.translation_rms_mm,
+            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+            note: Some(drift.in_words()),
+        };
+        let factor = fit.extra(ExtraKind::Camera(TARGET_SCALE)).map(|(share, sigma)| {
+            let larger = 1.0 + share;
+            (1.0 / larger, sigma / larger.powi(2))
+        });
+        let unit = task.unknown.found(factor, fit.extra(ExtraKind::Camera(CLOCK)));
+        let (verdict, reasons) = judged(&steady, tre.as_ref(), task.config);
+        let result = Calibration {
+            verdict,
+            reasons,
+            hand_eye,
+            chosen: Some(NAME.into()),
+            method: NAME.into(),
+            why: String::from(
+                "the errors of neighbouring captures are correlated, and the other candidates treat them as independent",
+            ),
+            error_budget: vec![],
+            advice: vec![],
+            held_out,
+            candidates: plain.candidates.iter().map(without_error).chain([own]).collect(),
+            captures: self.captures(plain, &steady),
+            scale: unit.scale,
+            scale_sigma: unit.scale_sigma,
+            time_offset_s: unit.time_offset_s,
+            time_offset_sigma_s: unit.time_offset_sigma_s,
+            predicted_tre_mm: tre,
+            ..steady
+        };
+        result.noting([StreamFinding::Drift { drift, is_fitted: true }])
+    }
+
+    /// Target poses as they were given, and what each missed when left out.
+    fn captures(&self, plain: &Calibration, steady: &Calibration) -> Vec<CaptureResult> {
+        let given: BTreeMap<&str, Option<_>> =
+            plain.captures.iter().map(|c| (c.id.as_str(), c.camera_from_target)).collect();
+        let mut all = steady.captures.clone();
+        for (name, view) in self.names.iter().zip(&self.found.views) {
+            let Some(capture) = all.iter_mut().find(|c| c.id == *name) else { continue };
+            capture.camera_from_target = given.get(name.as_str()).copied().flatten();
+            let left_out = &view.left_out;
+            capture.held_out_deg = Some(lie::omega(left_out).norm().to_degrees());
+            capture.held_out_mm = Some(lie::nu(left_out).norm() * 1e3);
+        }
+        all
+    }
+}
+
+/// The answer of a fit with its covariance.
+fn stated(fit: &JointFit, inflation: f64) -> Answer {
+    let block = |k: usize| {
+        let own: Matrix6<f64> = fit.covariance.as_ref()?.fixed_view::<6, 6>(k, k).into_owned();
+        Some(rows(&(own * inflation)))
     };
-    result.hand_eye = Answer {
+    Answer {
         mount_from_camera: Some(fit.hand_eye.mount_from_camera),
         anchor_from_target: Some(fit.hand_eye.anchor_from_target),
-        covariance: PoseCovariance {
-            mount_from_camera: block(0).map(|c| rows(&c)),
-            anchor_from_target: block(6).map(|c| rows(&c)),
-        },
-    };
-    let tre = predicted(sequence, found, inflation);
-    result.chosen = Some(NAME.into());
-    result.method = NAME.into();
-    result.why = String::from(
-        "the errors of neighbouring captures are correlated, and the other candidates treat them as independent",
-    );
-    (result.error_budget, result.advice) = (vec![], vec![]);
-    result.held_out = held_out;
-    result.candidates = plain.candidates.clone();
-    for candidate in &mut result.candidates {
-        // predicted as if errors were independent
-        candidate.predicted_tre_mm = None;
-        candidate.hand_eye.covariance = PoseCovariance::default();
+        covariance: PoseCovariance { mount_from_camera: block(0), anchor_from_target: block(6) },
     }
-    let drift = in_numbers(sequence.side, found);
-    result.candidates.push(Candidate {
-        name: NAME.into(),
-        hand_eye: result.hand_eye,
-        in_sample: result.residual,
-        held_out,
-        touch_rms_mm: None,
-        held_out_mm: held_out.translation_rms_mm,
-        predicted_tre_mm: tre.as_ref().map(|t| t.rms),
-        note: Some(drift.in_words()),
-    });
-    captures(names, found, plain, result);
-    extras(found, result);
-    conclude(tre, config, result);
-    result.warnings.push(StreamFinding::Drift { drift, is_fitted: true }.into());
+}
+
+/// A candidate without the error that is predicted as if errors were independent.
+fn without_error(candidate: &Candidate) -> Candidate {
+    let hand_eye = Answer { covariance: PoseCovariance::default(), ..candidate.hand_eye };
+    Candidate { hand_eye, predicted_tre_mm: None, ..candidate.clone() }
+}
+
+/// The verdict on the captures without drift, and on how certain the answer is with it.
+fn judged(
+    steady: &Calibration,
+    tre: Option<&PredictedTre>,
+    config: &Config,
+) -> (Verdict, Vec<String>) {
+    let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
+    let accepted = steady.verdict == Verdict::Accepted;
+    // the reason of an accepted one is the error that is predicted without drift
+    let mut reasons = if accepted { vec![] } else { steady.reasons.clone() };
+    match tre {
+        Some(tre) if tre.p95 <= limit && accepted => reasons.push(tre.in_words()),
+        Some(tre) if tre.p95 > limit => {
+            reasons.push(format!(
+                "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm: the errors \
+                 drift, so add captures with more tilt, or find out what moves",
+                tre.r#where, tre.p95
+            ));
+            return (Verdict::Rejected, reasons);
+        }
+        _ => {}
+    }
+    (steady.verdict, reasons)
 }
 
 fn in_numbers(side: Side, found: &DriftFit) -> Drift {
@@ -378,56 +401,6 @@ fn in_numbers(side: Side, found: &DriftFit) -> Drift {
         position_mm: d.position * 1e3,
         scale: d.scale,
     }
-}
-
-/// Target poses as they were given, and what each missed when left out.
-fn captures(names: &[String], found: &DriftFit, plain: &Calibration, result: &mut Calibration) {
-    let given: BTreeMap<&str, Option<_>> =
-        plain.captures.iter().map(|c| (c.id.as_str(), c.camera_from_target)).collect();
-    for (name, view) in names.iter().zip(&found.views) {
-        let Some(capture) = result.captures.iter_mut().find(|c| c.id == *name) else { continue };
-        capture.camera_from_target = given.get(name.as_str()).copied().flatten();
-        let left_out = &view.left_out;
-        capture.held_out_deg = Some(lie::omega(left_out).norm().to_degrees());
-        capture.held_out_mm = Some(lie::nu(left_out).norm() * 1e3);
-    }
-}
-
-/// Scale and time offset, as a change of what was given.
-fn extras(found: &DriftFit, result: &mut Calibration) {
-    if let Some((share, sigma)) = found.fit.extra(ExtraKind::Camera(TARGET_SCALE)) {
-        let larger = 1.0 + share;
-        result.scale = Some(1.0 / larger);
-        result.scale_sigma = Some(sigma / larger.powi(2));
-    }
-    if let Some((later, sigma)) = found.fit.extra(ExtraKind::Camera(CLOCK)) {
-        result.time_offset_s = Some(later);
-        result.time_offset_sigma_s = Some(sigma);
-    }
-}
-
-/// The verdict on the captures without drift, and on how sure the answer is with it.
-fn conclude(tre: Option<PredictedTre>, config: &Config, result: &mut Calibration) {
-    if result.verdict == Verdict::Accepted {
-        // the reason for that: the error that is predicted without drift
-        result.reasons.clear();
-    }
-    let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
-    match &tre {
-        Some(tre) if tre.p95 <= limit && result.verdict == Verdict::Accepted => {
-            result.reasons.push(tre.in_words());
-        }
-        Some(tre) if tre.p95 > limit => {
-            result.reasons.push(format!(
-                "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm: the errors \
-                 drift, so add captures with more tilt, or find out what moves",
-                tre.r#where, tre.p95
-            ));
-            result.verdict = Verdict::Rejected;
-        }
-        _ => {}
-    }
-    result.predicted_tre_mm = tre;
 }
 
 /// Predicted error around where the target's origin was seen. Points that the camera locates move

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector6;
 
-use super::unknown::{self, Unknown, extras};
+use super::unknown::{self, Unknown};
 use crate::{
     Error, HandEye, PosePair, Setup,
     estimate::{self, JointFit, KnownNoise, Problem},
@@ -76,11 +76,14 @@ fn look(
 ) -> Result<Settled, Error> {
     let found = agreement(&captures.pairs)?;
     let used = (0..captures.pairs.len()).filter(|&i| found.agrees[i]);
-    let free = Unknown { scale: free_scale, ..Unknown::default() };
+    let free = Unknown {
+        scale: free_scale.then_some(1.0),
+        time_offset_s: captures.velocities.as_ref().map(|_| 0.0),
+    };
     let velocity = |i: usize| captures.velocities.as_ref().map(|v| &v[i]);
     let view = |i: usize| free.freed(&View::bare(captures.pairs[i]), velocity(i), &found.hand_eye);
     let views: Vec<View> = used.map(view).collect();
-    let extras = extras(free_scale, captures.velocities.is_some());
+    let extras = free.extras();
     let problem = Problem { setup, views, boards: vec![], extras, known_position: None };
     let fit = estimate::fit_joint(&problem, &found.hand_eye, known)?;
     Ok(Settled { stand, views: problem.views, fit })

@@ -98,17 +98,12 @@ pub(super) fn in_one_frame(
                 return fused;
             }
             if moved.verdict == Verdict::Accepted && scans.verdict == Verdict::Accepted {
-                let mut scans = scans;
-                scans.warnings.insert(0, offset.not_believed(&scans, &moved));
-                return scans;
+                let finding = offset.not_believed(&scans, &moved);
+                return scans.noting_first([finding]);
             }
             moved
         }
-        (AnswerFrame::Image, Some(x)) => {
-            let mut image = image;
-            image.warnings.insert(0, offset.warning(&x, frame));
-            image
-        }
+        (AnswerFrame::Image, Some(x)) => image.noting_first([offset.warning(&x, frame)]),
         (AnswerFrame::Image, None) => image,
     }
 }
@@ -120,12 +115,12 @@ const CLEAR: f64 = 3.0;
 /// scans say that agree better, capture by capture, where it is taken out; where they do not tell, the stated error
 /// covers the distance of both answers.
 fn offset_or_lens(
-    (session, mut moved): (&Session, Calibration),
+    (session, moved): (&Session, Calibration),
     (without, image): (&Session, &Calibration),
     (target, camera): (&TargetModel, &Intrinsics),
     run: impl Fn(&Session) -> Calibration,
 ) -> Calibration {
-    let mut fused = run(session);
+    let fused = run(session);
     if fused.verdict != Verdict::Accepted || fused.camera.is_none() || session.camera_from_views {
         return moved;
     }
@@ -134,14 +129,12 @@ fn offset_or_lens(
     let (Some(of_lens), Some(of_offset)) = (of_lens, of_offset) else { return moved };
     let apart = farthest_mm(&fused, &moved).unwrap_or(0.0);
     let gain = of_lens - of_offset;
-    for answer in [&mut fused, &mut moved] {
-        if gain.abs() < CLEAR
-            && let Some(tre) = &mut answer.predicted_tre_mm
-        {
-            (tre.rms, tre.p95) = (tre.rms.hypot(0.5 * apart), tre.p95.hypot(apart));
-        }
+    let answer = if gain > 0.0 { fused } else { moved };
+    if gain.abs() >= CLEAR {
+        return answer;
     }
-    if gain > 0.0 { fused } else { moved }
+    let tre = answer.predicted_tre_mm.clone().map(|tre| tre.widened(0.5 * apart, 2.0));
+    Calibration { predicted_tre_mm: tre, ..answer }
 }
 
 /// Logarithm of the likelihood of differences that should be zero, but for noise of their own size.
@@ -208,12 +201,10 @@ fn fused_or_one(
 }
 
 /// A disagreement that cannot be told from others is none that an answer can rest on.
-fn not_separable(mut result: Calibration) -> Calibration {
+fn not_separable(result: Calibration) -> Calibration {
     let finding = FramesFinding::NotSeparable;
-    result.reasons.insert(0, finding.message());
-    result.warnings.push(finding.into());
-    result.verdict = Verdict::Rejected;
-    result
+    let reasons = [vec![finding.message()], result.reasons.clone()].concat();
+    result.rejected_for(reasons).noting([finding])
 }
 
 impl Gap {
@@ -370,7 +361,7 @@ fn scan_pose(surface: &[SurfaceCorner], target: &TargetModel) -> Option<TargetPo
 /// The answer of one source, with what the other one says beside it.
 fn in_frame_of(
     source: Source,
-    mut answer: Calibration,
+    answer: Calibration,
     beside: &Calibration,
     gap: &Gap,
 ) -> Calibration {
@@ -384,11 +375,9 @@ fn in_frame_of(
         angle_deg: angle.to_degrees(),
         other: other_answer(&answer, beside),
     };
-    if answer.verdict != Verdict::Accepted {
-        answer.reasons.push(finding.message());
-    }
-    answer.warnings.push(finding.into());
-    answer
+    let reason = (answer.verdict != Verdict::Accepted).then(|| finding.message());
+    let reasons = answer.reasons.iter().cloned().chain(reason).collect();
+    Calibration { reasons, ..answer }.noting([finding])
 }
 
 /// How far the other source's answer lies away.

@@ -10,28 +10,25 @@
 //!
 //! the second because `C` at the time of `A exp(v τ)` is `X⁻¹ exp(-v τ) A⁻¹ Y`.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{SMatrix, Vector6};
 
 use crate::{
     HandEye,
-    calibrate::{result::Calibration, views::Views},
+    calibrate::{config::Config, evidence::UnitAndClock, views::Views},
     detect::sight::{CLOCK, Sight, TARGET_SCALE},
     estimate::{Extra, ExtraKind, JointFit},
     math::lie,
+    model::session::Session,
     solve::View,
 };
 
-/// Unknowns beside both poses; by default there are none.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Unknown {
-    /// Distances to the target are known up to one factor, and given with a factor near one.
-    pub scale: bool,
-    /// How the mount moves, by the name of the capture: velocity (rad/s, m/s) against the anchor,
-    /// in the mount frame. Where there are any, the camera's clock is free; stamps are given nearly
-    /// right.
-    pub velocities: BTreeMap<String, Vector6<f64>>,
+/// Unknowns beside both poses, with where they stood before; by default there are none.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Unknown {
+    /// The factor (measured over metric) that was taken out of the distances to the target: it is free about one.
+    pub scale: Option<f64>,
+    /// Camera time minus robot time (s) as it was taken out of the times: it is free about zero.
+    pub time_offset_s: Option<f64>,
 }
 
 /// Standard deviation of the belief in a factor: far more than any motion leaves open.
@@ -43,67 +40,77 @@ const FREE_SCALE: f64 = 0.2;
 /// A time offset known no better than this (s) pairs nothing: robots move by decimetres meanwhile.
 const FREE_TIME: f64 = 0.5;
 
+/// What is asked of captures: what the user wants, and what is free beside both poses.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub config: &'a Config,
+    pub unknown: Unknown,
+}
+
 impl Unknown {
-    /// The unknowns, about where the data stand now.
-    pub(super) fn extras(&self) -> Vec<Extra> {
-        extras(self.scale, self.clock())
+    /// What a session leaves open of which nothing was taken out.
+    pub fn of(session: &Session) -> Self {
+        let moves = session.observations.iter().any(|o| o.velocity.is_some());
+        Self { scale: None, time_offset_s: moves.then_some(0.0) }
     }
 
-    fn clock(&self) -> bool {
-        !self.velocities.is_empty()
+    /// The unknowns of a fit, about where the data stand now.
+    pub fn extras(&self) -> Vec<Extra> {
+        let unit = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), ANY_SCALE);
+        let time = Extra::about_zero(ExtraKind::Camera(CLOCK), ANY_TIME);
+        self.scale.map(|_| unit).into_iter().chain(self.time_offset_s.map(|_| time)).collect()
     }
 
-    /// Tells the views how they move with the unknowns.
+    /// Lets the views move with the unknowns.
     pub(super) fn set_free(&self, views: &mut Views, at: &HandEye) {
-        if self.scale || self.clock() {
+        if *self != Self::default() {
             for (view, o) in views.views.iter_mut().zip(&views.used) {
-                *view = self.freed(view, self.velocities.get(&o.capture), at);
+                *view = self.freed(view, o.velocity.as_ref(), at);
             }
         }
     }
 
     /// A view that moves with the unknowns.
-    pub(crate) fn freed(&self, view: &View, velocity: Option<&Vector6<f64>>, at: &HandEye) -> View {
+    pub fn freed(&self, view: &View, velocity: Option<&Vector6<f64>>, at: &HandEye) -> View {
         let c = &view.pair.camera_from_target;
         let known = match &view.sight {
             Some(sight) => Sight::clone(sight),
             None => Sight::moving(SMatrix::zeros()),
         };
         let mut by = known.by_camera;
-        if self.scale {
+        if self.scale.is_some() {
             by.set_column(TARGET_SCALE, &Sight::by_size(c));
         }
-        if let Some(velocity) = velocity {
+        if let (Some(_), Some(velocity)) = (self.time_offset_s, velocity) {
             let target_from_mount = (at.mount_from_camera * *c).inverse();
             by.set_column(CLOCK, &(-lie::adjoint(target_from_mount.iso()) * velocity));
         }
         View { sight: Some(Sight { by_camera: by, ..known }.into()), ..view.clone() }
     }
 
-    /// Reports what the fit found, as a change of what was given; `None` where the data leave it
-    /// open.
-    pub(super) fn report(&self, fit: &JointFit, result: &mut Calibration) {
-        if self.scale {
-            let found = scale(fit);
-            result.scale = found.map(|s| s.0);
-            result.scale_sigma = found.map(|s| s.1);
-            if found.is_none() {
-                result.undetermined.push("scale of the measured distances".into());
-            }
+    /// Unit and clock for what a fit found about where they stood: a factor and a later time (s), each with its standard
+    /// deviation, or `None` where the data leave them open.
+    pub(super) fn found(
+        &self,
+        factor: Option<(f64, f64)>,
+        later: Option<(f64, f64)>,
+    ) -> UnitAndClock {
+        let mut found = UnitAndClock::default();
+        if let Some(before) = self.scale {
+            found.scale = factor.map(|(s, _)| s * before);
+            found.scale_sigma = factor.map(|(_, sigma)| sigma * before);
         }
-        if self.clock() {
-            let found = clock(fit);
-            result.time_offset_s = found.map(|t| t.0);
-            result.time_offset_sigma_s = found.map(|t| t.1);
+        if let Some(before) = self.time_offset_s {
+            found.time_offset_s = later.map(|(t, _)| before + t);
+            found.time_offset_sigma_s = later.map(|(_, sigma)| sigma);
         }
+        found
     }
-}
 
-/// The unknowns that are free.
-pub(super) fn extras(scale: bool, clock: bool) -> Vec<Extra> {
-    let unit = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), ANY_SCALE);
-    let time = Extra::about_zero(ExtraKind::Camera(CLOCK), ANY_TIME);
-    [scale.then_some(unit), clock.then_some(time)].into_iter().flatten().collect()
+    /// That nothing is known of them.
+    pub(super) fn open(&self) -> UnitAndClock {
+        self.found(None, None)
+    }
 }
 
 /// `measured / metric` and its standard deviation; `None` where the fit leaves it open.

@@ -10,50 +10,47 @@
 //! N. Andreff, R. Horaud and B. Espiau, *Robot hand-eye calibration using structure-from-motion*,
 //! IJRR 20(3), 2001.
 
-use std::collections::BTreeMap;
-
 use crate::{
-    Calibration, Config, Error, PosePair, Session,
-    calibrate::{
-        self,
-        settle::{self, Captures, Stand},
-    },
-    calibrate_sequence,
+    Config, Error, PosePair, Session,
+    calibrate::settle::{self, Captures, Stand},
     solve::{FEWEST_POSES, andreff},
 };
 
-/// Calibrates from bare target poses in an unknown unit. The answer, and all poses in the result,
-/// are in metres; `scale` is the factor.
-///
-/// # Errors
-/// As [`calibrate::calibrate`]; also when the session holds pictures, scans or touches, which have a
-/// unit.
-pub fn calibrate_unscaled(session: &Session, config: &Config) -> Result<Calibration, Error> {
+/// Refuses what has a unit of its own.
+pub(super) fn check(session: &Session) -> Result<(), Error> {
     let bare = session.target.is_none()
         && session.touches.is_empty()
         && session.correspondences.is_empty();
-    if !bare {
-        return Err(Error::Invalid(
-            "an unknown scale is for bare target poses: a target of known size, touches and points \
-             have their unit"
-                .into(),
-        ));
+    if bare {
+        return Ok(());
     }
-    calibrate::check(session)?;
-    let session = session.in_order();
-    let pairs = pairs(&session);
+    Err(Error::Invalid(
+        "an unknown scale is for bare target poses: a target of known size, touches and points \
+         have their unit"
+            .into(),
+    ))
+}
+
+/// The session in metres, and the factor that was taken out of its distances.
+pub(super) fn in_metres(session: &Session, config: &Config) -> Result<(Session, f64), Error> {
+    let pairs = pairs(session);
     let at = |stand: Stand| Captures {
         pairs: pairs.iter().map(|p| p.farther(1.0 / stand.scale)).collect(),
         velocities: None,
     };
-    let settled = first_scale(&pairs).and_then(|scale| {
-        let start = Stand { offset: 0.0, scale };
-        settle::settle(start, true, session.setup, &config.known, at)
-    });
-    match settled {
-        Ok(settled) => calibrate_at(&session, settled.stand.scale, &BTreeMap::new(), config),
-        Err(error) => Ok(undetermined(&session, &error)),
+    let start = Stand { offset: 0.0, scale: first_scale(&pairs)? };
+    let settled = settle::settle(start, true, session.setup, &config.known, at)?;
+    let scale = settled.stand.scale;
+    Ok((divided(session, scale), scale))
+}
+
+/// The session with a factor taken out of its distances.
+pub(super) fn divided(session: &Session, scale: f64) -> Session {
+    let mut session = session.clone();
+    for pose in session.observations.iter_mut().flat_map(|o| &mut o.candidates) {
+        pose.camera_from_target = pose.camera_from_target.farther(1.0 / scale);
     }
+    session
 }
 
 fn pairs(session: &Session) -> Vec<PosePair> {
@@ -64,58 +61,6 @@ fn pairs(session: &Session) -> Vec<PosePair> {
         })
     };
     session.observations.iter().filter_map(pair).collect()
-}
-
-/// The result with this factor taken out and free from there on; `times` as in
-/// [`calibrate_sequence`].
-pub(crate) fn calibrate_at(
-    session: &Session,
-    scale: f64,
-    times: &BTreeMap<String, f64>,
-    config: &Config,
-) -> Result<Calibration, Error> {
-    let mut session = session.clone();
-    for pose in session.observations.iter_mut().flat_map(|o| &mut o.candidates) {
-        pose.camera_from_target = pose.camera_from_target.farther(1.0 / scale);
-    }
-    let mut config = config.clone();
-    config.unknown.scale = true;
-    let mut result = calibrate_sequence(&session, times, &config)?;
-    match result.scale_sigma {
-        Some(sigma) => {
-            result.scale = result.scale.map(|s| s * scale);
-            result.scale_sigma = Some(sigma * scale);
-        }
-        None => {
-            result.scale = None;
-            name(&mut result.undetermined, SCALE);
-        }
-    }
-    Ok(result)
-}
-
-/// What is undetermined, in words.
-pub(crate) const SCALE: &str = "scale of the measured distances";
-
-/// Names what is undetermined, once.
-pub(crate) fn name(undetermined: &mut Vec<String>, what: &str) {
-    if !undetermined.iter().any(|u| u == what) {
-        undetermined.push(what.into());
-    }
-}
-
-/// The result without an answer.
-pub(crate) fn undetermined(session: &Session, error: &Error) -> Calibration {
-    let mut result = calibrate::without_answer(session);
-    result.scale = None;
-    result.reasons.push(error.to_string());
-    result.undetermined.extend([SCALE.into(), camera(session)]);
-    result
-}
-
-/// The camera's pose, in words.
-pub(crate) fn camera(session: &Session) -> String {
-    format!("the pose of the camera on the {}", session.setup.mount())
 }
 
 /// Small sets that are drawn; with 40 % wrong captures one in eight sets of four is clean.
@@ -167,7 +112,7 @@ fn draws(n: usize) -> Vec<[usize; DRAWN]> {
 mod tests {
     use super::*;
     use crate::{
-        HandEye, Observation, Pose, Setup, Verdict,
+        Calibration, HandEye, Observation, Pose, Setup, Verdict, calibrate,
         math::{lie, random::Random},
         solve::{
             Method,
@@ -183,11 +128,15 @@ mod tests {
             };
             Observation::bare(format!("{k:02}"), robot, p.camera_from_target.farther(scale))
         };
-        Session::of_captures(setup, pairs.iter().enumerate().map(observation).collect())
+        Session {
+            unknown_scale: true,
+            in_sequence: true,
+            ..Session::of_captures(setup, pairs.iter().enumerate().map(observation).collect())
+        }
     }
 
     fn solved(session: &Session) -> Calibration {
-        calibrate_unscaled(session, &Config::default()).unwrap()
+        calibrate(session, &Config::default()).unwrap()
     }
 
     fn miss(found: &Calibration, truth: &HandEye) -> f64 {
@@ -256,7 +205,11 @@ mod tests {
             let found = solved(&session(Setup::EyeInHand, &pairs, 2.0));
             assert_eq!(found.verdict, Verdict::Undetermined, "{noise}: {:?}", found.reasons);
             assert_eq!((found.scale, found.hand_eye.mount_from_camera), (None, None));
-            assert!(found.undetermined.iter().any(|u| u == SCALE), "{:?}", found.undetermined);
+            assert!(
+                found.undetermined.iter().any(|u| u.contains("scale")),
+                "{:?}",
+                found.undetermined
+            );
         }
     }
 
@@ -265,15 +218,15 @@ mod tests {
         let pairs = noisy_pairs(&truths()[0], 15);
         let named = |method: Method| Config { method: Some(method), ..Config::default() };
         let own = 3.0 / andreff::solve_with_scale(&pairs).unwrap().scale;
-        let metric = session(Setup::EyeInHand, &pairs, 1.0);
+        let metric = Session { unknown_scale: false, ..session(Setup::EyeInHand, &pairs, 1.0) };
         let session = session(Setup::EyeInHand, &pairs, 3.0);
-        let by = |method| calibrate_unscaled(&session, &named(method)).unwrap().scale.unwrap();
+        let by = |method| calibrate(&session, &named(method)).unwrap().scale.unwrap();
         assert!((by(Method::AndreffScaled) / own - 1.0).abs() < 1e-9);
         let likeliest = solved(&session).scale.unwrap();
         assert!((by(Method::Shah) / likeliest - 1.0).abs() < 1e-12);
         assert!((likeliest / own - 1.0).abs() > 1e-6);
         // it takes its factor out even where nobody calls the scale unknown
-        let found = calibrate::calibrate(&metric, &named(Method::AndreffScaled)).unwrap();
+        let found = calibrate(&metric, &named(Method::AndreffScaled)).unwrap();
         assert!((found.scale.unwrap() * 3.0 / own - 1.0).abs() < 1e-9);
     }
 

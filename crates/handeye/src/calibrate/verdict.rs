@@ -1,21 +1,15 @@
 //! Whether the answer can be used.
 
-use super::prior::SIZE;
 use crate::{
-    Camera, Mount, Pose, TargetSize,
+    Camera, Mount, Pose, Setup,
     calibrate::{
         config::Config,
-        result::{Answer, Calibration, Determined, Scale},
-        views::Views,
+        evidence::{Choice, Evidence},
+        result::{Answer, Calibration, Determined},
     },
-    estimate::{JointFit, noise::Source},
-    findings::{
-        TargetFinding,
-        target::{Size, SizeOfAnswer},
-    },
-    math::statistics,
+    estimate::{evaluate::Misfit, predict::PredictedTre},
     mistakes,
-    model::{session::Session, verdict::Verdict},
+    model::verdict::Verdict,
     quaternion_xyzw,
 };
 
@@ -32,71 +26,57 @@ const FEWEST_HELD_OUT: usize = 5;
 /// Share of the captures that must agree.
 const LEAST_AGREEING: f64 = 0.5;
 
-/// Wrong size of the target that is beyond any printer: the declared size or the focal length is
-/// wrong, and so is every distance.
-const MOST_SCALE_ERROR: f64 = 0.03;
-
-/// Scale errors of measured distances below this part are within what cameras and their targets do.
-const LEAST_SCALE_ERROR: f64 = 0.005;
-
-/// Chance of a scale as far from one as it is below which it is called wrong.
-const IMPROBABLE_SCALE: f64 = 1e-3;
-
-/// The verdict: reasons against the answer first.
-pub(super) fn conclude(config: &Config, result: &mut Calibration) {
-    let contradictions = contradictions(result);
-    if result.verdict == Verdict::Rejected || !contradictions.is_empty() {
+/// The result with its verdict: reasons against the answer first.
+pub(super) fn judge(setup: Setup, config: &Config, mut found: Evidence) -> Calibration {
+    let contradictions = contradictions(&found);
+    found = found.with_open_unit_named();
+    if found.notes.rejects || !contradictions.is_empty() {
         // data that contradict themselves leave nothing to determine
-        result.undetermined.clear();
-        result.determined = None;
-        result.reasons.extend(contradictions);
-        result.verdict = Verdict::Rejected;
-        return;
+        found.notes.undetermined.clear();
+        found.determined = None;
+        found.notes.reasons.extend(contradictions);
+        return found.into_result(setup, Verdict::Rejected);
     }
-    let imprecise = imprecision(config, result);
-    result.verdict =
-        if result.hand_eye.mount_from_camera.is_none() || !result.undetermined.is_empty() {
-            hide_undetermined(result);
-            Verdict::Undetermined
-        } else if imprecise.is_empty() {
-            Verdict::Accepted
-        } else {
-            result.reasons.extend(imprecise);
-            Verdict::Rejected
-        };
-    if result.verdict == Verdict::Accepted
-        && let Some(tre) = &result.predicted_tre_mm
-    {
-        result.reasons.push(tre.in_words());
+    let imprecise = imprecision(config, &found);
+    let has_answer = found.choice.as_ref().is_some_and(|c| c.hand_eye.mount_from_camera.is_some());
+    if !has_answer || !found.notes.undetermined.is_empty() {
+        return without_invented_numbers(found).into_result(setup, Verdict::Undetermined);
     }
+    if imprecise.is_empty() {
+        let tre = found.choice.as_ref().and_then(|c| c.predicted_tre_mm.as_ref());
+        found.notes.reasons.extend(tre.map(PredictedTre::in_words));
+        return found.into_result(setup, Verdict::Accepted);
+    }
+    found.notes.reasons.extend(imprecise);
+    found.into_result(setup, Verdict::Rejected)
 }
 
 /// No invented number for what the data do not determine.
-fn hide_undetermined(result: &mut Calibration) {
-    if result.undetermined.is_empty() {
-        return;
+fn without_invented_numbers(mut found: Evidence) -> Evidence {
+    let open = &found.notes.undetermined;
+    if open.is_empty() {
+        return found;
     }
-    if result.reasons.is_empty() {
-        result.reasons.push(format!(
+    if found.notes.reasons.is_empty() {
+        found.notes.reasons.push(format!(
             "the data do not determine {}: tilt the robot by 30 degrees and more about two axes, \
              {}or give the position along that direction as `known_position`",
-            result.undetermined.join(", "),
-            if has_corners(result) { "or touch corners, " } else { "" }
+            open.join(", "),
+            if found.has_corners() { "or touch corners, " } else { "" }
         ));
     }
-    result.hand_eye = Answer::default();
-    for candidate in &mut result.candidates {
+    found.choice = found.choice.map(|choice| Choice {
+        hand_eye: Answer::default(),
+        predicted_tre_mm: None,
+        why: String::from("no candidate can make up for what is not determined"),
+        ..choice
+    });
+    for candidate in &mut found.candidates {
         (candidate.hand_eye, candidate.predicted_tre_mm) = (Answer::default(), None);
     }
-    result.predicted_tre_mm = None;
-    result.why = String::from("no candidate can make up for what is not determined");
-    result.error_budget.iter_mut().for_each(|b| b.at_workpiece_mm = None);
-    result.advice.clear();
-}
-
-/// Whether the target has corners that could be touched.
-fn has_corners(result: &Calibration) -> bool {
-    result.captures.iter().any(|c| c.corners + c.corners_3d > 0)
+    found.error_budget.iter_mut().for_each(|b| b.at_workpiece_mm = None);
+    found.advice.clear();
+    found
 }
 
 /// What is known of a pose of which something is free.
@@ -117,17 +97,22 @@ pub(super) fn determined(x: &Pose<Mount, Camera>, free: &[mistakes::Free]) -> De
 }
 
 /// What the data say against themselves.
-pub(super) fn contradictions(result: &Calibration) -> Vec<String> {
+fn contradictions(found: &Evidence) -> Vec<String> {
+    let held_out = found.choice.as_ref().map(|c| c.held_out).unwrap_or_default();
+    contradictions_of(found.used(), found.rejected.len(), &held_out)
+}
+
+/// The same of captures that agree and are rejected, and of the leave-one-out residual.
+pub(super) fn contradictions_of(used: usize, rejected: usize, held_out: &Misfit) -> Vec<String> {
     let mut against = Vec::new();
-    let used = result.captures.iter().filter(|c| c.used).count();
-    let seen = used + result.rejected.len();
+    let seen = used + rejected;
     if seen > 0 && used > 0 && (used as f64) < LEAST_AGREEING * seen as f64 {
         against.push(format!(
             "only {used} of {seen} captures agree: captures and robot poses may be out of order, or \
              the pose notation is declared wrongly"
         ));
     }
-    let (mm, deg) = (result.held_out.translation_rms_mm, result.held_out.rotation_rms_deg);
+    let (mm, deg) = (held_out.translation_rms_mm, held_out.rotation_rms_deg);
     // what is left of very few captures hardly determines an answer, and misses by rights
     if used < FEWEST_HELD_OUT {
         return against;
@@ -143,97 +128,19 @@ pub(super) fn contradictions(result: &Calibration) -> Vec<String> {
 }
 
 /// Why the answer is not sure enough.
-fn imprecision(config: &Config, result: &Calibration) -> Vec<String> {
+fn imprecision(config: &Config, found: &Evidence) -> Vec<String> {
     let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
-    match &result.predicted_tre_mm {
+    let Some(choice) = &found.choice else { return vec![] };
+    match &choice.predicted_tre_mm {
         Some(tre) if tre.p95 <= limit => vec![],
         Some(tre) => vec![format!(
             "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm: add captures with \
              more tilt{}",
             tre.r#where,
             tre.p95,
-            if has_corners(result) { ", or touches" } else { "" }
+            if found.has_corners() { ", or touches" } else { "" }
         )],
-        None if result.hand_eye.mount_from_camera.is_none() => vec![],
+        None if choice.hand_eye.mount_from_camera.is_none() => vec![],
         None => vec!["too little data to predict an error: add captures or touches".into()],
     }
-}
-
-/// The robot moved farther than this many standard deviations of its own position.
-const TRAVELS: f64 = 10.0;
-
-/// Whether the robot's positions say anything of lengths: one that only turned about its flange does
-/// not, and its noise would be taken for lengths.
-fn travels(views: &Views, fit: &JointFit) -> bool {
-    let places: Vec<_> = views.used.iter().map(|o| o.base_from_flange.translation()).collect();
-    let count = places.len().max(1) as f64;
-    let middle = places.iter().sum::<nalgebra::Vector3<f64>>() / count;
-    let squares: f64 = places.iter().map(|p| (p - middle).norm_squared()).sum();
-    let sigma = fit.noise.sigma(Source::RobotPosition).unwrap_or(0.0);
-    (squares / count).sqrt() > TRAVELS * sigma
-}
-
-/// The size of the target as all data have it, and whether the answer rests on it.
-pub(super) fn judge_size(
-    views: &Views,
-    (by_views, best): (&JointFit, &JointFit),
-    (declared, as_declared): (f64, f64),
-    config: &Config,
-    result: &mut Calibration,
-) {
-    if config.unknown.scale || views.views.len() < 5 || result.verdict == Verdict::Rejected {
-        return;
-    }
-    if !travels(views, by_views) {
-        return;
-    }
-    let found = mistakes::target_scale(&views.views, by_views, &config.known, views.session.setup);
-    let Some(mistakes::TargetScale { value, sigma, .. }) = found else { return };
-    let used = as_declared < 0.5;
-    // how far the target that the views are about is from the declared one already
-    let (value, sigma) = (value * declared, sigma * declared);
-    result.target_scale = Some(Scale { value, sigma, used });
-    let answer =
-        best.extra(SIZE).map_or((value, sigma), |(x, s)| (declared * (1.0 + x), declared * s));
-    let dof = (by_views.degrees_of_freedom - 1.0).max(1.0);
-    let p_value = statistics::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
-    let off = (value - 1.0).abs();
-    let improbable = p_value < IMPROBABLE_SCALE;
-    let told = match (&views.session.target, views.session.target_size) {
-        _ if used => SizeOfAnswer::Estimated,
-        // distances that came from elsewhere are taken as they are: small errors of scale are left to the user
-        (None, _) if off > LEAST_SCALE_ERROR && improbable => SizeOfAnswer::Declared,
-        // beyond what the prior of a printed target reaches
-        (Some(_), TargetSize::Printed) if off > MOST_SCALE_ERROR && improbable => {
-            SizeOfAnswer::Declared
-        }
-        (Some(_), TargetSize::Measured(_)) if improbable => SizeOfAnswer::Measured,
-        _ => return,
-    };
-    let (value, sigma) = if used { answer } else { (value, sigma) };
-    result.target_scale = Some(Scale { value, sigma, used });
-    let finding = size_finding(views.session, declared, (value, sigma), told);
-    if (value - 1.0).abs() > MOST_SCALE_ERROR {
-        result.reasons.push(finding.message());
-        result.verdict = Verdict::Rejected;
-    }
-    result.warnings.push(finding.into());
-}
-
-/// Of the session's target, which is `resized` times as large as the declared one.
-fn size_finding(
-    session: &Session,
-    resized: f64,
-    (value, sigma): (f64, f64),
-    answer: SizeOfAnswer,
-) -> TargetFinding {
-    let Some(target) = &session.target else { return TargetFinding::Distances { value, sigma } };
-    TargetFinding::Size(Size {
-        value,
-        sigma,
-        declared_mm: target.pitch_m() * 1e3 / resized,
-        cause: mistakes::cause_of_size(value, target),
-        beyond_printing: (value - 1.0).abs() > MOST_SCALE_ERROR,
-        answer,
-    })
 }

@@ -1,7 +1,7 @@
 //! Captures and views as the stages hand them on: with their readings, about the target's first corner.
 
 use crate::{
-    Camera, Observation, Pose, PosePair, Target,
+    Camera, Observation, Pose, PosePair, Setup, Target,
     calibrate::result::CaptureResult,
     estimate::{Extra, Problem},
     model::session::Session,
@@ -19,6 +19,11 @@ pub(crate) struct Views<'a> {
     pub target_from_corner: Pose<Target, Target>,
     /// Which observations of the session they are.
     pub indices: Vec<usize>,
+}
+
+/// What is not determined where nothing is, in words.
+pub(crate) fn camera_in_words(setup: Setup) -> String {
+    format!("the pose of the camera on the {}", setup.mount())
 }
 
 pub(crate) fn first_report(o: &Observation) -> CaptureResult {

@@ -9,12 +9,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::boards::Boards;
 use crate::{
-    TargetModel, Warning,
-    calibrate::{result::Calibration, views::Views},
+    TargetModel,
+    calibrate::{notes::Notes, views::Views},
     estimate::{JointFit, Problem, TouchedBoard},
     findings::TouchFinding,
     math::linalg::{self, median},
-    model::verdict::Verdict,
 };
 
 /// Largest offset of a tip that is still taken for one, m.
@@ -50,10 +49,8 @@ impl Expected {
 pub(super) struct WrongTouches {
     /// Touches of the session to leave out.
     pub which: Vec<usize>,
-    /// For each touch, or for all.
-    findings: Vec<TouchFinding>,
-    /// Why no answer can be trusted.
-    contradiction: Option<String>,
+    /// What is said of each touch, or of all.
+    pub notes: Notes,
 }
 
 /// Looks for wrong touches, by views alone.
@@ -63,7 +60,7 @@ pub(super) fn find(
     problem: &Problem,
     fit: &JointFit,
 ) -> WrongTouches {
-    let mut found = WrongTouches { which: vec![], findings: vec![], contradiction: None };
+    let mut found = WrongTouches { which: vec![], notes: Notes::default() };
     let Some(target) = &views.session.target else { return found };
     let all = expected(boards, problem, fit);
     let (tip, agreeing) = consensus(&all);
@@ -83,7 +80,7 @@ pub(super) fn find(
                 off_mm: off,
                 exchanged_with: partner.map(|k| session.touches[k].corner),
             };
-            found.findings.push(finding);
+            found.notes.note(finding);
             found.which.push(e.touch);
         }
         return found;
@@ -101,9 +98,7 @@ pub(super) fn find(
         "check corner ids and frame of the touches, and which placement each belongs to".into()
     };
     let off_mm = off * 1e3;
-    let finding = TouchFinding::Misread { answer, agreeing, of: all.len(), off_mm };
-    found.contradiction = Some(finding.message());
-    found.findings.push(finding);
+    found.notes = Notes::against(TouchFinding::Misread { answer, agreeing, of: all.len(), off_mm });
     found.which = all.iter().map(|e| e.touch).collect();
     found
 }
@@ -122,14 +117,6 @@ impl WrongTouches {
         let mut some = touched.iter();
         boards.boards.retain(|_| *some.next().unwrap_or(&true));
         boards.touches.retain(|t| !t.is_empty());
-    }
-
-    pub(super) fn report(self, result: &mut Calibration) {
-        result.warnings.extend(self.findings.into_iter().map(Warning::from));
-        if let Some(reason) = self.contradiction {
-            result.reasons.push(reason);
-            result.verdict = Verdict::Rejected;
-        }
     }
 }
 

@@ -28,6 +28,12 @@ pub struct PredictedTre {
 }
 
 impl PredictedTre {
+    /// With an error (RMS, mm) that is independent of it, whose 95 % point is so many times as large.
+    pub(crate) fn widened(self, rms_mm: f64, p95_over_rms: f64) -> Self {
+        let (rms, p95) = (self.rms.hypot(rms_mm), self.p95.hypot(p95_over_rms * rms_mm));
+        Self { rms, p95, ..self }
+    }
+
     /// As the reason of an accepted answer.
     pub(crate) fn in_words(&self) -> String {
         let Self { p95, r#where: volume, rms, .. } = self;

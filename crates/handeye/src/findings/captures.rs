@@ -61,11 +61,57 @@ pub enum CaptureFinding {
         /// All that do not agree on the first.
         rest: usize,
     },
+    /// Most captures do not show what they are of.
+    MostMissing(MostMissing),
     /// A method that needs rotations, for captures of a ball.
     MethodNotForBalls {
         /// The method's name.
         method: &'static str,
     },
+}
+
+/// Captures that do not show what they are of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MostMissing {
+    /// What they are of.
+    pub shown: Shown,
+    /// How many do not show it.
+    pub missing: usize,
+    /// All captures.
+    pub of: usize,
+    /// One of them.
+    pub capture: String,
+    /// What is known of that one.
+    pub reason: String,
+}
+
+/// What captures are of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shown {
+    /// A target, in images.
+    Target,
+    /// A still scene, in scans.
+    Scene,
+    /// An object of known shape, in scans.
+    Object,
+}
+
+impl MostMissing {
+    fn message(&self) -> String {
+        let Self { missing, of, capture, reason, .. } = self;
+        match self.shown {
+            Shown::Target => format!(
+                "the target was not found in {missing} images of {of} captures ({capture}: {reason}): check [target]"
+            ),
+            Shown::Scene => format!(
+                "{missing} of {of} scans have no place in the scene ({capture}: {reason}): scan a scene with shape on \
+                 all sides, from places that see much in common"
+            ),
+            Shown::Object => format!(
+                "{missing} of {of} scans do not show the object ({capture}: {reason}): check [object]"
+            ),
+        }
+    }
 }
 
 /// Another order of robot poses.
@@ -242,6 +288,8 @@ impl CaptureFinding {
             Self::OfOnePlace { .. } => "captures-of-one-place",
             Self::OutOfOrder { .. } => "order-shifted",
             Self::NoMajority { .. } | Self::TwoAnswers { .. } => "no-clear-majority",
+            Self::MostMissing(MostMissing { shown: Shown::Scene, .. }) => "scans-not-placed",
+            Self::MostMissing(_) => "target-not-found",
             Self::MethodNotForBalls { .. } => "method-not-for-balls",
         }
     }
@@ -285,6 +333,7 @@ impl CaptureFinding {
                 "{used} captures agree on one answer and {others} of the other {rest} on another one: the data cannot \
                  tell which is right; check what changed between them"
             ),
+            Self::MostMissing(missing) => missing.message(),
             Self::MethodNotForBalls { method } => {
                 format!("a ball shows no rotation: the method {method} cannot use it")
             }
@@ -311,6 +360,9 @@ impl CaptureFinding {
             Self::NoMajority { used, of } => vec![("used", count(used)), ("of", count(of))],
             Self::TwoAnswers { used, others, rest } => {
                 vec![("used", count(used)), ("others", count(others)), ("rest", count(rest))]
+            }
+            Self::MostMissing(found) => {
+                vec![("missing", count(&found.missing)), ("of", count(&found.of))]
             }
             Self::Rejected { .. } | Self::MethodNotForBalls { .. } => vec![],
         }

@@ -1,6 +1,6 @@
 //! What was measured: by the robot, by the camera, by touch.
 
-use nalgebra::{Matrix2, Matrix3, Matrix6, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Matrix6, Vector2, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::{Anchor, Base, Camera, Flange, Mount, Point, Pose, Target};
@@ -95,7 +95,12 @@ pub struct Observation {
     pub base_from_flange: Pose<Base, Flange>,
     /// Values of its joints there (rad, m), from the base outwards; empty where none were recorded.
     pub joints: Vec<f64>,
-    /// Corners in the picture; empty when only the pose is known.
+    /// When it was taken, by the camera's clock, s; `None` where that was not recorded.
+    pub time_s: Option<f64>,
+    /// How the mount moved meanwhile, where the robot did not stop: velocity (rad/s, m/s) against the anchor, in the
+    /// mount frame. Where a capture has one, the offset of the two clocks is estimated, about zero.
+    pub velocity: Option<Vector6<f64>>,
+    /// Corners in the image; empty when only the pose is known.
     pub corners: Vec<ImageCorner>,
     /// Corners in the scan; empty without a scan.
     pub surface: Vec<SurfaceCorner>,
@@ -115,6 +120,8 @@ impl Observation {
             capture,
             base_from_flange,
             joints: vec![],
+            time_s: None,
+            velocity: None,
             corners: vec![],
             surface: vec![],
             candidates: vec![TargetPose { camera_from_target, covariance: None }],

@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use super::{kinematics::Arm, names::natural};
 use crate::{
-    Camera, Correspondence, Intrinsics, Mount, Observation, Placement, Pose, Setup, Touch,
-    Workspace, model::target::kinds::TargetModel,
+    Base, Camera, Correspondence, Flange, Intrinsics, Mount, Observation, Placement, Pose, Setup,
+    Target, Touch, Workspace, model::target::kinds::TargetModel,
 };
 
 /// Everything that was measured in one cell.
@@ -37,6 +37,61 @@ pub struct Session {
     pub known_position: Option<KnownPosition>,
     /// The arm as its maker describes it, where that is known.
     pub arm: Option<Arm>,
+    /// Whether distances to the target are known up to one factor only, which is then estimated: for bare target poses.
+    pub unknown_scale: bool,
+    /// Whether the captures were taken one after the other, in the order of their times or names, so that errors may
+    /// drift: looked for in bare target poses.
+    pub in_sequence: bool,
+    /// What the robot recorded, where it did not stop for the captures: its poses in the captures are then not looked
+    /// at, and their times count.
+    pub motion: Option<Motion>,
+}
+
+/// A value and its time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stamped<P> {
+    /// By the clock of whoever measured it, s.
+    pub time_s: f64,
+    /// The value.
+    pub pose: P,
+}
+
+/// What a robot in motion recorded, by its own clock.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Motion {
+    /// Where its flange was.
+    pub robot: Vec<Stamped<Pose<Base, Flange>>>,
+    /// Its joint values (rad, m); empty where they are not known.
+    pub joints: Vec<Stamped<Vec<f64>>>,
+}
+
+/// Robot and camera poses, each by its own clock, in any order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Streams {
+    /// Who carries the camera.
+    pub setup: Setup,
+    /// What the robot reported.
+    pub robot: Vec<Stamped<Pose<Base, Flange>>>,
+    /// Where the camera saw the target.
+    pub camera: Vec<Stamped<Pose<Camera, Target>>>,
+    /// Whether distances to the target are known up to one factor only.
+    pub unknown_scale: bool,
+}
+
+impl Streams {
+    /// The session of which these are the measurements: a capture for each pose of the target, named by its time.
+    pub fn session(&self) -> Session {
+        let capture = |s: &Stamped<Pose<Camera, Target>>| Observation {
+            time_s: Some(s.time_s),
+            ..Observation::bare(format!("{:.6} s", s.time_s), Pose::identity(), s.pose)
+        };
+        Session {
+            unknown_scale: self.unknown_scale,
+            in_sequence: true,
+            motion: Some(Motion { robot: self.robot.clone(), joints: vec![] }),
+            ..Session::of_captures(self.setup, self.camera.iter().map(capture).collect())
+        }
+    }
 }
 
 /// How well the size of a target is known beforehand.
@@ -80,6 +135,9 @@ impl Session {
             workspace: None,
             known_position: None,
             arm: None,
+            unknown_scale: false,
+            in_sequence: false,
+            motion: None,
         }
     }
 

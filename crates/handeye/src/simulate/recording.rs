@@ -148,19 +148,12 @@ impl Recording<'_> {
         let observations = (0..cell.captures).map(|k| self.observation(k)).collect();
         let placements = (0..cell.placements).map(|k| self.placement(k)).collect();
         Session {
-            camera_from_views: false,
-            known_position: None,
-            target_size: Default::default(),
-            lens_sigma: None,
             arm: cell.built_arm().map(|a| a.model),
-            setup: cell.setup,
             target: Some(cell.target.clone()),
             camera: Some(cell.intrinsics),
-            observations,
             placements,
             touches: self.touches.clone(),
-            correspondences: vec![],
-            workspace: None,
+            ..Session::of_captures(cell.setup, observations)
         }
     }
 
@@ -170,7 +163,8 @@ impl Recording<'_> {
         let candidates = self.candidates(&corners, &surface);
         let (base_from_flange, joints) = (self.base_from_flange[k], self.joints[k].clone());
         let capture = format!("{:03}", k + 1);
-        Observation { capture, base_from_flange, joints, corners, surface, candidates }
+        let bare = Observation::bare(capture, base_from_flange, Pose::identity());
+        Observation { joints, corners, surface, candidates, ..bare }
     }
 
     fn placement(&self, k: usize) -> Placement {

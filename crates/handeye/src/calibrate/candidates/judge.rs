@@ -4,7 +4,7 @@ use nalgebra::Matrix6;
 
 use crate::{
     Camera, Mount, Pose,
-    calibrate::{result::Candidate, views::Views, workpiece::Workpiece},
+    calibrate::{evidence::HeldOut, result::Candidate, views::Views, workpiece::Workpiece},
     estimate::{self, predict, touches::TouchPairs},
 };
 
@@ -21,7 +21,7 @@ pub(super) struct Judged {
     pub(super) candidate: Candidate,
     pub(super) tre: Option<predict::PredictedTre>,
     /// Misfit of each capture when it was left out.
-    pub(super) held_out: Vec<Option<(f64, f64)>>,
+    pub(super) held_out: HeldOut,
 }
 
 impl Judge<'_> {

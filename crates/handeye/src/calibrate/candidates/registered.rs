@@ -8,7 +8,8 @@ use crate::{
     calibrate::{
         answers::stored,
         config::Config,
-        result::{Answer, Calibration, Candidate, PoseCovariance, rows},
+        notes::Notes,
+        result::{Answer, Candidate, PoseCovariance, rows},
         views::{Views, pairs_of},
     },
     estimate::{
@@ -21,28 +22,23 @@ use crate::{
 };
 
 impl Judge<'_> {
-    pub(super) fn touch_candidates(
-        &self,
-        fit: &JointFit,
-        config: &Config,
-        result: &mut Calibration,
-    ) -> Vec<Judged> {
+    pub(super) fn touch_candidates(&self, fit: &JointFit, config: &Config) -> (Vec<Judged>, Notes) {
         if self.paired.is_empty() || config.method.is_some() {
-            return vec![];
+            return <_>::default();
         }
         let kinds =
             [("two-step-svd", Registration::Svd), ("two-step-icp", Registration::Icp(config.icp))];
-        let mut all = Vec::new();
+        let (mut all, mut notes) = (vec![], Notes::default());
         for (name, registration) in kinds {
             match self.touch_candidate(fit, name, registration) {
                 Ok(judged) => all.push(judged),
                 Err(error) => {
                     let (candidate, error) = (name.to_owned(), error.to_string());
-                    result.warnings.push(TouchFinding::NotEnough { candidate, error }.into());
+                    notes.note(TouchFinding::NotEnough { candidate, error });
                 }
             }
         }
-        all
+        (all, notes)
     }
 
     fn touch_candidate(

@@ -13,7 +13,10 @@ fn session(setup: Setup, pairs: &[PosePair]) -> Session {
         };
         Observation::bare(format!("{k:03}"), robot, p.camera_from_target)
     };
-    Session::of_captures(setup, pairs.iter().enumerate().map(observation).collect())
+    Session {
+        in_sequence: true,
+        ..Session::of_captures(setup, pairs.iter().enumerate().map(observation).collect())
+    }
 }
 
 /// Pairs whose target drifts by so much (rad, m) a capture, under a little noise.
@@ -48,7 +51,7 @@ fn loose(count: usize, seed: u64, (turn, shift): (f64, f64)) -> Vec<PosePair> {
 }
 
 fn solved(session: &Session) -> Calibration {
-    calibrate_sequence(session, &BTreeMap::new(), &Config::default()).unwrap()
+    calibrate(session, &Config::default()).unwrap()
 }
 
 fn miss(found: &Calibration) -> f64 {
@@ -134,12 +137,11 @@ fn times_tell_the_order_and_names_do_not() {
     let pairs = drifting(40, 4, SLOW);
     let named = session(Setup::EyeInHand, &pairs);
     let mut renamed = named.clone();
-    let mut times = BTreeMap::new();
     for (k, o) in renamed.observations.iter_mut().enumerate() {
         o.capture = format!("{:03}", 7 * k % 41);
-        times.insert(o.capture.clone(), k as f64 * 0.1);
+        o.time_s = Some(k as f64 * 0.1);
     }
-    let found = calibrate_sequence(&renamed, &times, &Config::default()).unwrap();
+    let found = solved(&renamed);
     assert_eq!(found.chosen.as_deref(), Some(NAME));
     let wanted = solved(&named).hand_eye.mount_from_camera.unwrap();
     let x = found.hand_eye.mount_from_camera.unwrap();
@@ -150,6 +152,6 @@ fn times_tell_the_order_and_names_do_not() {
 fn a_method_asked_for_by_name_is_run_as_published() {
     let session = session(Setup::EyeInHand, &drifting(30, 5, SLOW));
     let config = Config { method: Some(crate::Method::Shah), ..Config::default() };
-    let found = calibrate_sequence(&session, &BTreeMap::new(), &config).unwrap();
+    let found = calibrate(&session, &config).unwrap();
     assert_eq!(found.method, "closed-form-shah");
 }

@@ -17,77 +17,167 @@ mod offset;
 mod open;
 mod stream;
 
-use std::collections::BTreeMap;
-
-use nalgebra::Vector6;
-
 use crate::{
-    Base, Calibration, Camera, Config, Error, Flange, Observation, Pose, Session, Setup, Target,
-    Warning,
+    Calibration, Config, Error, Observation, Pose, Session, Stamped, Warning,
     calibrate::{
-        self,
+        evidence::TIME_OFFSET,
         settle::{self, Settled, Stand},
+        unknown::Unknown,
         unscaled,
     },
-    calibrate_sequence,
     findings::StreamFinding,
+    model::session::Motion,
     solve::FEWEST_POSES,
 };
 use choose::Both;
-pub use moving::calibrate_moving;
-pub use stream::{Stamped, Stream};
+pub use stream::Stream;
 
-/// Robot and camera poses, each by its own clock, in any order.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Streams {
-    /// Who carries the camera.
-    pub setup: Setup,
-    /// What the robot reported.
-    pub robot: Vec<Stamped<Pose<Base, Flange>>>,
-    /// Where the camera saw the target.
-    pub camera: Vec<Stamped<Pose<Camera, Target>>>,
-    /// Whether distances to the target are known up to one factor only.
-    pub unknown_scale: bool,
+/// Captures with the robot's poses of their moments.
+pub(super) struct Synchronized {
+    /// As many as are known; without the robot's record.
+    pub session: Session,
+    /// What is free about where it stands in the session.
+    pub unknown: Unknown,
+    /// Why the captures have no poses that can be right.
+    pub failure: Option<Failure>,
+    /// What had to be put right in the streams.
+    cleaning: Vec<Warning>,
+    /// Captures whose moments the robot's record does not hold.
+    without: Vec<String>,
+    /// Number of moments that were chosen of a stream; `None` where all captures are as they were given.
+    chosen: Option<usize>,
+    /// Number of moments of which they are.
+    samples: usize,
+    /// Correlation of neighbouring residuals.
+    likeness: f64,
+    /// Other offsets (s) that fit as well.
+    rivals: Vec<f64>,
 }
 
-/// Calibrates from two streams. The result tells the offset of the clocks and its standard
-/// deviation; captures are named by camera time.
+/// Why there is no offset.
+pub(super) enum Failure {
+    /// Nothing can be said.
+    Nothing(Error),
+    /// At no offset do robot and camera move alike.
+    NoOffset(Error),
+}
+
+/// Finds the offset of the clocks, and the robot's pose at the moment of each capture: of poses that are a stream of
+/// their own the moments that tell most, of other captures all of them.
 ///
 /// # Errors
 /// [`Error::NotFinite`] on times and poses that are no numbers, [`Error::TooFewSamples`] where a
-/// stream is empty. Fewer samples than needed end in a verdict.
-pub fn calibrate_streams(streams: &Streams, config: &Config) -> Result<Calibration, Error> {
-    let both = both(streams)?;
-    let mut warnings = cleaning(&both.robot, "robot");
-    warnings.extend(cleaning(&both.camera, "camera"));
-    let found = enough(&both).and_then(|()| settle_streams(&both, streams.unknown_scale, config));
+/// stream is empty.
+pub(super) fn synchronize(
+    session: &Session,
+    motion: &Motion,
+    config: &Config,
+) -> Result<Synchronized, Error> {
+    let both = both(session, motion)?;
+    let is_stream = session.in_sequence;
+    let mut cleaning = cleaned(&both.robot, "robot");
+    cleaning.extend(is_stream.then(|| cleaned(&both.camera, "camera")).into_iter().flatten());
+    let found = enough(&both).and_then(|()| settle_streams(&both, session.unknown_scale, config));
     let still = open::still(&both, found.as_ref().ok().map(|f| &f.0));
-    let mut result = match found {
-        Err(error @ Error::TooFewSamples { .. }) => nothing(&both, streams, &error),
-        _ if let Some(still) = still => nothing(&both, streams, &still),
-        Ok((settled, chosen, rivals)) => {
-            let likeness = choose::likeness(&settled, both.setup);
-            let steady = open::clock_is_free(&both, &chosen, &settled);
-            let unknown = (streams.unknown_scale, steady);
-            let mut result = finish(&both, &chosen, settled.stand, unknown, config)?;
-            warnings.extend(told(&result, chosen.len(), both.samples(), likeness));
-            if result.time_offset_s.is_none() {
-                unscaled::name(&mut result.undetermined, OFFSET);
-            } else {
-                warnings.extend(ambiguous(&rivals));
-            }
-            result
+    let (settled, chosen, rivals) = match (found, still) {
+        (Err(error @ Error::TooFewSamples { .. }), _) | (_, Some(error)) => {
+            return Ok(failed(&both, session, error, cleaning).for_good());
         }
-        Err(error) => without_offset(&both, streams, config, &error)?,
+        (Err(error), None) => return Ok(failed(&both, session, error, cleaning)),
+        (Ok(found), None) => found,
     };
-    result.warnings.splice(0..0, warnings);
-    Ok(result)
+    let steady = open::clock_is_free(&both, &chosen, &settled);
+    let Stand { offset, scale } = settled.stand;
+    let (at_moments, without) = match is_stream {
+        true => (moments(&both, &chosen, offset), vec![]),
+        false => moving::captures(session, motion, &both, offset + both.epochs()),
+    };
+    let metric =
+        if session.unknown_scale { unscaled::divided(&at_moments, scale) } else { at_moments };
+    Ok(Synchronized {
+        session: if steady { open::steadied(metric) } else { metric },
+        unknown: Unknown {
+            scale: session.unknown_scale.then_some(scale),
+            time_offset_s: Some(offset + both.epochs()),
+        },
+        failure: None,
+        cleaning,
+        without,
+        chosen: is_stream.then_some(chosen.len()),
+        samples: if is_stream { both.samples() } else { both.camera.times.len() },
+        likeness: choose::likeness(&settled, both.setup),
+        rivals: if is_stream { rivals } else { vec![] },
+    })
 }
 
-/// What is undetermined, in words.
-const OFFSET: &str = "time offset between camera and robot";
+impl Failure {
+    fn for_good(self) -> Self {
+        match self {
+            Self::Nothing(error) | Self::NoOffset(error) => Self::Nothing(error),
+        }
+    }
+}
 
-fn both(streams: &Streams) -> Result<Both, Error> {
+impl Synchronized {
+    /// The same where the motions do not even say what they leave open.
+    fn for_good(self) -> Self {
+        Self { failure: self.failure.map(Failure::for_good), ..self }
+    }
+
+    /// What to know about clocks and captures, beside their result.
+    pub fn findings(&self, result: &Calibration) -> Vec<Warning> {
+        if self.failure.is_some() {
+            return self.cleaning.clone();
+        }
+        let captures = self.without.clone();
+        let without =
+            (!captures.is_empty()).then_some(StreamFinding::WithoutRobotPose { captures });
+        let (chosen, of) = (self.chosen.unwrap_or(result.captures.len()), self.samples);
+        let offset = result.time_offset_s.zip(result.time_offset_sigma_s);
+        let ambiguous = offset.filter(|_| !self.rivals.is_empty());
+        let offset = offset.map_or(StreamFinding::OffsetUndetermined, |(offset_s, sigma_s)| {
+            StreamFinding::Offset { offset_s, sigma_s, chosen, of }
+        });
+        let correlation = self.likeness;
+        let alike = (correlation > 0.0).then_some(StreamFinding::NeighboursAlike { correlation });
+        let others_s = self.rivals.clone();
+        let ambiguous = ambiguous.map(|_| StreamFinding::OffsetAmbiguous { others_s });
+        let all = without.into_iter().chain([offset]).chain(alike).chain(ambiguous);
+        self.cleaning.iter().cloned().chain(all.map(Warning::from)).collect()
+    }
+}
+
+/// Streams with no offset: the motions say what they leave open.
+fn failed(both: &Both, session: &Session, error: Error, cleaning: Vec<Warning>) -> Synchronized {
+    // at any offset the motions are the same
+    let start = starts(both).first().copied().unwrap_or(0.0);
+    let chosen = choose::choose(both, start, choose::MOST_VIEWS);
+    let of_motions = Session { in_sequence: false, ..moments(both, &chosen, start) };
+    let nothing = session.unknown_scale || of_motions.observations.is_empty();
+    Synchronized {
+        session: of_motions,
+        unknown: Unknown { scale: session.unknown_scale.then_some(1.0), time_offset_s: Some(0.0) },
+        failure: Some(if nothing { Failure::Nothing(error) } else { Failure::NoOffset(error) }),
+        cleaning,
+        without: vec![],
+        chosen: None,
+        samples: 0,
+        likeness: 0.0,
+        rivals: vec![],
+    }
+}
+
+/// The result where no offset was found: `plain` says what the motions leave open, `error` why.
+pub(super) fn without_offset(plain: Calibration, error: &Error) -> Calibration {
+    let error = error.to_string();
+    let rest = plain.reasons.iter().filter(|r| **r != error).cloned();
+    let reasons = std::iter::once(error.clone()).chain(rest).collect();
+    let undetermined = [plain.undetermined.clone(), vec![TIME_OFFSET.into()]].concat();
+    Calibration { reasons, undetermined, time_offset_s: None, ..plain }.recorded()
+}
+
+/// Both streams, the captures that show the target being one.
+fn both(session: &Session, motion: &Motion) -> Result<Both, Error> {
     fn bare<A, B>(all: &[Stamped<Pose<A, B>>], name: &str) -> Result<Stream, Error> {
         if let Some(k) = all.iter().position(|s| !s.pose.is_finite()) {
             return Err(Error::NotFinite { what: format!("pose of {name} sample {}", k + 1) });
@@ -98,10 +188,15 @@ fn both(streams: &Streams) -> Result<Both, Error> {
             _ => Stream::new(&all.iter().map(one).collect::<Vec<_>>(), name),
         }
     }
+    let seen = |o: &Observation| {
+        let pose = o.candidates.first()?.camera_from_target;
+        Some(Stamped { time_s: o.time_s?, pose })
+    };
+    let camera: Vec<_> = session.observations.iter().filter_map(seen).collect();
     Ok(Both {
-        setup: streams.setup,
-        robot: bare(&streams.robot, "robot")?,
-        camera: bare(&streams.camera, "camera")?,
+        setup: session.setup,
+        robot: bare(&motion.robot, "robot")?,
+        camera: bare(&camera, "camera")?,
     })
 }
 
@@ -120,7 +215,7 @@ fn enough(both: &Both) -> Result<(), Error> {
 }
 
 /// What had to be put right in a stream.
-fn cleaning(stream: &Stream, name: &'static str) -> Vec<Warning> {
+fn cleaned(stream: &Stream, name: &'static str) -> Vec<Warning> {
     let (c, stream, gaps) = (stream.cleaned, name, (stream.gaps(), stream.limit()));
     let found = [
         (c.unsorted, StreamFinding::Unsorted { stream, count: c.unsorted }),
@@ -230,112 +325,19 @@ fn settle_from(
     }
 }
 
-/// The calibration at an offset, with everything free about it; of a steady motion with its mean
-/// velocity.
-fn finish(
-    both: &Both,
-    chosen: &[usize],
-    stand: Stand,
-    (unknown_scale, steady): (bool, bool),
-    config: &Config,
-) -> Result<Calibration, Error> {
-    let Moving { session, velocities, times } = session(both, chosen, stand.offset);
-    let mut config = config.clone();
-    config.unknown.velocities = if steady { open::steadied(&velocities) } else { velocities };
-    let mut result = if unknown_scale {
-        unscaled::calibrate_at(&session, stand.scale, &times, &config)?
-    } else {
-        calibrate_sequence(&session, &times, &config)?
+/// The captures of some moments at an offset, named by camera time, with the velocity of the mount in each.
+fn moments(both: &Both, chosen: &[usize], offset: f64) -> Session {
+    let capture = |moment: choose::Moment| Observation {
+        time_s: Some(moment.camera_time_s),
+        velocity: Some(both.mount_velocity(&moment)),
+        ..Observation::bare(
+            format!("{:.6} s", moment.camera_time_s),
+            Pose::claim(moment.robot),
+            Pose::claim(moment.camera),
+        )
     };
-    result.time_offset_s = match result.time_offset_sigma_s {
-        Some(_) => result.time_offset_s.map(|later| stand.offset + later + both.epochs()),
-        None => None,
-    };
-    Ok(result)
-}
-
-/// The captures at an offset, named by camera time.
-struct Moving {
-    session: Session,
-    /// How the mount moves in each.
-    velocities: BTreeMap<String, Vector6<f64>>,
-    /// By the camera's clock, s.
-    times: BTreeMap<String, f64>,
-}
-
-fn session(both: &Both, chosen: &[usize], offset: f64) -> Moving {
-    let (mut velocities, mut times) = (BTreeMap::new(), BTreeMap::new());
-    let mut observations = vec![];
-    for moment in chosen.iter().filter_map(|&k| both.moment(k, offset)) {
-        let capture = format!("{:.6} s", moment.camera_time_s);
-        velocities.insert(capture.clone(), both.mount_velocity(&moment));
-        times.insert(capture.clone(), moment.camera_time_s);
-        let (robot, camera) = (Pose::claim(moment.robot), Pose::claim(moment.camera));
-        observations.push(Observation::bare(capture, robot, camera));
-    }
-    let session = Session::of_captures(both.setup, observations);
-    Moving { session, velocities, times }
-}
-
-/// The result where no offset could be found: what the data leave open is named.
-fn without_offset(
-    both: &Both,
-    streams: &Streams,
-    config: &Config,
-    error: &Error,
-) -> Result<Calibration, Error> {
-    // at any offset the motions are the same: the calibration names what they leave open
-    let start = starts(both).first().copied().unwrap_or(0.0);
-    let chosen = choose::choose(both, start, choose::MOST_VIEWS);
-    let session = session(both, &chosen, start).session;
-    if session.observations.is_empty() {
-        return Ok(nothing(both, streams, error));
-    }
-    let mut result = if streams.unknown_scale {
-        unscaled::undetermined(&session, error)
-    } else {
-        let mut result = calibrate::calibrate(&session, config)?;
-        result.reasons.retain(|r| *r != error.to_string());
-        result.reasons.insert(0, error.to_string());
-        result
-    };
-    result.time_offset_s = None;
-    unscaled::name(&mut result.undetermined, OFFSET);
-    Ok(result)
-}
-
-/// The result of streams that say nothing, and why.
-fn nothing(both: &Both, streams: &Streams, error: &Error) -> Calibration {
-    let start = starts(both).first().copied().unwrap_or(0.0);
-    let chosen = choose::choose(both, start, choose::MOST_VIEWS);
-    let session = session(both, &chosen, start).session;
-    let mut result = calibrate::without_answer(&session);
-    if streams.unknown_scale {
-        result.scale = None;
-        unscaled::name(&mut result.undetermined, unscaled::SCALE);
-    }
-    result.reasons.push(error.to_string());
-    unscaled::name(&mut result.undetermined, &unscaled::camera(&session));
-    result.time_offset_s = None;
-    unscaled::name(&mut result.undetermined, OFFSET);
-    result
-}
-
-/// A finding where the motion repeats.
-fn ambiguous(rivals: &[f64]) -> Option<Warning> {
-    let others_s = rivals.to_vec();
-    (!rivals.is_empty()).then(|| StreamFinding::OffsetAmbiguous { others_s }.into())
-}
-
-/// What to know about the offset and the views.
-fn told(result: &Calibration, chosen: usize, samples: usize, likeness: f64) -> Vec<Warning> {
-    let offset = result.time_offset_s.zip(result.time_offset_sigma_s);
-    let offset = offset.map_or(StreamFinding::OffsetUndetermined, |(offset_s, sigma_s)| {
-        StreamFinding::Offset { offset_s, sigma_s, chosen, of: samples }
-    });
-    let alike = StreamFinding::NeighboursAlike { correlation: likeness };
-    let alike = (likeness > 0.0).then_some(alike);
-    [offset].into_iter().chain(alike).map(Warning::from).collect()
+    let all = chosen.iter().filter_map(|&k| both.moment(k, offset));
+    Session { in_sequence: true, ..Session::of_captures(both.setup, all.map(capture).collect()) }
 }
 
 #[cfg(test)]

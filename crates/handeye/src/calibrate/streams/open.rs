@@ -3,13 +3,11 @@
 //! A robot that stands still leaves everything open, one that moves at a constant velocity the
 //! offset of the clocks: the camera's place then goes along with it.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{Matrix6, Vector6};
 
 use super::{choose::Both, stream::Stream};
 use crate::{
-    Error,
+    Error, Session,
     calibrate::{
         settle::{Settled, Stand},
         unknown,
@@ -128,10 +126,10 @@ fn cost(both: &Both, chosen: &[usize], settled: &Settled, offset: f64) -> Option
     Some(views.iter().zip(&weights).map(one).sum::<f64>() / views.len() as f64)
 }
 
-/// The mean velocity in place of each: what noise adds to them says nothing.
-pub(super) fn steadied(
-    velocities: &BTreeMap<String, Vector6<f64>>,
-) -> BTreeMap<String, Vector6<f64>> {
-    let mean = velocities.values().sum::<Vector6<f64>>() / velocities.len().max(1) as f64;
-    velocities.keys().map(|name| (name.clone(), mean)).collect()
+/// The session with the mean velocity in place of each: what noise adds to them says nothing.
+pub(super) fn steadied(mut session: Session) -> Session {
+    let all = || session.observations.iter().filter_map(|o| o.velocity);
+    let mean = all().sum::<Vector6<f64>>() / all().count().max(1) as f64;
+    session.observations.iter_mut().for_each(|o| o.velocity = o.velocity.map(|_| mean));
+    session
 }

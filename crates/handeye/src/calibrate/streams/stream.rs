@@ -15,18 +15,9 @@
 use nalgebra::{Isometry3, Vector6};
 
 use crate::{
-    Error,
+    Error, Stamped,
     math::{lie, linalg},
 };
-
-/// One pose and its time (s).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stamped<P> {
-    /// By the clock of whoever measured it, s.
-    pub time_s: f64,
-    /// The pose.
-    pub pose: P,
-}
 
 /// Poses in the order of their times.
 #[derive(Debug, Clone, PartialEq)]

@@ -86,7 +86,7 @@ impl Scene {
 }
 
 fn solved(streams: &Streams) -> Calibration {
-    calibrate_streams(streams, &Config::default()).unwrap()
+    calibrate(&streams.session(), &Config::default()).unwrap()
 }
 
 fn misses(found: &Calibration) -> (f64, f64) {
@@ -311,11 +311,11 @@ fn bad_streams_are_refused_in_words() {
     let good = Scene::new(0.0).record(1);
     let mut none = good.clone();
     none.camera.clear();
-    let said = calibrate_streams(&none, &Config::default()).unwrap_err().to_string();
+    let said = calibrate(&none.session(), &Config::default()).unwrap_err().to_string();
     assert!(said.starts_with("of the camera stream 0 samples"), "{said}");
     let mut broken = good.clone();
     broken.robot[7].time_s = f64::INFINITY;
-    let said = calibrate_streams(&broken, &Config::default()).unwrap_err().to_string();
+    let said = calibrate(&broken.session(), &Config::default()).unwrap_err().to_string();
     assert_eq!(said, "time_s of robot sample 8 is not finite");
 }
 

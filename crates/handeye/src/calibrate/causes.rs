@@ -2,7 +2,7 @@
 //! lens, the depth, or pictures against scans, as far as it is bent or off itself; that is said with the cause, and not
 //! once more as if it were a fault of its own.
 
-use handeye::{
+use crate::{
     Calibration, Intrinsics, Session, Warning,
     calibrate::result::ScanResult,
     findings::{CameraFinding, Finding, FramesFinding, TargetFinding},
@@ -57,34 +57,36 @@ fn cause_mm(warning: &Warning, scans: &ScanResult) -> Option<f64> {
     }
 }
 
-/// Says with a cause what it explains, and only there.
-pub(crate) fn tell(result: &mut Calibration, session: &Session) {
-    let Some(scans) = result.scans.clone() else { return };
+/// The result with what a cause explains said with that cause, and only there.
+pub(super) fn merged(result: Calibration, session: &Session) -> Calibration {
+    let Some(scans) = &result.scans else { return result };
+    let mut warnings = result.warnings.clone();
     let mut at = 0;
-    while let Some(cause) = result.warnings.get(at) {
-        let Some(size_mm) = cause_mm(cause, &scans) else {
+    while let Some(cause) = warnings.get(at) {
+        let Some(size_mm) = cause_mm(cause, scans) else {
             at += 1;
             continue;
         };
         let is_explained = |effect: &Effect| {
-            effect_mm(*effect, result, session, &scans).is_some_and(|e| e < size_mm)
+            effect_mm(*effect, &result, session, scans).is_some_and(|e| e < size_mm)
         };
-        let effects = result.warnings.iter().filter_map(Effect::of);
+        let effects = warnings.iter().filter_map(Effect::of);
         let explained: Vec<Effect> = effects.filter(is_explained).collect();
         if !explained.is_empty() {
             let words: Vec<&str> = explained.iter().map(|effect| effect.in_words()).collect();
-            result.warnings[at].message += &format!(
+            warnings[at].message += &format!(
                 "; it also looks like {}, no farther off than this explains, and the answer takes that into \
                  account: correct this first",
                 words.join(" and ")
             );
             let stays = |w: &Warning| Effect::of(w).is_none_or(|e| !explained.contains(&e));
-            let before = result.warnings[..at].iter().filter(|w| stays(w)).count();
-            result.warnings.retain(stays);
+            let before = warnings[..at].iter().filter(|w| stays(w)).count();
+            warnings.retain(stays);
             at = before;
         }
         at += 1;
     }
+    Calibration { warnings, ..result }.recorded()
 }
 
 /// How far an effect moves what the camera sees of the board, mm.
