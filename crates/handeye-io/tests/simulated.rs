@@ -104,7 +104,8 @@ fn views_check_the_camera_that_is_given() {
         let values = "width = 640\nheight = 480\nfy = 600.0\ncx = 319.5\ncy = 239.5\n";
         measured(&format!("{values}fx = {fx:.1}\n{calibrate}"))
     };
-    let says = |m: &measure::Measured, code: &str| m.noticed.warnings.iter().any(|w| w.code == code);
+    let says =
+        |m: &measure::Measured, code: &str| m.noticed.warnings.iter().any(|w| w.code == code);
     let asked = "calibrate = \"brown-conrady\"\n";
     assert!(!says(&given(600.0, asked), "camera-disagrees"));
     assert!(says(&given(615.0, asked), "camera-disagrees"));

@@ -2,7 +2,7 @@
 
 use handeye::{
     Calibration, Pose, Setup, Verdict, Warning,
-    calibrate::findings::{findings, record, reservation},
+    calibrate::findings::{findings, reservation},
     findings::{TouchFinding, severity::Severity},
     unjudged,
 };
@@ -12,6 +12,7 @@ fn result(verdict: Verdict, warnings: &[(&str, &str)], reasons: &[&str]) -> Cali
     result.verdict = verdict;
     result.warnings = warnings.iter().map(|(c, m)| Warning::new(c, *m)).collect();
     result.reasons = reasons.iter().map(|r| (*r).to_owned()).collect();
+    result.findings = findings(&result);
     result
 }
 
@@ -51,7 +52,7 @@ fn the_numbers_of_a_finding_stand_in_its_headline_and_in_its_data() {
         squares: None,
     };
     found.warnings.push(tip.into());
-    record(&mut found);
+    found.findings = findings(&found);
     let words = Some("Accepted, but: the answer corrects the tool's tip by 5.00 mm");
     assert_eq!(reservation(&found).as_deref(), words);
     assert_eq!(found.findings[0].data["z_mm"], -4.0);

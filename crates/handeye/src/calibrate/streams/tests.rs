@@ -1,9 +1,9 @@
 use super::*;
 use crate::{
-    Anchor, HandEye, Mount, Verdict,
+    Anchor, Base, Camera, Flange, HandEye, Mount, Setup, Streams, Target, Verdict, calibrate,
     math::{lie, random::Random},
 };
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Vector3, Vector6};
 
 type Poses<A, B> = Vec<Stamped<Pose<A, B>>>;
 
@@ -182,7 +182,7 @@ fn a_robot_that_does_not_move_leaves_the_offset_open() {
     let found = solved(&scene.record(1));
     assert_eq!(found.verdict, Verdict::Undetermined);
     assert_eq!(found.time_offset_s, None);
-    assert!(found.undetermined.iter().any(|u| u == OFFSET), "{:?}", found.undetermined);
+    assert!(found.undetermined.iter().any(|u| u == TIME_OFFSET), "{:?}", found.undetermined);
     assert!(found.hand_eye.mount_from_camera.is_none());
 }
 
@@ -204,7 +204,7 @@ fn noise_of_the_robot_is_no_motion() {
         let found = solved(&noisy_robot(&scene, seed));
         assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
         assert_eq!((found.time_offset_s, found.hand_eye.mount_from_camera), (None, None));
-        assert_eq!(found.undetermined, ["the pose of the camera on the flange", OFFSET]);
+        assert_eq!(found.undetermined, ["the pose of the camera on the flange", TIME_OFFSET]);
         assert!(found.reasons[0].contains("the robot does not move"), "{:?}", found.reasons);
     }
 }
@@ -223,7 +223,7 @@ fn noise_of_the_robot_is_no_change_of_speed() {
             assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
             assert_eq!((found.time_offset_s, found.time_offset_sigma_s), (None, None));
             let named = &found.undetermined;
-            assert!(named.iter().any(|u| u == OFFSET), "{named:?}");
+            assert!(named.iter().any(|u| u == TIME_OFFSET), "{named:?}");
             assert!(named.iter().any(|u| u.starts_with("rotation about")), "{named:?}");
             assert!(found.warnings.iter().all(|w| w.code != "time-offset-ambiguous"));
         }
@@ -240,7 +240,7 @@ fn constant_speed_leaves_the_offset_open() {
         let found = solved(&Scene { motion: screw, noise, ..Scene::new(0.3) }.record(1));
         assert_eq!(found.verdict, Verdict::Undetermined, "{:?}", found.reasons);
         assert_eq!(found.time_offset_s, None);
-        assert!(found.undetermined.iter().any(|u| u == OFFSET), "{:?}", found.undetermined);
+        assert!(found.undetermined.iter().any(|u| u == TIME_OFFSET), "{:?}", found.undetermined);
     }
 }
 
@@ -338,6 +338,6 @@ fn too_few_samples_end_with_a_verdict() {
         assert_eq!(found.verdict, Verdict::Undetermined);
         assert!(found.reasons[0].contains(said), "{:?}", found.reasons);
         assert_eq!((found.time_offset_s, found.hand_eye.mount_from_camera), (None, None));
-        assert_eq!(found.undetermined, ["the pose of the camera on the flange", OFFSET]);
+        assert_eq!(found.undetermined, ["the pose of the camera on the flange", TIME_OFFSET]);
     }
 }

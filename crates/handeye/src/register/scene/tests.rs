@@ -78,13 +78,10 @@ fn scans_are_placed_as_surely_as_they_say() {
 
 fn calibrated(cell: &Cell) -> crate::Calibration {
     let placed = placed(cell, None);
-    let observe = |(k, pose): (usize, &Option<TargetPose>)| Observation {
-        capture: format!("{k}"),
-        base_from_flange: Pose::<Base, Flange>::claim(cell.base_from_flange[k]),
-        joints: vec![],
-        corners: vec![],
-        surface: vec![],
-        candidates: pose.iter().copied().collect(),
+    let observe = |(k, pose): (usize, &Option<TargetPose>)| {
+        let robot = Pose::<Base, Flange>::claim(cell.base_from_flange[k]);
+        let bare = Observation::bare(format!("{k}"), robot, Pose::identity());
+        Observation { candidates: pose.iter().copied().collect(), ..bare }
     };
     let observations = placed.poses.iter().enumerate().map(observe).collect();
     let session = Session::of_captures(Setup::EyeInHand, observations);
