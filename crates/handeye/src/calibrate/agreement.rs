@@ -8,12 +8,11 @@ use crate::{
     calibrate::{
         config::Config,
         result::Calibration,
-        views::{Captures, FARTHEST, Views, first_report},
+        views::{Captures, Views, first_report},
     },
     estimate::evaluate,
-    findings::{CaptureFinding, RobotFinding, robot::Inverted},
-    math::linalg::median,
-    mistakes::{self, Convention},
+    findings::CaptureFinding,
+    mistakes,
     model::{session::Session, verdict::Verdict},
     solve::{
         consensus::{self, Consensus, Readings},
@@ -49,61 +48,13 @@ fn no_consensus(session: &Session, readings: &[Readings], error: &Error, result:
     suspect_conventions(readings, bare(session), None, result);
 }
 
-/// An inversion explains the data when most captures agree under it, the misfit in position falls
-/// to less than this part, and that in rotation does not rise (rotations alone often fit both ways).
-const EXPLAINS: f64 = 0.2;
-/// Of fewer captures than this only a misfit (m) as large as an inversion brings is to be explained.
-const FEWEST_TO_JUDGE: usize = 5;
-const LARGE: f64 = 0.01;
-/// A misfit (m) up to this is rounding: there is nothing to explain.
-const ROUNDING: f64 = 1e-7;
-
-/// Robot poses inverted, target poses inverted, and the other setup can explain the same data equally well; target
-/// poses from our own detection are not in doubt.
-fn inversion(
-    explaining: &[&mistakes::Evidence],
-    best: &mistakes::Evidence,
-    bare: bool,
-) -> Inverted {
-    let alike = |c: Convention| {
-        explaining.iter().any(|e| e.convention == c && e.median_m < 2.0 * best.median_m)
-    };
-    match (alike(Convention::RobotInverted), bare && alike(Convention::TargetInverted)) {
-        (true, true) => Inverted::Either,
-        (false, true) => Inverted::Target,
-        _ => Inverted::Robot,
-    }
-}
-
 fn suspect_conventions(
     readings: &[Readings],
     bare: bool,
     found: Option<&Consensus>,
     result: &mut Calibration,
 ) {
-    let all = mistakes::conventions(readings, found);
-    let declared = all.iter().find(|e| e.convention == Convention::AsDeclared).copied();
-    let better = |e: &&mistakes::Evidence| {
-        e.convention != Convention::AsDeclared
-            && (bare || e.convention != Convention::TargetInverted)
-            && 2 * e.agree > readings.len()
-            && declared.is_none_or(|d| {
-                // a few captures can be left out until the rest fits anything, and fit anything themselves
-                d.median_m > if readings.len() < FEWEST_TO_JUDGE { LARGE } else { ROUNDING }
-                    && e.agree >= d.agree
-                    && e.median_m < EXPLAINS * d.median_m
-                    && e.median_rad < 1.2 * d.median_rad + 1e-3
-            })
-    };
-    let explaining: Vec<&mistakes::Evidence> = all.iter().filter(better).collect();
-    let Some(best) = explaining.iter().min_by(|a, b| a.median_m.total_cmp(&b.median_m)) else {
-        return;
-    };
-    let finding = RobotFinding::Inverted {
-        which: inversion(&explaining, best, bare),
-        before_mm: declared.map(|d| d.median_m * 1e3),
-        after_mm: best.median_m * 1e3,
-    };
+    let Some(finding) = mistakes::inverted::inverted(readings, found, bare) else { return };
     result.reasons.push(finding.message());
     result.warnings.insert(0, finding.into());
     result.verdict = Verdict::Rejected;
@@ -134,9 +85,7 @@ pub(super) fn agree<'a>(
         Err(error) => {
             suspect_units(&session.observations.iter().collect::<Vec<_>>(), result);
             no_consensus(session, &readings, &error, result);
-            if !doubt::suspect_size(&readings, session.target.as_ref(), None, result) {
-                doubt::suspect_order(&readings, None, result);
-            }
+            doubt::suspect_order_or_size(&readings, session, None, result);
             return None;
         }
     };
@@ -146,9 +95,7 @@ pub(super) fn agree<'a>(
     let used: Vec<&Observation> = indices.iter().map(|&i| &session.observations[i]).collect();
     suspect_units(&used, result);
     rejected::name(&captures, &found, fit.as_ref(), result);
-    if !doubt::suspect_size(&readings, session.target.as_ref(), Some(&found), result)
-        && !doubt::suspect_order(&readings, Some(&found), result)
-    {
+    if !doubt::suspect_order_or_size(&readings, session, Some(&found), result) {
         suspect_conventions(&readings, bare(session), Some(&found), result);
     }
     let of = |&i: &usize| captures.view(i, found.reading[i]);
@@ -173,20 +120,8 @@ fn warn_few(used: usize, result: &mut Calibration) {
     }
 }
 
-/// Millimetres read as metres put the flange beyond any robot's reach, and the target beyond any
-/// camera's. Captures that do not belong have no say.
 fn suspect_units(used: &[&Observation], result: &mut Calibration) {
-    let reach = |o: &&Observation| o.base_from_flange.translation().norm();
-    let far = used.iter().map(reach).fold(0.0, f64::max);
-    let distance = |o: &&Observation| {
-        let seen = o.candidates.first()?;
-        Some(seen.camera_from_target.translation().norm())
-    };
-    let distance = median(used.iter().filter_map(distance));
-    let target =
-        (distance > FARTHEST).then_some(RobotFinding::TargetLengthUnit { distance_m: distance });
-    let robot = (far > FARTHEST).then_some(RobotFinding::LengthUnit { farthest_m: far });
-    for finding in target.into_iter().chain(robot) {
+    for finding in mistakes::unit::wrong_units(used) {
         result.reasons.push(finding.message());
         result.warnings.push(finding.into());
         result.verdict = Verdict::Rejected;

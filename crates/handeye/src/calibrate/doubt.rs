@@ -1,20 +1,14 @@
 //! Whether the captures that agree are the right ones: no clear majority is no answer.
 
 use crate::{
-    HandEye, PosePair, TargetModel,
+    HandEye,
     calibrate::{
         result::{Calibration, Scale},
         views::Captures,
     },
-    findings::{CaptureFinding, captures::ListedOrder},
-    math::linalg::median,
-    mistakes::{
-        self, TargetScale,
-        explain::{self},
-        score,
-        score::{Fault, Order},
-    },
-    model::verdict::Verdict,
+    findings::{CaptureFinding, Finding, TargetFinding, target::Size},
+    mistakes::{self, Evidence, score::Score},
+    model::{session::Session, verdict::Verdict},
     solve::consensus::{self, Consensus, Readings},
 };
 
@@ -69,90 +63,30 @@ fn same_answer(a: &HandEye, b: &HandEye) -> bool {
     a.angle_to(b) < SAME_ANSWER.0 && a.distance_to(b) < SAME_ANSWER.1
 }
 
-/// Captures that agree within this are taken to be in order. mm and degrees.
-const IN_ORDER: (f64, f64) = (15.0, 2.5);
-
-/// Looks for one order of all robot poses in which most captures agree, where as declared they do
-/// not; whether there is one.
-pub(super) fn suspect_order(
+/// Looks for one order of all robot poses, or one size of the target, that explains why most captures do not agree as
+/// declared; whether there is one.
+pub(super) fn suspect_order_or_size(
     readings: &[Readings],
+    session: &Session,
     found: Option<&Consensus>,
     result: &mut Calibration,
 ) -> bool {
-    let n = readings.len();
-    if found.is_some_and(|f| agrees_well(readings, f)) {
+    if found.is_some_and(|f| Score::new(readings, f).is_most(readings.len())) {
         return false;
     }
-    let in_order = |s: &score::Score| {
-        2 * s.agree > n && s.translation_mm < IN_ORDER.0 && s.rotation_deg < IN_ORDER.1
+    let evidence = Evidence {
+        setup: session.setup,
+        target: session.target.clone(),
+        names: session.observations.iter().map(|o| o.capture.clone()).collect(),
+        declared: readings.to_vec(),
+        conventions: vec![],
     };
-    let diagnosis = explain::explain(readings, &[]);
-    let order = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
-        (Fault::Order(order), Some(after)) if in_order(&after) => Some((*order, after)),
-        _ => None,
-    });
-    let Some((order, after)) = order else { return false };
-    let finding = CaptureFinding::OutOfOrder {
-        order: match order {
-            Order::Reversed => ListedOrder::Reversed,
-            Order::Shifted(k) if 2 * k > n => ListedOrder::Before(n - k),
-            Order::Shifted(k) => ListedOrder::After(k),
-        },
-        agreeing: after.agree,
-        of: n,
-        within_mm: after.translation_mm,
-    };
+    let Some(finding) = mistakes::rejecting(&evidence) else { return false };
+    if let Finding::Target(TargetFinding::ExplainsAll(Size { value, sigma, .. })) = finding {
+        result.target_scale = Some(Scale { value, sigma, used: false });
+    }
     result.reasons.insert(0, finding.message());
     result.warnings.insert(0, finding.into());
     result.verdict = Verdict::Rejected;
     true
-}
-
-/// Captures that agree under a target of another size are far nearer than under the declared one.
-const EXPLAINED_BY_SIZE: f64 = 0.2;
-
-/// Looks for one size of the target under which most captures agree, where under the declared one they do not;
-/// whether there is one.
-pub(super) fn suspect_size(
-    readings: &[Readings],
-    target: Option<&TargetModel>,
-    found: Option<&Consensus>,
-    result: &mut Calibration,
-) -> bool {
-    let Some(target) = target else { return false };
-    if found.is_some_and(|f| agrees_well(readings, f)) {
-        return false;
-    }
-    let diagnosis = explain::explain(readings, &[]);
-    let before = diagnosis.declared.map_or(f64::INFINITY, |s| s.translation_mm);
-    let size = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
-        (Fault::Scale(size), Some(after)) if after.translation_mm < EXPLAINED_BY_SIZE * before => {
-            Some(*size)
-        }
-        _ => None,
-    });
-    let Some(size) = size else { return false };
-    let finding = mistakes::size_finding(&size, target);
-    let TargetScale { value, sigma, .. } = size;
-    result.target_scale = Some(Scale { value, sigma, used: false });
-    result.reasons.insert(0, finding.message());
-    result.warnings.insert(0, finding.into());
-    result.verdict = Verdict::Rejected;
-    true
-}
-
-/// Whether most captures agree, within what robots and cameras in order do.
-fn agrees_well(readings: &[Readings], found: &Consensus) -> bool {
-    let used = (0..readings.len()).filter(|&i| found.agrees[i]);
-    let (angles, distances): (Vec<f64>, Vec<f64>) = used
-        .map(|i| {
-            let anchor_from_mount = readings[i].anchor_from_mount;
-            let camera_from_target = readings[i].camera_from_target[found.reading[i]];
-            let pair = PosePair { anchor_from_mount, camera_from_target };
-            found.hand_eye.loop_misfit(&pair)
-        })
-        .unzip();
-    2 * angles.len() > readings.len()
-        && median(distances) * 1e3 < IN_ORDER.0
-        && median(angles).to_degrees() < IN_ORDER.1
 }

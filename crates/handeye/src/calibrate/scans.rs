@@ -11,7 +11,7 @@ use crate::{
     detect,
     findings::{FramesFinding, TargetFinding, frames::OfAxes},
     mistakes::{
-        flatness::{Bend, Felt, Flatness, flatness},
+        flatness::{Bend, Flatness, ScanCorner, flatness},
         frames::{Frames, Part, TwoPlanes, frames, plane_of_points, plane_of_pose},
     },
     model::session::Session,
@@ -61,13 +61,13 @@ fn seen<'a>(session: &'a Session, target: &TargetModel, result: &Calibration) ->
 }
 
 fn flat(seen: &[Seen], target: &TargetModel) -> Option<Flatness> {
-    let felt = |s: &Seen| -> Vec<Felt> {
+    let corners = |s: &Seen| -> Vec<ScanCorner> {
         let one = |c: &SurfaceCorner| {
             Some((target.corner(c.id)?.vector().xy(), c.in_camera.vector(), c.covariance))
         };
         s.surface.iter().filter_map(one).collect()
     };
-    flatness(&seen.iter().map(felt).collect::<Vec<_>>())
+    flatness(&seen.iter().map(corners).collect::<Vec<_>>())
 }
 
 fn not_flat(bend: &Bend, captures: usize) -> Warning {
