@@ -26,13 +26,10 @@ const MOST_ROBOT_SCALE: f64 = 0.05;
 /// A mistake, and what amounts to the same in the data.
 pub(super) fn explained(case: &Case, found: &mistakes::Explanation) -> Vec<Explanation> {
     let own = Explanation {
-        code: code(&found.finding),
-        message: found.finding.message(),
         after: found.after,
         p_value: found.p_value,
         captures: case.evidence.named(&found.captures),
-        changes: vec![],
-        by_hand: None,
+        ..Explanation::new(code(&found.finding), found.finding.message(), vec![])
     };
     let left = case.evidence.names.len() - found.obsolete.len();
     let mut all = match &found.finding {

@@ -61,6 +61,12 @@ pub struct Explanation {
 }
 
 impl Explanation {
+    /// A mistake with what corrects it, for which no score speaks.
+    fn new(code: &'static str, message: String, changes: Vec<Change>) -> Self {
+        let (after, p_value, captures, by_hand) = (None, None, vec![], None);
+        Self { code, message, after, p_value, captures, changes, by_hand }
+    }
+
     /// The mistake with the keys that correct it.
     pub(crate) fn sentence(&self) -> String {
         let key = |c: &Change| match c.table {
@@ -74,7 +80,7 @@ impl Explanation {
     }
 }
 
-/// The best reading that does not explain the captures.
+/// The best convention that does not explain the captures.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunnerUp {
     /// For people.
@@ -84,7 +90,7 @@ pub struct RunnerUp {
 }
 
 /// What was found.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Checkup {
     /// Nothing is wrong that captures can tell.
     pub ok: bool,
@@ -94,13 +100,13 @@ pub struct Checkup {
     pub explanations: Vec<Explanation>,
     /// How many of the first explanations the data cannot tell apart.
     pub alike: usize,
-    /// The best reading that does not explain.
+    /// The best convention that does not explain.
     pub runner_up: Option<RunnerUp>,
     /// Captures that show the target.
     pub captures: usize,
     /// Captures that do not.
     pub not_seen: Vec<String>,
-    /// Other readings of the same numbers that were tried.
+    /// Other conventions of the same numbers that were tried.
     pub readings_tried: usize,
     /// What looked suspicious when the files were read.
     pub warnings: Vec<Warning>,
@@ -178,7 +184,12 @@ fn examine(measured: &Measured, judged: &Judged) -> Result<Checkup, Error> {
     }
     let mut checkup = match basic {
         // with another target or unit everything else looks wrong as well
-        Some(first) => Checkup { alike: 1, explanations: vec![first], ..empty(&seen) },
+        Some(first) => Checkup {
+            alike: 1,
+            explanations: vec![first],
+            captures: seen.len(),
+            ..Checkup::default()
+        },
         None => {
             let robot = rereadings(&dataset.manifest, &dataset.root, dataset)?;
             let case = case(dataset, session, text, &seen, robot);
@@ -191,21 +202,6 @@ fn examine(measured: &Measured, judged: &Judged) -> Result<Checkup, Error> {
     checkup.not_seen = blind.iter().map(name).collect();
     checkup.warnings = measured.warnings.clone();
     Ok(checkup)
-}
-
-/// A checkup of these captures without findings.
-fn empty(seen: &[usize]) -> Checkup {
-    Checkup {
-        ok: false,
-        declared: None,
-        explanations: vec![],
-        alike: 0,
-        runner_up: None,
-        captures: seen.len(),
-        not_seen: vec![],
-        readings_tried: 0,
-        warnings: vec![],
-    }
 }
 
 fn case(
@@ -350,8 +346,7 @@ fn checkup(case: &Case, found: &Diagnosis) -> Checkup {
         alike,
         runner_up,
         captures,
-        not_seen: vec![],
         readings_tried: case.robot.len(),
-        warnings: vec![],
+        ..Checkup::default()
     }
 }

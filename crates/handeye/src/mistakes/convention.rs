@@ -88,3 +88,53 @@ fn angle_difference(a: &Readings, b: &Readings) -> Option<f64> {
         .flat_map(|x| b.camera_from_target.iter().map(move |y| camera(x, y)));
     angles.map(|angle| (robot - angle).abs()).reduce(f64::min)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mistakes::tests::{in_order, with_robot};
+
+    /// The rotations transposed.
+    fn transposed(evidence: &Evidence) -> Evidence {
+        with_robot(evidence, |_, c| {
+            let p = c.anchor_from_mount;
+            Pose::from_parts(&p.rotation().transpose(), p.translation())
+        })
+    }
+
+    fn named(words: &str, of: &Evidence) -> Convention {
+        Convention { words: words.into(), captures: of.declared.clone() }
+    }
+
+    #[test]
+    fn the_right_convention_scores_as_a_robot_and_wrong_ones_far_above() {
+        let right = in_order(10, 2);
+        let wrong = transposed(&right);
+        let conventions = vec![named("wrong", &wrong), named("right", &right)];
+        let found = others(&Evidence { conventions, ..wrong.clone() }, f64::INFINITY);
+        assert_eq!(found.iter().map(|e| e.convention).collect::<Vec<_>>(), [Some(1), Some(0)]);
+        assert_eq!(found[0].finding.message(), "right");
+        assert!(found[0].score() < 3.0 && found[1].score() > 30.0, "{found:?}");
+    }
+
+    #[test]
+    fn what_is_three_times_worse_by_a_closed_form_is_not_fitted() {
+        let right = in_order(10, 2);
+        let conventions = vec![named("wrong", &transposed(&right))];
+        let score = quick_score(&conventions[0].captures);
+        let offered = Evidence { conventions, ..right };
+        assert_eq!(others(&offered, score / 2.9).len(), 1);
+        assert_eq!(others(&offered, score / 3.1).len(), 0);
+    }
+
+    #[test]
+    fn angles_of_motions_tell_a_wrong_rotation_and_no_order_of_axes() {
+        let right = in_order(10, 2);
+        assert!(angle_residual(&right.declared) < 0.01);
+        let doubled = with_robot(&right, |_, c| {
+            let p = c.anchor_from_mount;
+            Pose::from_parts(&(p.rotation() * p.rotation()), p.translation())
+        });
+        assert!(angle_residual(&doubled.declared) > SIFTED);
+    }
+}

@@ -36,3 +36,45 @@ pub(super) fn exchanged(evidence: &Evidence, outliers: &Outliers) -> Option<Expl
         ..Explanation::new(finding, scored(&corrected).map(|(after, _)| after))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mistakes::tests::{agreed, in_order, shift, with_robot};
+
+    #[test]
+    fn both_images_must_fit_the_other_robot_pose() {
+        let mut wrong = in_order(12, 2);
+        let of_two = wrong.declared[2].camera_from_target.clone();
+        wrong.declared[2].camera_from_target = wrong.declared[9].camera_from_target.clone();
+        let half = wrong.clone();
+        wrong.declared[9].camera_from_target = of_two;
+        let agreed_on = agreed(&wrong);
+        let outliers = Outliers::unfitted(&wrong.declared, &agreed_on);
+        let found = exchanged(&wrong, &outliers).unwrap();
+        assert_eq!(found.captures, [2, 9]);
+        assert!(found.score() < 3.0, "{found:?}");
+        let agreed_on = agreed(&half);
+        assert_eq!(exchanged(&half, &Outliers::unfitted(&half.declared, &agreed_on)), None);
+    }
+
+    #[test]
+    fn the_second_image_may_be_somewhat_off() {
+        let right = in_order(12, 2);
+        let with_off = |off: f64| {
+            let wrong = with_robot(&right, |k, c| match k {
+                2 => right.declared[9].anchor_from_mount * shift(off, 0.0, 0.0),
+                9 => right.declared[2].anchor_from_mount,
+                _ => c.anchor_from_mount,
+            });
+            let agreed_on = agreed(&wrong);
+            let outliers = Outliers::unfitted(&wrong.declared, &agreed_on);
+            let typical = outliers.typical.distance;
+            (partner(&outliers, 2), typical)
+        };
+        let (exact, typical) = with_off(0.0);
+        assert_eq!(exact, Some(9));
+        assert_eq!(with_off(2.0 * typical).0, Some(9));
+        assert_eq!(with_off(5.0 * typical).0, None);
+    }
+}

@@ -18,13 +18,14 @@
 
 use nalgebra::{Matrix3, Matrix6, Point3, Vector2, Vector3, Vector6};
 
+use super::thresholds::{IMPROBABLE_BEND, LEAST_BEND};
 use crate::{
     TargetModel,
     detect::surface::{MAD, tukey},
     math::{linalg::median, statistics},
 };
 
-/// A corner in a scan: its place on the board (m), in the camera (m), and covariance (m²).
+/// A corner in a scan: its position on the board (m), in the camera (m), and covariance (m²).
 pub type ScanCorner = (Vector2<f64>, Vector3<f64>, Matrix3<f64>);
 
 /// Deviation of one surface from its plane, positive away from the camera.
@@ -64,15 +65,11 @@ pub struct Flatness {
     pub corner_sigma_m: f64,
 }
 
-/// Chance of noise below which a board is called bent.
-const IMPROBABLE: f64 = 1e-4;
-/// A bend below this part of the board's size is what boards are sold with.
-const LEAST_BEND: f64 = 5e-4;
-
 impl Flatness {
     /// Whether the board is bent by more than noise shows, and more than boards are.
     pub fn is_bent(&self, target: &TargetModel) -> bool {
-        self.board.chance < IMPROBABLE && self.board.peak_to_valley_m > LEAST_BEND * extent(target)
+        self.board.chance < IMPROBABLE_BEND
+            && self.board.peak_to_valley_m > LEAST_BEND * extent(target)
     }
 }
 

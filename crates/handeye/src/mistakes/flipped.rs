@@ -106,3 +106,60 @@ fn turn_about_middle(target: &TargetModel, degrees: u32) -> Pose<Target, Target>
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), f64::from(degrees).to_radians());
     Pose::from_parts(turn.matrix(), middle - turn * middle)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mistakes::{
+        Evidence,
+        tests::{agreed, in_order, shift, with_target_moved},
+    };
+
+    fn boards(evidence: &Evidence, from_elsewhere: bool) -> Boards<'_> {
+        Boards {
+            target: evidence.target.as_ref().filter(|_| !from_elsewhere),
+            target_from_corner: Pose::identity(),
+            from_elsewhere: vec![from_elsewhere; evidence.names.len()],
+        }
+    }
+
+    /// Sets in which one pose is left of every capture: an ambiguous one offers the right one beside the wrong one.
+    fn unambiguous(captures: usize) -> Evidence {
+        let mut evidence = in_order(captures, 8);
+        let found = agreed(&evidence);
+        for (capture, k) in evidence.declared.iter_mut().zip(found.reading) {
+            capture.camera_from_target = vec![capture.camera_from_target[k]];
+        }
+        evidence
+    }
+
+    #[test]
+    fn a_half_turn_about_the_middle_of_the_corners_restores_a_flipped_board() {
+        let right = unambiguous(12);
+        let target = right.target.clone().unwrap();
+        for (degrees, expected) in [(180, Some(180)), (90, None)] {
+            let wrong = with_target_moved(&right, &[4], turn_about_middle(&target, degrees));
+            let found = agreed(&wrong);
+            let outliers = Outliers::unfitted(&wrong.declared, &found);
+            assert_eq!(outliers.outside(), [4]);
+            let flip = flipped(&outliers, &boards(&wrong, false), None, 4);
+            assert_eq!(flip.map(|f| f.degrees), expected, "a board of 9 x 6 has no quarter turns");
+        }
+    }
+
+    #[test]
+    fn poses_from_elsewhere_flip_about_one_point_that_they_tell() {
+        let right = unambiguous(12);
+        let half = turn_about_middle(right.target.as_ref().unwrap(), 180);
+        let about = shift(0.02, 0.01, 0.0) * half * shift(-0.02, -0.01, 0.0);
+        let wrong = with_target_moved(&right, &[4, 7], about);
+        let found = agreed(&wrong);
+        let outliers = Outliers::unfitted(&wrong.declared, &found);
+        let boards = boards(&wrong, true);
+        let turn = common_half_turn(&outliers, &boards).unwrap();
+        let flip = flipped(&outliers, &boards, Some(turn), 4).unwrap();
+        let at = 0.5 * about.translation().xy();
+        assert!(flip.about.is_some_and(|p| (p - at).norm() < 2e-3), "{:?} {at}", flip.about);
+        assert!(flipped(&outliers, &boards, None, 4).is_none());
+    }
+}

@@ -56,3 +56,46 @@ fn partners(
     let all: Vec<usize> = (0..n).filter(has).collect();
     (!all.is_empty()).then_some(all)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mistakes::tests::{in_order, shift, with_robot, with_target_moved};
+
+    #[test]
+    fn a_robot_pose_stored_twice_is_frozen_up_to_a_tenth_of_a_millimetre() {
+        let right = in_order(8, 1);
+        assert_eq!(robot(&right), None);
+        let near = |by: f64| {
+            with_robot(&right, |k, c| match k {
+                5 => right.declared[4].anchor_from_mount * shift(by, 0.0, 0.0),
+                _ => c.anchor_from_mount,
+            })
+        };
+        let found = robot(&near(0.9e-4)).unwrap();
+        assert_eq!(
+            (found.captures.as_slice(), found.obsolete.as_slice()),
+            (&[4, 5][..], &[4, 5][..])
+        );
+        assert_eq!(robot(&near(1.1e-4)), None);
+    }
+
+    #[test]
+    fn an_image_stored_twice_shows_the_same_to_a_millimetre() {
+        let mut right = in_order(8, 1);
+        assert_eq!(camera(&right), None);
+        right.declared[3].camera_from_target = right.declared[6].camera_from_target.clone();
+        assert_eq!(camera(&right).unwrap().captures, [3, 6]);
+        let beside = |by| camera(&with_target_moved(&right, &[3], shift(by, 0.0, 0.0)));
+        assert!(beside(0.9e-3).is_some());
+        assert_eq!(beside(1.1e-3), None);
+    }
+
+    #[test]
+    fn a_capture_stored_twice_repeats_and_is_not_frozen() {
+        let mut right = in_order(8, 1);
+        right.declared[2] = right.declared[1].clone();
+        assert_eq!(repeated(&right).unwrap().captures, [1, 2]);
+        assert_eq!((robot(&right), camera(&right)), (None, None));
+    }
+}

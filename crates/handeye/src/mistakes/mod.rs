@@ -117,12 +117,20 @@ fn about_all(evidence: &Evidence) -> AboutAll {
     let mut all = convention::others(evidence, before);
     all.extend(order::orders(evidence));
     all.extend(size.clone());
+    let (alike, others) = explaining_alike(all, before);
+    AboutAll { declared, alike, others, size }
+}
+
+/// The explanations that the data cannot tell apart, where the best lowers the score enough; and all others, best first.
+fn explaining_alike(
+    mut all: Vec<Explanation>,
+    before: f64,
+) -> (Vec<Explanation>, Vec<Explanation>) {
     all.sort_by(|a, b| a.score().total_cmp(&b.score()));
     let enough = EXPLAINS * before;
     let best = all.first().map_or(f64::INFINITY, Explanation::score);
     let limit = if best < enough { enough.min(ALIKE * best) } else { 0.0 };
-    let (alike, others) = all.into_iter().partition(|e| e.score() < limit);
-    AboutAll { declared, alike, others, size }
+    all.into_iter().partition(|e| e.score() < limit)
 }
 
 /// Captures that were exchanged or taken while something was moved; those that disagree where neither is so.
@@ -135,3 +143,6 @@ fn about_outliers(evidence: &Evidence, outliers: &Outliers) -> Vec<Explanation> 
         known
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -70,3 +70,74 @@ fn worst(outliers: &Outliers, run: &[usize], answer: &HandEye) -> f64 {
     };
     run.iter().map(best).fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        Setup,
+        findings::Finding,
+        mistakes::tests::{agreed, in_order, shift, with_robot},
+    };
+
+    fn found(wrong: &Evidence) -> Option<(bool, bool, Explanation)> {
+        let agreed_on = agreed(wrong);
+        let found = moved(wrong, &Outliers::unfitted(&wrong.declared, &agreed_on))?;
+        let Finding::Movement(MovementFinding::Elsewhere { is_target, is_now, .. }) = found.finding
+        else {
+            panic!("{found:?}")
+        };
+        Some((is_target, is_now, found))
+    }
+
+    /// A target that lies 3 cm beside is the same as a robot that says so in its base.
+    fn target_moved(right: &Evidence, run: std::ops::Range<usize>) -> Evidence {
+        with_robot(right, |k, c| match run.contains(&k) {
+            true => shift(0.03, 0.0, 0.0) * c.anchor_from_mount,
+            false => c.anchor_from_mount,
+        })
+    }
+
+    /// A camera that sits 3 cm beside is the same as a flange that does.
+    fn camera_moved(right: &Evidence, run: std::ops::Range<usize>) -> Evidence {
+        with_robot(right, |k, c| match run.contains(&k) {
+            true => c.anchor_from_mount * shift(0.03, 0.0, 0.0),
+            false => c.anchor_from_mount,
+        })
+    }
+
+    #[test]
+    fn a_target_that_lay_elsewhere_is_left_out_during_that_time() {
+        let (is_target, is_now, found) = found(&target_moved(&in_order(14, 1), 4..8)).unwrap();
+        assert!(is_target && !is_now);
+        assert_eq!((found.captures, found.obsolete), (vec![4, 5, 6, 7], vec![4, 5, 6, 7]));
+    }
+
+    #[test]
+    fn of_a_bumped_camera_the_captures_before_are_left_out() {
+        let right = in_order(14, 1);
+        assert_eq!(right.setup, Setup::EyeInHand);
+        let (is_target, is_now, found) = found(&camera_moved(&right, 9..14)).unwrap();
+        assert!(!is_target && is_now);
+        assert_eq!((found.captures.len(), found.obsolete), (5, (0..9).collect()));
+    }
+
+    #[test]
+    fn one_capture_is_no_run_and_neither_are_two_apart_or_half_of_all() {
+        let right = in_order(14, 1);
+        assert!(found(&target_moved(&right, 4..5)).is_none());
+        let apart = target_moved(&target_moved(&right, 4..5), 8..9);
+        assert!(found(&apart).is_none());
+        assert!(found(&target_moved(&in_order(6, 1), 3..6)).is_none());
+    }
+
+    #[test]
+    fn outliers_in_a_run_that_disagree_with_one_another_moved_nowhere() {
+        let right = in_order(14, 1);
+        let wrong = with_robot(&right, |k, c| match k {
+            4..8 => shift(0.03 * k as f64, 0.02 * (k * k) as f64, 0.0) * c.anchor_from_mount,
+            _ => c.anchor_from_mount,
+        });
+        assert!(found(&wrong).is_none());
+    }
+}

@@ -108,3 +108,48 @@ fn reordered(captures: &[Readings], order: Order) -> Vec<Readings> {
     };
     (0..n).map(with).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        findings::Finding,
+        mistakes::tests::{in_order, with_robot},
+    };
+
+    fn best(evidence: &Evidence) -> (ListedOrder, [String; 2], f64) {
+        let found = orders(evidence);
+        let best = found.iter().min_by(|a, b| a.score().total_cmp(&b.score())).unwrap();
+        let Finding::Captures(CaptureFinding::OutOfOrder { order, example, .. }) = &best.finding
+        else {
+            panic!("{best:?}")
+        };
+        (*order, example.clone(), best.score())
+    }
+
+    #[test]
+    fn shifted_and_reversed_lists_are_found_with_an_example() {
+        let right = in_order(10, 4);
+        let listed = |of: &dyn Fn(usize) -> usize| {
+            with_robot(&right, |k, _| right.declared[of(k)].anchor_from_mount)
+        };
+        let (order, example, score) = best(&listed(&|k| (k + 1) % 10));
+        assert_eq!((order, example), (ListedOrder::Before(1), ["001".into(), "000".into()]));
+        assert!(score < 3.0, "{score}");
+        let (order, example, _) = best(&listed(&|k| (k + 7) % 10));
+        assert_eq!((order, example), (ListedOrder::After(3), ["000".into(), "003".into()]));
+        assert_eq!(best(&listed(&|k| 9 - k)).0, ListedOrder::Reversed);
+    }
+
+    #[test]
+    fn no_other_order_fits_a_list_in_order() {
+        let (_, _, score) = best(&in_order(10, 4));
+        assert!(score > 20.0, "{score}");
+    }
+
+    #[test]
+    fn three_captures_have_no_order() {
+        assert_eq!(orders(&in_order(3, 4)), []);
+        assert_eq!(FEWEST, 4);
+    }
+}

@@ -20,3 +20,32 @@ pub(super) fn owner(outliers: &Outliers, i: usize) -> Option<usize> {
     let taken = outliers.others(i).filter(|&j| outliers.fits(j, i));
     taken.min_by_key(|&j| (j + 1 != i, j.abs_diff(i), j))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mistakes::tests::{agreed, in_order, with_robot};
+
+    #[test]
+    fn a_pose_that_was_read_too_early_has_its_owner_before() {
+        let right = in_order(12, 5);
+        let stale =
+            with_robot(&right, |k, _| right.declared[if k == 6 { 5 } else { k }].anchor_from_mount);
+        let found = agreed(&stale);
+        let outliers = Outliers::unfitted(&stale.declared, &found);
+        assert_eq!(outliers.outside(), [6]);
+        assert!(fitting(&outliers, 6).is_empty());
+        assert_eq!(owner(&outliers, 6), Some(5));
+    }
+
+    #[test]
+    fn an_image_that_fits_two_captures_with_one_robot_pose_fits_one() {
+        let mut wrong = in_order(12, 5);
+        wrong.declared[9].camera_from_target = wrong.declared[2].camera_from_target.clone();
+        let found = agreed(&wrong);
+        assert_eq!(fitting(&Outliers::unfitted(&wrong.declared, &found), 9), [2]);
+        wrong.declared[3] = wrong.declared[2].clone();
+        let found = agreed(&wrong);
+        assert_eq!(fitting(&Outliers::unfitted(&wrong.declared, &found), 9), [2]);
+    }
+}

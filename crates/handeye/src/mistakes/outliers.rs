@@ -111,3 +111,64 @@ impl<'a> Outliers<'a> {
         is_same_robot(&self.captures[i], &self.captures[j])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        estimate::{self, KnownNoise},
+        mistakes::tests::{agreed, in_order, shift, with_robot},
+    };
+
+    #[test]
+    fn as_good_as_those_that_agree_is_three_times_their_median() {
+        let right = in_order(12, 4);
+        let found = agreed(&right);
+        let outliers = Outliers::unfitted(&right.declared, &found);
+        let mut view = outliers.candidates[0][found.reading[0]].clone();
+        // a capture whose loop is open by so much along one axis
+        let mut open = |distance: f64| {
+            let p = &outliers.candidates[0][found.reading[0]].pair;
+            let closing = found.hand_eye.loop_error(p).inverse();
+            view.pair.camera_from_target =
+                p.camera_from_target * closing * shift(distance, 0.0, 0.0);
+            outliers.is_restored(&view)
+        };
+        let typical = outliers.typical.distance;
+        assert!(open(0.95 * typical) && !open(1.05 * typical));
+    }
+
+    #[test]
+    fn with_a_fit_noise_restores_what_is_farther_than_typical() {
+        let right = in_order(12, 4);
+        let found = agreed(&right);
+        let unfitted = Outliers::unfitted(&right.declared, &found);
+        let views: Vec<View> =
+            (0..12).map(|i| unfitted.candidates[i][found.reading[i]].clone()).collect();
+        let fit = estimate::fit_views(&views, &found.hand_eye, &KnownNoise::default(), right.setup);
+        let fit = fit.unwrap();
+        let fitted = Outliers::new(
+            &right.declared,
+            unfitted.candidates.clone(),
+            &found,
+            Some((&fit, right.setup)),
+        );
+        assert!(fitted.is_fitted() && !unfitted.is_fitted());
+        assert!(views.iter().all(|view| fitted.is_restored(view)));
+        let mut beyond = views[0].clone();
+        beyond.pair.anchor_from_mount = shift(0.05, 0.0, 0.0) * beyond.pair.anchor_from_mount;
+        assert!(!fitted.is_restored(&beyond));
+    }
+
+    #[test]
+    fn captures_outside_are_those_that_show_the_target_and_do_not_agree() {
+        let right = in_order(12, 4);
+        let mut wrong = with_robot(&right, |k, c| match k {
+            3 => shift(0.1, 0.2, 0.0) * c.anchor_from_mount,
+            _ => c.anchor_from_mount,
+        });
+        wrong.declared[8].camera_from_target.clear();
+        let found = agreed(&wrong);
+        assert_eq!(Outliers::unfitted(&wrong.declared, &found).outside(), [3]);
+    }
+}

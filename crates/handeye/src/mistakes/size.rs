@@ -92,7 +92,7 @@ fn distinct(captures: &[Readings]) -> Vec<Readings> {
 }
 
 /// Captures as they would be with a target `s` times as large.
-fn rescaled(captures: &[Readings], s: f64) -> Vec<Readings> {
+pub(super) fn rescaled(captures: &[Readings], s: f64) -> Vec<Readings> {
     let one = |c: &Readings| Readings {
         anchor_from_mount: c.anchor_from_mount,
         camera_from_target: c.camera_from_target.iter().map(|p| p.farther(s)).collect(),
@@ -210,4 +210,39 @@ fn of_any_size(view: &View) -> View {
     let mut by = SMatrix::<f64, 6, CAMERA>::zeros();
     by.set_column(TARGET_SCALE, &Sight::by_size(&view.pair.camera_from_target));
     View { sight: Some(Sight::moving(by).into()), ..view.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::findings::Finding;
+    use crate::mistakes::{score::scored, tests::in_order};
+
+    /// The size that is found of boards that are declared `declared` times as large as they are.
+    fn found(declared: f64, seed: u64) -> Option<f64> {
+        let right = in_order(15, seed);
+        let wrong = Evidence { declared: rescaled(&right.declared, declared), ..right };
+        let found = wrong_size(&wrong, scored(&wrong.declared).as_ref())?;
+        let Finding::Target(TargetFinding::ExplainsAll(size)) = found.finding else { return None };
+        assert!((size.value - 1.0 / declared).abs() < 5.0 * size.sigma, "{size:?}");
+        Some(size.value)
+    }
+
+    #[test]
+    fn a_size_is_found_from_hundredfold_down_to_what_printers_do() {
+        for declared in [0.01, 0.5, 1.1, 10.0, 100.0] {
+            assert!(found(declared, 3).is_some(), "{declared}");
+        }
+        assert!(found(1.02, 3).is_some());
+        assert_eq!(found(1.004, 3), None);
+        assert_eq!(found(1.0, 3), None);
+    }
+
+    #[test]
+    fn robot_positions_in_another_unit_are_no_size() {
+        let right = in_order(15, 4);
+        let in_millimetres =
+            crate::mistakes::tests::with_robot(&right, |_, c| c.anchor_from_mount.farther(1e3));
+        assert_eq!(wrong_size(&in_millimetres, None), None);
+    }
 }

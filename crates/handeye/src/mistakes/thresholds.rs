@@ -69,3 +69,12 @@ pub(crate) const SAME_ROBOT: Residual = Residual { angle: 1e-4, distance: 1e-4 }
 pub(crate) const SAME_VIEW: Residual = Residual { angle: 3e-3, distance: 1e-3 };
 /// A motion beyond this is none of noise, of robot or camera.
 pub(crate) const MOTION: Residual = Residual { angle: 0.03, distance: 0.01 };
+
+/// Chance of noise below which a board is called bent.
+pub(crate) const IMPROBABLE_BEND: f64 = 1e-4;
+/// A bend below this part of the board's size is what boards are sold with.
+pub(crate) const LEAST_BEND: f64 = 5e-4;
+/// Chance of noise below which scale, tilt or shift between images and scans is proven: three parts are asked for.
+pub(crate) const IMPROBABLE_FRAME: f64 = 1e-5;
+/// A part is separable from the others where it is so many standard deviations when all are free.
+pub(crate) const SEPARABLE: f64 = 3.0;
