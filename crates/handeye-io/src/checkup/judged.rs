@@ -56,7 +56,8 @@ impl<'a> Judged<'a> {
         }
         let explained = |warning: &handeye::Warning| {
             let (code, by_hand) = ABOUT_TOUCHES.iter().find(|(code, _)| *code == warning.code)?;
-            Some(by_hand_alone(code, &warning.message, Some((*by_hand).to_owned())))
+            let by_hand = Some((*by_hand).to_owned());
+            Some(Explanation { by_hand, ..Explanation::new(code, warning.message.clone(), vec![]) })
         };
         let warnings = self.calibration().map_or(&[][..], |result| &result.warnings);
         warnings.iter().filter_map(explained).collect()
@@ -72,21 +73,8 @@ impl<'a> Judged<'a> {
         };
         let explained = |f: JudgedFinding| {
             let code = severity::known(&f.code).unwrap_or(REJECTED);
-            by_hand_alone(code, &f.message, f.advice)
+            Explanation { by_hand: f.advice, ..Explanation::new(code, f.message, vec![]) }
         };
         findings::findings(result).into_iter().filter(matters).map(explained).collect()
-    }
-}
-
-/// An explanation that no key of the manifest corrects.
-fn by_hand_alone(code: &'static str, message: &str, by_hand: Option<String>) -> Explanation {
-    Explanation {
-        code,
-        message: message.to_owned(),
-        after: None,
-        p_value: None,
-        captures: vec![],
-        changes: vec![],
-        by_hand,
     }
 }

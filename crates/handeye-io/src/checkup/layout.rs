@@ -39,7 +39,7 @@ const FEWEST_LISTED: usize = 8;
 /// A layout explains a list of corners to this share of their spread in the image ...
 const MOST_RESIDUAL: f64 = 0.02;
 /// ... all of them but this share.
-const MOST_LEFT_OUT: f64 = 0.1;
+const MOST_OUTLIERS: f64 = 0.1;
 /// Dictionaries that boards are printed with.
 const DICTIONARIES: [&str; 6] = [
     "DICT_4X4_1000",
@@ -119,7 +119,7 @@ fn fits(list: &[ImageCorner], target: &TargetModel, camera: &Intrinsics) -> bool
     let spread = (spread / list.len() as f64).sqrt();
     let is_fit = |posed: &PosedTarget| {
         posed.rms_px < MOST_RESIDUAL * spread
-            && (posed.left_out.len() as f64) < MOST_LEFT_OUT * list.len() as f64
+            && (posed.left_out.len() as f64) < MOST_OUTLIERS * list.len() as f64
     };
     let known = list.iter().all(|corner| target.corner(corner.id).is_some());
     known
@@ -156,15 +156,7 @@ fn other_layout(dataset: &Dataset, more: f64) -> Option<Explanation> {
 
 fn explanation(layout: &Layout, message: String) -> Explanation {
     let by_hand = layout.changes.is_empty().then(|| "write [target] anew".to_owned());
-    Explanation {
-        code: "target-layout",
-        message,
-        after: None,
-        p_value: None,
-        captures: vec![],
-        changes: layout.changes.clone(),
-        by_hand,
-    }
+    Explanation { by_hand, ..Explanation::new("target-layout", message, layout.changes.clone()) }
 }
 
 /// Whether most captures do not show the declared target, or only a small part of it.

@@ -1,32 +1,30 @@
-//! What is wrong with a dataset: the mistakes that explain it, in words and as changes of its
-//! manifest.
+//! What is wrong with a dataset: the mistakes that explain it ([`handeye::mistakes`]), and which keys of its manifest
+//! correct them.
 
 mod amend;
+mod explained;
 mod judged;
 mod layout;
 mod scan_unit;
-mod words;
 
 use std::path::Path;
 
 use handeye::{
-    Base, Flange, Pose, Session, Setup, Target, TargetModel, Warning,
-    mistakes::{
-        explain::{self, Diagnosis},
-        score::{self, Fault, Finding, Score},
-    },
+    Base, Flange, Pose, Session, Target, TargetModel, Warning,
+    mistakes::{self, Convention, Diagnosis, Evidence, score::Score},
     solve::consensus::Readings,
 };
 use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
 
+use explained::Case;
 use judged::Judged;
 
 pub use amend::apply;
 
 use crate::{
     Dataset, Error, Place, Shape,
-    dataset::{self, Rereading, rereadings},
+    dataset::{Rereading, rereadings},
     error::malformed,
     files,
     measure::{self, Measured},
@@ -63,6 +61,12 @@ pub struct Explanation {
 }
 
 impl Explanation {
+    /// A mistake with what corrects it, for which no score speaks.
+    fn new(code: &'static str, message: String, changes: Vec<Change>) -> Self {
+        let (after, p_value, captures, by_hand) = (None, None, vec![], None);
+        Self { code, message, after, p_value, captures, changes, by_hand }
+    }
+
     /// The mistake with the keys that correct it.
     pub(crate) fn sentence(&self) -> String {
         let key = |c: &Change| match c.table {
@@ -76,7 +80,7 @@ impl Explanation {
     }
 }
 
-/// The best reading that does not explain the captures.
+/// The best convention that does not explain the captures.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunnerUp {
     /// For people.
@@ -86,7 +90,7 @@ pub struct RunnerUp {
 }
 
 /// What was found.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Checkup {
     /// Nothing is wrong that captures can tell.
     pub ok: bool,
@@ -96,13 +100,13 @@ pub struct Checkup {
     pub explanations: Vec<Explanation>,
     /// How many of the first explanations the data cannot tell apart.
     pub alike: usize,
-    /// The best reading that does not explain.
+    /// The best convention that does not explain.
     pub runner_up: Option<RunnerUp>,
     /// Captures that show the target.
     pub captures: usize,
     /// Captures that do not.
     pub not_seen: Vec<String>,
-    /// Other readings of the same numbers that were tried.
+    /// Other conventions of the same numbers that were tried.
     pub readings_tried: usize,
     /// What looked suspicious when the files were read.
     pub warnings: Vec<Warning>,
@@ -114,21 +118,6 @@ impl Checkup {
         let first = self.explanations.first()?;
         (self.alike == 1 && !first.changes.is_empty()).then_some(first)
     }
-}
-
-/// The dataset and all that is known of it.
-struct Case {
-    setup: Setup,
-    target: Option<TargetModel>,
-    /// The text of the manifest.
-    text: String,
-    /// Names of the captures that show the target.
-    names: Vec<String>,
-    /// Poses of the board come from elsewhere: nobody knows their direction.
-    bare: bool,
-    robot: Vec<Rereading>,
-    declared: Vec<Readings>,
-    readings: Vec<Vec<Readings>>,
 }
 
 /// Looks for mistakes in the dataset of a manifest whose names are relative to `root`; `progress`
@@ -190,16 +179,21 @@ fn examine(measured: &Measured, judged: &Judged) -> Result<Checkup, Error> {
         (0..dataset.captures.len()).partition(|&i| !session.observations[i].candidates.is_empty());
     let name = |i: &usize| session.observations[*i].capture.clone();
     let basic = basic_mistake(dataset, measured)?;
-    if seen.len() < score::FEWEST && basic.is_none() {
+    if seen.len() < mistakes::FEWEST && basic.is_none() {
         return Err(too_few(dataset, seen.len(), measured.noticed.not_found.first()));
     }
     let mut checkup = match basic {
         // with another target or unit everything else looks wrong as well
-        Some(first) => Checkup { alike: 1, explanations: vec![first], ..empty(&seen) },
+        Some(first) => Checkup {
+            alike: 1,
+            explanations: vec![first],
+            captures: seen.len(),
+            ..Checkup::default()
+        },
         None => {
             let robot = rereadings(&dataset.manifest, &dataset.root, dataset)?;
             let case = case(dataset, session, text, &seen, robot);
-            let mut found = checkup(&case, &explain::explain(&case.declared, &case.readings));
+            let mut found = checkup(&case, &mistakes::diagnose(&case.evidence));
             add_layout(&mut found, dataset);
             add_touches(&mut found, judged);
             found
@@ -210,21 +204,6 @@ fn examine(measured: &Measured, judged: &Judged) -> Result<Checkup, Error> {
     Ok(checkup)
 }
 
-/// A checkup of these captures without findings.
-fn empty(seen: &[usize]) -> Checkup {
-    Checkup {
-        ok: false,
-        declared: None,
-        explanations: vec![],
-        alike: 0,
-        runner_up: None,
-        captures: seen.len(),
-        not_seen: vec![],
-        readings_tried: 0,
-        warnings: vec![],
-    }
-}
-
 fn case(
     dataset: &Dataset,
     session: &Session,
@@ -232,19 +211,19 @@ fn case(
     seen: &[usize],
     robot: Vec<Rereading>,
 ) -> Case {
-    Case {
+    let convention = |r: &Rereading| Convention {
+        words: r.words.clone(),
+        captures: of_session(session, seen, |i| r.base_from_flange[i]),
+    };
+    let evidence = Evidence {
         setup: dataset.setup,
         target: dataset.target.clone(),
-        text,
         names: seen.iter().map(|i| session.observations[*i].capture.clone()).collect(),
-        bare: session.observations.iter().all(|o| o.corners.is_empty()),
-        readings: robot
-            .iter()
-            .map(|r| of_session(session, seen, |i| r.base_from_flange[i]))
-            .collect(),
-        robot,
         declared: of_session(session, seen, |i| session.observations[i].base_from_flange),
-    }
+        conventions: robot.iter().map(convention).collect(),
+    };
+    let bare = session.observations.iter().all(|o| o.corners.is_empty());
+    Case { text, bare, robot, evidence }
 }
 
 /// Another layout of the target, or scans in another unit: with these nothing else can be judged.
@@ -263,7 +242,7 @@ pub(crate) fn basic_mistake(
 /// Another layout of the target, where the captures contradict one another and nothing explains it.
 fn add_layout(found: &mut Checkup, dataset: &Dataset) {
     let explained = |e: &Explanation| !SAY_LITTLE.contains(&e.code);
-    let most_agree = found.declared.is_some_and(|d| 2 * d.agree > found.captures);
+    let most_agree = found.declared.is_some_and(|d| d.is_most(found.captures));
     if found.ok || most_agree || found.explanations.iter().any(explained) {
         return;
     }
@@ -320,7 +299,7 @@ pub(crate) fn diagnosis(dataset: &Dataset, measured: &Measured) -> Option<String
 fn too_few(dataset: &Dataset, seen: usize, reason: Option<&(String, String)>) -> Error {
     let what = format!(
         "the target was seen in {seen} captures, {} are needed to contradict a mistake",
-        score::FEWEST
+        mistakes::FEWEST
     );
     let advice = reason.map_or("add captures".into(), |(capture, why)| {
         let which = match dataset.shape {
@@ -352,161 +331,22 @@ fn of_session(
 }
 
 fn checkup(case: &Case, found: &Diagnosis) -> Checkup {
-    let mut explanations = Vec::new();
-    let mut alike = 0;
-    for (k, finding) in found.findings.iter().enumerate() {
-        let same = explained(case, finding);
-        if k < found.alike {
-            alike += same.len();
-        }
-        explanations.extend(same);
-    }
+    let of = |e: &mistakes::Explanation| explained::explained(case, e);
+    let alike = found.explanations[..found.alike].iter().map(|e| of(e).len()).sum();
+    let explanations: Vec<Explanation> = found.explanations.iter().flat_map(of).collect();
     let runner_up = found
         .runner_up
         .as_ref()
-        .map(|(fault, after)| RunnerUp { message: words::message(case, fault), after: *after });
+        .and_then(|other| Some(RunnerUp { message: other.finding.message(), after: other.after? }));
+    let captures = case.evidence.names.len();
     Checkup {
-        ok: found.findings.is_empty() && found.declared.is_some_and(|d| agrees(&d, case)),
+        ok: explanations.is_empty() && found.declared.is_some_and(|d| d.is_most(captures)),
         declared: found.declared,
         explanations,
         alike,
         runner_up,
-        captures: case.names.len(),
-        not_seen: vec![],
-        readings_tried: case.readings.len(),
-        warnings: vec![],
+        captures,
+        readings_tried: case.robot.len(),
+        ..Checkup::default()
     }
-}
-
-/// Whether half of the captures agree, to what cells in working order reach.
-fn agrees(score: &Score, case: &Case) -> bool {
-    2 * score.agree > case.names.len()
-}
-
-/// No arm is wrong in length by more than this; a printed target may be. Of the length.
-const MOST_ROBOT_SCALE: f64 = 0.05;
-
-/// A finding, and what amounts to the same in the data.
-fn explained(case: &Case, finding: &Finding) -> Vec<Explanation> {
-    let mut all = candidates(case, finding);
-    for e in all.iter_mut().filter(|e| e.changes.is_empty()) {
-        let left = case.names.len() - words::obsolete(case, &finding.fault).len();
-        e.by_hand = Some(words::by_hand(&finding.fault, &e.captures, left));
-    }
-    all
-}
-
-fn candidates(case: &Case, finding: &Finding) -> Vec<Explanation> {
-    let fault = &finding.fault;
-    let obsolete = words::obsolete(case, fault);
-    let own = Explanation {
-        code: words::code(fault),
-        message: words::message(case, fault),
-        after: finding.after,
-        p_value: None,
-        captures: words::captures(case, fault),
-        changes: vec![],
-        by_hand: None,
-    };
-    match fault {
-        Fault::Reading(k) => {
-            let robot = &case.robot[*k];
-            let mut changes: Vec<Change> =
-                robot.changes.iter().map(|(key, value)| change("robot", key, value)).collect();
-            if !robot.columns.is_empty() {
-                let value = dataset::columns(&robot.columns).to_string();
-                changes.push(Change { table: "robot", key: "columns".into(), value });
-            }
-            let own = Explanation { changes, ..own };
-            let turned = own.changes.iter().any(|c| c.key == "direction");
-            if turned { directions(case, own, *k) } else { vec![own] }
-        }
-        Fault::Scale(s) => {
-            let target = Explanation {
-                p_value: Some(s.p_value),
-                changes: amend::resized(&case.text, s.value),
-                ..own
-            };
-            if (s.value - 1.0).abs() > MOST_ROBOT_SCALE {
-                return vec![target];
-            }
-            let robot = Explanation {
-                code: "robot-scale",
-                message: words::robot_scale(s),
-                changes: vec![],
-                ..target.clone()
-            };
-            vec![target, robot]
-        }
-        Fault::TargetMoved(..) | Fault::CameraMoved(..) | Fault::RobotStill(_)
-            if obsolete.len() + score::FEWEST <= case.names.len() =>
-        {
-            let changes = amend::excluding(&case.text, &obsolete);
-            vec![Explanation { changes, ..own }]
-        }
-        _ => vec![own],
-    }
-}
-
-fn change(table: &'static str, key: &str, value: &str) -> Change {
-    Change { table, key: key.into(), value: format!("\"{value}\"") }
-}
-
-/// A part that rides on a flange sits nearer than this, m; the longest booms reach half as far.
-const MOST_AT_FLANGE: f64 = 1.0;
-
-/// Robot poses inverted, the camera on the other body, the board's poses inverted: with any one of
-/// them the same equation holds. Only a part that would ride too far from the flange decides.
-fn directions(case: &Case, robot: Explanation, k: usize) -> Vec<Explanation> {
-    let (own, other) = match case.setup {
-        Setup::EyeInHand => (Setup::EyeInHand, Setup::EyeToHand),
-        Setup::EyeToHand => (Setup::EyeToHand, Setup::EyeInHand),
-    };
-    let Some((_, found)) = score::scored(&case.readings[k]) else { return vec![robot] };
-    let camera = found.hand_eye.mount_from_camera.translation().norm();
-    let target = found.hand_eye.anchor_from_target.translation().norm();
-    // what rides on the flange if the setup is as declared, and if it is the other one
-    let (as_declared, turned) =
-        if own == Setup::EyeInHand { (camera, target) } else { (target, camera) };
-    let others: Vec<Change> =
-        robot.changes.iter().filter(|c| c.key != "direction").cloned().collect();
-    let and = words::besides(&case.robot[k]);
-    let with = |code, message: String, c: Change| Explanation {
-        code,
-        message: message + &and,
-        changes: others.iter().cloned().chain([c]).collect(),
-        ..robot.clone()
-    };
-    let (name, other_name) = (own.name(), other.name());
-    let first = format!("{} {}", robot.message, words::on_flange(own, as_declared));
-    let mut all = vec![
-        (as_declared, Explanation { message: first, ..robot.clone() }),
-        (
-            turned,
-            with(
-                "setup",
-                format!(
-                    "the setup is {other_name}, not {name}, and the robot poses are as declared {}",
-                    words::on_flange(other, turned)
-                ),
-                change("", "setup", other_name),
-            ),
-        ),
-    ];
-    if case.bare {
-        let value = match amend::value(&case.text, "board_poses", "direction").as_deref() {
-            Some("\"target_from_camera\"") => "camera_from_target",
-            _ => "target_from_camera",
-        };
-        let message = format!(
-            "the board poses are {value}, and the robot poses as declared {}",
-            words::on_flange(own, turned)
-        );
-        let board = with("board-inverted", message, change("board_poses", "direction", value));
-        all.push((turned, board));
-    }
-    let near = |distance: f64| distance < 0.5 * MOST_AT_FLANGE;
-    let possible =
-        |distance: f64| distance < MOST_AT_FLANGE || !(near(as_declared) || near(turned));
-    all.into_iter().filter(|(distance, _)| possible(*distance)).map(|(_, e)| e).collect()
 }

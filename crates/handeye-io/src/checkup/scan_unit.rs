@@ -62,18 +62,11 @@ fn explanation(manifest: &str, read: LengthUnit, meant: LengthUnit) -> Explanati
             vec![change("length_unit", format!("\"{}\"", meant.name()))],
         ),
     };
-    Explanation {
-        code: "scan-unit",
-        message: format!(
-            "the scans have another unit than declared: {words}. Read as declared, they put the target {factor} \
-             times {nearer} than the images do{other}"
-        ),
-        after: None,
-        p_value: None,
-        captures: vec![],
-        changes,
-        by_hand: None,
-    }
+    let message = format!(
+        "the scans have another unit than declared: {words}. Read as declared, they put the target {factor} times \
+         {nearer} than the images do{other}"
+    );
+    Explanation::new("scan-unit", message, changes)
 }
 
 fn change(key: &str, value: String) -> Change {

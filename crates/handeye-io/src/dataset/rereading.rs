@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use handeye::{Base, Flange, Pose, Tool, mistakes::score::REACH};
+use handeye::{Base, Flange, Pose, Tool, mistakes::REACH};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::{

@@ -6,7 +6,7 @@ use handeye::{
     detect::surface,
     findings::CameraFinding,
     math::linalg::median,
-    mistakes::flatness::{self, Felt},
+    mistakes::flatness::{self, ScanCorner},
 };
 
 use super::{Seen, Shot};
@@ -88,13 +88,13 @@ pub(super) fn warn_missing(shot: &Shot, seen: &Seen, warnings: &mut Vec<Warning>
 
 /// Whether the scans prove that the board is bent.
 pub(super) fn is_bent(seen: &[Seen], target: &TargetModel) -> bool {
-    let felt = |s: &Seen| -> Vec<Felt> {
+    let corners = |s: &Seen| -> Vec<ScanCorner> {
         let one = |c: &SurfaceCorner| {
             Some((target.corner(c.id)?.vector().xy(), c.in_camera.vector(), c.covariance))
         };
         s.surface.iter().filter_map(one).collect()
     };
     // a board that is named from its other end is bent alike
-    let captures: Vec<Vec<Felt>> = seen.iter().map(felt).collect();
+    let captures: Vec<Vec<ScanCorner>> = seen.iter().map(corners).collect();
     flatness::flatness(&captures).is_some_and(|f| f.is_bent(target))
 }

@@ -1,5 +1,5 @@
 //! One cause for several warnings. A board that is bent, or a scan that reads black elsewhere than white, also moves the
-//! lens, the depth, or pictures against scans, as far as it is bent or off itself; that is said with the cause, and not
+//! intrinsics, the depth, or images against scans, as far as it is bent or off itself; that is said with the cause, and not
 //! once more as if it were a fault of its own.
 
 use crate::{
@@ -103,7 +103,7 @@ fn effect_mm(
     match effect {
         Effect::Intrinsics => {
             let now = result.camera.as_ref()?.intrinsics;
-            Some(lens_moved(&session.camera?, &now) * distance)
+            Some(intrinsics_moved(&session.camera?, &now) * distance)
         }
         Effect::Depth => {
             let depth = result.depth.as_ref()?;
@@ -118,8 +118,8 @@ fn effect_mm(
     }
 }
 
-/// By how much directions, and the distances that they tell, differ between two lenses.
-fn lens_moved(given: &Intrinsics, now: &Intrinsics) -> f64 {
+/// By how much directions, and the distances that follow from them, differ between two sets of intrinsics.
+fn intrinsics_moved(given: &Intrinsics, now: &Intrinsics) -> f64 {
     let focal = (now.fx / given.fx - 1.0).abs().max((now.fy / given.fy - 1.0).abs());
     let centre = ((now.cx - given.cx) / given.fx).hypot((now.cy - given.cy) / given.fy);
     focal.max(centre)

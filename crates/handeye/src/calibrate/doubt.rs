@@ -1,16 +1,11 @@
 //! Whether the captures that agree are the right ones: no clear majority is no answer.
 
 use crate::{
-    HandEye, PosePair, TargetModel,
+    HandEye,
     calibrate::{notes::Notes, result::Scale, views::Captures},
-    findings::{CaptureFinding, captures::ListedOrder},
-    math::linalg::median,
-    mistakes::{
-        self, TargetScale,
-        explain::{self, Diagnosis},
-        score,
-        score::{Fault, Order},
-    },
+    findings::{CaptureFinding, Finding, TargetFinding, target::Size},
+    mistakes::{self, Evidence, score::Score},
+    model::session::Session,
     solve::consensus::{self, Consensus, Readings},
 };
 
@@ -58,74 +53,29 @@ fn same_answer(a: &HandEye, b: &HandEye) -> bool {
     a.angle_to(b) < SAME_ANSWER.0 && a.distance_to(b) < SAME_ANSWER.1
 }
 
-/// Captures that agree within this are taken to be in order. mm and degrees.
-const IN_ORDER: (f64, f64) = (15.0, 2.5);
-
-/// One mistake in all captures that explains why they do not agree well: a target of another size (and that size), or
-/// robot poses in another order.
-pub(super) fn suspect_whole(
+/// One order of all robot poses, or one size of the target (and that size), that explains why most captures do not agree
+/// as declared.
+pub(super) fn order_or_size(
     readings: &[Readings],
-    target: Option<&TargetModel>,
+    session: &Session,
     found: Option<&Consensus>,
 ) -> Option<(Notes, Option<Scale>)> {
-    if found.is_some_and(|f| agrees_well(readings, f)) {
+    if found.is_some_and(|f| Score::new(readings, f).is_most(readings.len())) {
         return None;
     }
-    let diagnosis = explain::explain(readings, &[]);
-    let size = target.and_then(|target| suspect_size(&diagnosis, target));
-    size.or_else(|| Some((suspect_order(readings.len(), &diagnosis)?, None)))
-}
-
-/// One order of all robot poses in which most captures agree.
-fn suspect_order(n: usize, diagnosis: &Diagnosis) -> Option<Notes> {
-    let in_order = |s: &score::Score| {
-        2 * s.agree > n && s.translation_mm < IN_ORDER.0 && s.rotation_deg < IN_ORDER.1
+    let evidence = Evidence {
+        setup: session.setup,
+        target: session.target.clone(),
+        names: session.observations.iter().map(|o| o.capture.clone()).collect(),
+        declared: readings.to_vec(),
+        conventions: vec![],
     };
-    let (order, after) = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
-        (Fault::Order(order), Some(after)) if in_order(&after) => Some((*order, after)),
-        _ => None,
-    })?;
-    Some(Notes::against(CaptureFinding::OutOfOrder {
-        order: match order {
-            Order::Reversed => ListedOrder::Reversed,
-            Order::Shifted(k) if 2 * k > n => ListedOrder::Before(n - k),
-            Order::Shifted(k) => ListedOrder::After(k),
-        },
-        agreeing: after.agree,
-        of: n,
-        within_mm: after.translation_mm,
-    }))
-}
-
-/// Captures that agree under a target of another size are far nearer than under the declared one.
-const EXPLAINED_BY_SIZE: f64 = 0.2;
-
-/// One size of the target under which most captures agree.
-fn suspect_size(diagnosis: &Diagnosis, target: &TargetModel) -> Option<(Notes, Option<Scale>)> {
-    let before = diagnosis.declared.map_or(f64::INFINITY, |s| s.translation_mm);
-    let size = diagnosis.findings.iter().find_map(|f| match (&f.fault, f.after) {
-        (Fault::Scale(size), Some(after)) if after.translation_mm < EXPLAINED_BY_SIZE * before => {
-            Some(*size)
+    let finding = mistakes::rejecting(&evidence)?;
+    let size = match finding {
+        Finding::Target(TargetFinding::ExplainsAll(Size { value, sigma, .. })) => {
+            Some(Scale { value, sigma, used: false })
         }
         _ => None,
-    })?;
-    let finding = mistakes::size_finding(&size, target);
-    let TargetScale { value, sigma, .. } = size;
-    Some((Notes::against(finding), Some(Scale { value, sigma, used: false })))
-}
-
-/// Whether most captures agree, within what robots and cameras in order do.
-fn agrees_well(readings: &[Readings], found: &Consensus) -> bool {
-    let used = (0..readings.len()).filter(|&i| found.agrees[i]);
-    let (angles, distances): (Vec<f64>, Vec<f64>) = used
-        .map(|i| {
-            let anchor_from_mount = readings[i].anchor_from_mount;
-            let camera_from_target = readings[i].camera_from_target[found.reading[i]];
-            let pair = PosePair { anchor_from_mount, camera_from_target };
-            found.hand_eye.loop_misfit(&pair)
-        })
-        .unzip();
-    2 * angles.len() > readings.len()
-        && median(distances) * 1e3 < IN_ORDER.0
-        && median(angles).to_degrees() < IN_ORDER.1
+    };
+    Some((Notes::against(finding), size))
 }

@@ -1,4 +1,4 @@
-//! What the scans say of the board, and whether pictures and scans agree.
+//! What the scans say of the board, and whether images and scans agree.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -11,7 +11,7 @@ use crate::{
     detect,
     findings::{FramesFinding, TargetFinding, frames::OfAxes},
     mistakes::{
-        flatness::{Bend, Felt, Flatness, flatness},
+        flatness::{Bend, Flatness, ScanCorner, flatness},
         frames::{Frames, Part, TwoPlanes, frames, plane_of_points, plane_of_pose},
     },
     model::session::Session,
@@ -70,13 +70,13 @@ fn seen<'a>(session: &'a Session, target: &TargetModel, result: &Calibration) ->
 }
 
 fn flat(seen: &[Seen], target: &TargetModel) -> Option<Flatness> {
-    let felt = |s: &Seen| -> Vec<Felt> {
+    let corners = |s: &Seen| -> Vec<ScanCorner> {
         let one = |c: &SurfaceCorner| {
             Some((target.corner(c.id)?.vector().xy(), c.in_camera.vector(), c.covariance))
         };
         s.surface.iter().filter_map(one).collect()
     };
-    flatness(&seen.iter().map(felt).collect::<Vec<_>>())
+    flatness(&seen.iter().map(corners).collect::<Vec<_>>())
 }
 
 fn not_flat(bend: &Bend, captures: usize) -> Warning {
@@ -126,14 +126,14 @@ pub(super) fn seen_planes(session: &Session) -> Vec<TwoPlanes> {
             plane_of_pose(&posed.pose)
         };
         let images = o.candidates.iter().filter_map(image);
-        let picture =
+        let image =
             images.min_by(|a, b| (a.0 - scan.0).norm().total_cmp(&(b.0 - scan.0).norm()))?;
-        Some(TwoPlanes { picture, scan })
+        Some(TwoPlanes { image, scan })
     };
     session.observations.iter().filter(|o| !o.corners.is_empty()).filter_map(of).collect()
 }
 
-/// Differences between picture and scan that no answer notices are not worth a word: scale, rad, m.
+/// Differences between image and scan that no answer notices are not worth a word: scale, rad, m.
 const LEAST: (f64, f64, f64) = (5e-4, 5e-4, 2e-4);
 
 fn agreement(
@@ -164,7 +164,7 @@ fn compared(session: &Session, seen: &[Seen], target: &TargetModel) -> Option<Fr
         let (posed, _) = detect::sighted(&corners, &[], target, camera, excess, &s.pose)?;
         let points: Vec<(Vector3<f64>, Matrix3<f64>)> =
             s.surface.iter().map(|c| (c.in_camera.vector(), c.covariance)).collect();
-        Some(TwoPlanes { picture: plane_of_pose(&posed.pose)?, scan: plane_of_points(&points)? })
+        Some(TwoPlanes { image: plane_of_pose(&posed.pose)?, scan: plane_of_points(&points)? })
     };
     frames(&seen.iter().filter_map(planes).collect::<Vec<_>>())
 }

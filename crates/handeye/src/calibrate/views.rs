@@ -66,6 +66,15 @@ impl Captures<'_> {
         }
     }
 
+    /// Every pose candidate of each capture.
+    pub fn candidates(&self) -> Vec<Vec<View>> {
+        let of = |i: usize| {
+            let count = self.readings[i].camera_from_target.len();
+            (0..count).map(|k| self.view(i, k)).collect()
+        };
+        (0..self.readings.len()).map(of).collect()
+    }
+
     /// Robot pose and target pose of one capture.
     pub fn pair(&self, i: usize, reading: usize) -> PosePair {
         PosePair {
@@ -74,9 +83,6 @@ impl Captures<'_> {
         }
     }
 }
-
-/// Robot positions beyond this, m, are no robot's.
-pub(crate) const FARTHEST: f64 = 20.0;
 
 pub(crate) fn pairs_of(views: &Views) -> Vec<PosePair> {
     views.views.iter().map(|v| v.pair).collect()

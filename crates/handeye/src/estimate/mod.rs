@@ -11,6 +11,7 @@ pub mod evaluate;
 pub mod extra;
 pub mod joint;
 pub mod noise;
+pub(crate) mod observability;
 pub mod predict;
 pub mod problem;
 mod system;

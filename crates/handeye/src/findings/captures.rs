@@ -34,16 +34,38 @@ pub enum CaptureFinding {
         /// Their names.
         captures: Vec<String>,
     },
-    /// One order of all robot poses makes most captures agree.
+    /// In one other order of all robot poses captures agree.
     OutOfOrder {
         /// Which.
         order: ListedOrder,
+        /// A capture whose image belongs to the robot pose of the other one.
+        example: [String; 2],
         /// Captures that agree then.
         agreeing: usize,
         /// All captures.
         of: usize,
         /// Within how much, mm.
         within_mm: f64,
+    },
+    /// The images of some were exchanged, in pairs.
+    ImagesExchanged {
+        /// Their names, pair by pair.
+        captures: Vec<String>,
+    },
+    /// Some have one robot pose, though the camera saw the target move.
+    RobotStill {
+        /// Their names.
+        captures: Vec<String>,
+    },
+    /// Some show the target in the same position, though the robot moved.
+    CameraStill {
+        /// Their names.
+        captures: Vec<String>,
+    },
+    /// Some agree with no others, and nothing known explains them.
+    Disagreeing {
+        /// Their names.
+        captures: Vec<String>,
     },
     /// Too few agree to outvote the others.
     NoMajority {
@@ -125,7 +147,7 @@ pub enum ListedOrder {
     After(usize),
 }
 
-/// Why a capture does not agree. `seen` is what poses come from: `picture` or `target pose`.
+/// Why a capture does not agree. `seen` is what poses come from: `image` or `target pose`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cause {
     /// It fits with the target rotated in its plane.
@@ -287,6 +309,10 @@ impl CaptureFinding {
             Self::Repeated { .. } => "captures-repeated",
             Self::OfOnePlace { .. } => "captures-of-one-place",
             Self::OutOfOrder { .. } => "order-shifted",
+            Self::ImagesExchanged { .. } => "captures-exchanged",
+            Self::RobotStill { .. } => "robot-pose-frozen",
+            Self::CameraStill { .. } => "camera-still",
+            Self::Disagreeing { .. } => "captures-disagree",
             Self::NoMajority { .. } | Self::TwoAnswers { .. } => "no-clear-majority",
             Self::MostMissing(MostMissing { shown: Shown::Scene, .. }) => "scans-not-placed",
             Self::MostMissing(_) => "target-not-found",
@@ -320,10 +346,35 @@ impl CaptureFinding {
                  in all of them: one capture of each position counts. Spread the captures over the workspace",
                 first_of(captures)
             ),
-            Self::OutOfOrder { order, agreeing, of, within_mm } => format!(
-                "the robot poses seem to be listed {} their captures: paired so, {agreeing} of {of} captures agree, within \
-                 {within_mm:.1} mm; check how captures and poses are paired",
-                order.in_words()
+            Self::OutOfOrder { order, example, agreeing, of, within_mm } => format!(
+                "{}{}; correct the order of the files",
+                order.in_words(example),
+                if 2 * agreeing > *of {
+                    format!(
+                        ": paired so, {agreeing} of {of} captures agree, within {within_mm:.1} mm"
+                    )
+                } else {
+                    String::new()
+                }
+            ),
+            Self::ImagesExchanged { captures } => format!(
+                "the images of these captures are exchanged: {}; exchange the files, or leave them out",
+                captures.join(", ")
+            ),
+            Self::RobotStill { captures } => format!(
+                "these captures have one and the same robot pose, but the camera saw the target move: the pose was not \
+                 read anew; leave them out: {}",
+                captures.join(", ")
+            ),
+            Self::CameraStill { captures } => format!(
+                "these captures show the target in the same place, but the robot moved: images were stored twice, or \
+                 target and camera ride together: {}",
+                captures.join(", ")
+            ),
+            Self::Disagreeing { captures } => format!(
+                "these captures agree with no others, and no single mistake explains them; look at their images and \
+                 robot poses, or leave them out: {}",
+                captures.join(", ")
             ),
             Self::NoMajority { used, of } => format!(
                 "only {used} of {of} captures agree: too few to outvote the others; take more captures, or find out \
@@ -351,9 +402,12 @@ impl CaptureFinding {
                 vec![("rejected", captures.len() as f64), ("of", count(of))]
             }
             Self::Few { used, .. } => vec![("used", count(used))],
-            Self::Repeated { captures } | Self::OfOnePlace { captures } => {
-                vec![("captures", captures.len() as f64)]
-            }
+            Self::Repeated { captures }
+            | Self::OfOnePlace { captures }
+            | Self::ImagesExchanged { captures }
+            | Self::RobotStill { captures }
+            | Self::CameraStill { captures }
+            | Self::Disagreeing { captures } => vec![("captures", captures.len() as f64)],
             Self::OutOfOrder { agreeing, of, within_mm, .. } => {
                 vec![("agreeing", count(agreeing)), ("of", count(of)), ("within_mm", *within_mm)]
             }
@@ -370,16 +424,20 @@ impl CaptureFinding {
 }
 
 impl ListedOrder {
-    fn in_words(self) -> String {
-        let places = |count: usize| match count {
-            1 => "one place".to_owned(),
-            _ => format!("{count} places"),
+    fn in_words(self, [image, pose]: &[String; 2]) -> String {
+        let captures = |count: usize| if count == 1 { "capture" } else { "captures" };
+        let which = match self {
+            Self::Reversed => {
+                return "images and robot poses are in opposite orders: the first image belongs to the last robot pose"
+                    .into();
+            }
+            Self::Before(count) => format!("{count} {} back", captures(count)),
+            Self::After(count) => format!("{count} {} further on", captures(count)),
         };
-        match self {
-            Self::Reversed => "in the opposite order of".into(),
-            Self::Before(count) => format!("{} before", places(count)),
-            Self::After(count) => format!("{} after", places(count)),
-        }
+        format!(
+            "images and robot poses are in different orders: each image belongs to the robot pose {which}, counted \
+             round (the image of capture {image} to the robot pose of {pose})"
+        )
     }
 }
 
@@ -401,13 +459,36 @@ mod tests {
     #[test]
     fn a_neighbour_means_a_shifted_order_and_another_one_an_exchange() {
         let of = |stands| Cause::FitsPoseOf {
-            seen: "picture",
+            seen: "image",
             other: Other { name: "007".into(), stands },
         };
         assert_eq!(of(Stands::After).code(), "order-shifted");
         assert!(of(Stands::After).in_words().contains("the next capture, 007: the order"));
         assert_eq!(of(Stands::Elsewhere).code(), "captures-exchanged");
         assert!(of(Stands::Elsewhere).in_words().ends_with("capture 007"));
+    }
+
+    #[test]
+    fn a_shift_is_said_with_an_example_and_with_what_agrees_where_most_do() {
+        let of = |order, agreeing| {
+            CaptureFinding::OutOfOrder {
+                order,
+                example: ["002".into(), "001".into()],
+                agreeing,
+                of: 15,
+                within_mm: 0.52,
+            }
+            .message()
+        };
+        assert_eq!(
+            of(ListedOrder::Before(1), 14),
+            "images and robot poses are in different orders: each image belongs to the robot pose 1 capture back, \
+             counted round (the image of capture 002 to the robot pose of 001): paired so, 14 of 15 captures agree, \
+             within 0.5 mm; correct the order of the files"
+        );
+        let few = of(ListedOrder::After(2), 7);
+        assert!(few.contains("2 captures further on") && !few.contains("agree"), "{few}");
+        assert!(of(ListedOrder::Reversed, 0).contains("in opposite orders"));
     }
 
     #[test]

@@ -64,6 +64,19 @@ pub enum MovementFinding {
     },
     /// The camera moved, and the captures since then do not determine an answer.
     TooFewSince(Movement, Setup),
+    /// During a run of captures the target, or the camera, was somewhere else.
+    Elsewhere {
+        /// The target, or else the camera.
+        is_target: bool,
+        /// Who carries the camera.
+        setup: Setup,
+        /// First capture of the run.
+        first: String,
+        /// Last one.
+        last: String,
+        /// Whether the run is the end of the session, so that it shows how things are now.
+        is_now: bool,
+    },
 }
 
 impl MovementFinding {
@@ -72,6 +85,13 @@ impl MovementFinding {
             Self::Displaced(..) => "captures-displaced",
             Self::Covered(..) => "moved-during-session",
             Self::AnswerOfTheEnd { .. } | Self::TooFewSince(..) => "camera-moved",
+            Self::Elsewhere { is_target, .. } => {
+                if *is_target {
+                    "target-moved"
+                } else {
+                    "camera-moved"
+                }
+            }
         }
     }
 
@@ -91,6 +111,20 @@ impl MovementFinding {
             Self::TooFewSince(movement, setup) => format!(
                 "{}, and these do not determine an answer alone: take more captures as the camera sits now",
                 in_words(movement, *setup, false)
+            ),
+            Self::Elsewhere { is_target: true, first, last, .. } => format!(
+                "the target lay elsewhere during captures {first} to {last}: it was moved in the session; leave them \
+                 out"
+            ),
+            Self::Elsewhere { is_now: true, setup, first, .. } => format!(
+                "the camera was moved on the {} before capture {first}; leave the captures before that out: the \
+                 calibration is to be for where the camera is now",
+                setup.mount()
+            ),
+            Self::Elsewhere { setup, first, last, .. } => format!(
+                "the camera sat elsewhere on the {} during captures {first} to {last}: it was moved in the session; \
+                 leave them out",
+                setup.mount()
             ),
         }
     }
@@ -114,7 +148,10 @@ impl MovementFinding {
         let (Self::Displaced(m, _)
         | Self::Covered(m, _)
         | Self::AnswerOfTheEnd { movement: m, .. }
-        | Self::TooFewSince(m, _)) = self;
+        | Self::TooFewSince(m, _)) = self
+        else {
+            return vec![];
+        };
         vec![
             ("displacement_mm", m.displacement_mm),
             ("rotation_deg", m.rotation_deg),

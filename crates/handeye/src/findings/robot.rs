@@ -12,6 +12,18 @@ pub enum RobotFinding {
         /// Median residual the other way, mm.
         after_mm: f64,
     },
+    /// Its numbers mean something else than declared.
+    OtherConvention {
+        /// What they are, and what they are declared to be.
+        words: String,
+    },
+    /// It moves farther or less far than it says, where the target's size is right.
+    Scale {
+        /// True over stated distances.
+        value: f64,
+        /// Its standard deviation.
+        sigma: f64,
+    },
     /// Robot poses beyond any robot's reach.
     LengthUnit {
         /// The farthest from the base, m.
@@ -57,8 +69,6 @@ pub enum RobotFinding {
 pub enum Inverted {
     /// Those of the robot, or the setup is the other one.
     Robot,
-    /// Those of the target.
-    Target,
     /// Either of them.
     Either,
 }
@@ -71,7 +81,6 @@ impl Inverted {
                  the camera is mounted the other way (eye-in-hand against eye-to-hand); the data cannot tell between \
                  these"
             }
-            Self::Target => "the target poses look inverted: they take camera points to the target",
             Self::Robot => {
                 "the robot poses look inverted (flange_from_base), or the camera is mounted the other way (eye-in-hand \
                  against eye-to-hand)"
@@ -84,8 +93,9 @@ impl RobotFinding {
     pub(super) fn code(&self) -> &'static str {
         match self {
             Self::Inverted { which: Inverted::Either, .. } => "poses-inverted",
-            Self::Inverted { which: Inverted::Target, .. } => "target-poses-inverted",
             Self::Inverted { which: Inverted::Robot, .. } => "robot-poses-inverted",
+            Self::OtherConvention { .. } => "reading",
+            Self::Scale { .. } => "robot-scale",
             Self::LengthUnit { .. } => "robot-length-unit",
             Self::TargetLengthUnit { .. } => "target-length-unit",
             Self::ArmDeviates { .. } => "arm-deviates",
@@ -102,6 +112,10 @@ impl RobotFinding {
                 "{}: with that the median residual falls from {} to {after_mm:.1} mm; check `direction` and `setup`",
                 which.in_words(),
                 before_mm.map_or("no agreement at all".into(), |mm| format!("{mm:.1} mm"))
+            ),
+            Self::OtherConvention { words } => words.clone(),
+            Self::Scale { value, sigma } => format!(
+                "the robot moves {value:.4} +- {sigma:.4} times as far as it says, and the target is as declared"
             ),
             Self::LengthUnit { farthest_m } => format!(
                 "the robot poses lie up to {farthest_m:.0} m from the base: were millimetres read as metres? check the \
@@ -134,12 +148,13 @@ impl RobotFinding {
                 let before = before_mm.map(|mm| ("before_mm", mm));
                 before.into_iter().chain([("after_mm", *after_mm)]).collect()
             }
+            Self::Scale { value, sigma } => vec![("value", *value), ("sigma", *sigma)],
             Self::LengthUnit { farthest_m } => vec![("farthest_m", *farthest_m)],
             Self::TargetLengthUnit { distance_m } => vec![("distance_m", *distance_m)],
             Self::ArmDeviates { before_mm, after_mm, .. } => {
                 vec![("before_mm", *before_mm), ("after_mm", *after_mm)]
             }
-            Self::JointsAndPosesDiffer { .. } => vec![],
+            Self::OtherConvention { .. } | Self::JointsAndPosesDiffer { .. } => vec![],
             Self::DeterminedByKnownPosition { given_mm, .. } => vec![("given_mm", *given_mm)],
             Self::KnownPositionDisagrees { given_mm, found_mm } => {
                 vec![("given_mm", *given_mm), ("found_mm", *found_mm)]
@@ -156,7 +171,6 @@ mod tests {
     fn an_inversion_has_a_code_for_each_kind() {
         let of = |which| RobotFinding::Inverted { which, before_mm: None, after_mm: 0.5 };
         assert_eq!(of(Inverted::Robot).code(), "robot-poses-inverted");
-        assert_eq!(of(Inverted::Target).code(), "target-poses-inverted");
         let either = of(Inverted::Either);
         assert_eq!(either.code(), "poses-inverted");
         assert!(either.message().contains("falls from no agreement at all to 0.5 mm"));

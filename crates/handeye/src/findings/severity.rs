@@ -162,7 +162,6 @@ const TABLE: &[Row] = &[
     ),
     rejects("poses-inverted", "correct `direction` or `setup`"),
     rejects("robot-poses-inverted", "correct `direction` or `setup`"),
-    rejects("target-poses-inverted", "correct `direction` of the board poses"),
     rejects("robot-length-unit", "correct `length_unit`"),
     rejects("target-length-unit", "give robot and camera in the same unit"),
     rejects("no-clear-majority", "find out what changed in the session, and take it again"),

@@ -81,13 +81,20 @@ impl TargetFinding {
         match self {
             Self::Size(size) => size.message(),
             Self::ExplainsAll(size) => size.as_explanation(),
-            Self::Distances { value, sigma } => format!(
-                "the robot's motions say that distances to the target are {:.2} +- {:.2} % {} than measured: the unit \
-                 or the scale of the measurements, or the robot's own scale, is wrong",
-                (value - 1.0).abs() * 100.0,
-                sigma * 100.0,
-                if *value > 1.0 { "longer" } else { "shorter" }
-            ),
+            Self::Distances { value, sigma } => match units_of(*value) {
+                Some(units) => format!(
+                    "the target's poses count in another unit than the robot's: they are {:.4} times as large as they \
+                     would be in its unit ({units})",
+                    1.0 / value
+                ),
+                None => format!(
+                    "the robot's motions say that distances to the target are {:.2} +- {:.2} % {} than measured: the \
+                     unit or the scale of the measurements, or the robot's own scale, is wrong",
+                    (value - 1.0).abs() * 100.0,
+                    sigma * 100.0,
+                    if *value > 1.0 { "longer" } else { "shorter" }
+                ),
+            },
             Self::Uneven { share, sigma } => format!(
                 "the board is {:.2} +- {:.2} % {} along y than along x: the answer uses that shape; measure the print along both sides, and use a print with square squares",
                 share.abs() * 100.0,
@@ -148,6 +155,21 @@ impl TargetFinding {
             }
         }
     }
+}
+
+/// Lengths in proportions like these are of two units.
+const UNITS: [(f64, &str); 3] = [
+    (1000.0, "millimetres and metres"),
+    (10.0, "millimetres and centimetres"),
+    (100.0, "centimetres and metres"),
+];
+/// Within this share: targets and cameras are better than that.
+const ABOUT: f64 = 0.03;
+
+/// The two units that a scale would be of.
+fn units_of(scale: f64) -> Option<&'static str> {
+    let is = |factor: f64| (scale / factor - 1.0).abs() < ABOUT;
+    UNITS.iter().find(|(factor, _)| is(*factor) || is(1.0 / factor)).map(|(_, units)| *units)
 }
 
 impl Size {

@@ -18,14 +18,15 @@
 
 use nalgebra::{Matrix3, Matrix6, Point3, Vector2, Vector3, Vector6};
 
+use super::thresholds::{IMPROBABLE_BEND, LEAST_BEND};
 use crate::{
     TargetModel,
     detect::surface::{MAD, tukey},
     math::{linalg::median, statistics},
 };
 
-/// A corner in a scan: its place on the board (m), in the camera (m), and covariance (m²).
-pub type Felt = (Vector2<f64>, Vector3<f64>, Matrix3<f64>);
+/// A corner in a scan: its position on the board (m), in the camera (m), and covariance (m²).
+pub type ScanCorner = (Vector2<f64>, Vector3<f64>, Matrix3<f64>);
 
 /// Deviation of one surface from its plane, positive away from the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,15 +65,11 @@ pub struct Flatness {
     pub corner_sigma_m: f64,
 }
 
-/// Chance of noise below which a board is called bent.
-const IMPROBABLE: f64 = 1e-4;
-/// A bend below this part of the board's size is what boards are sold with.
-const LEAST_BEND: f64 = 5e-4;
-
 impl Flatness {
     /// Whether the board is bent by more than noise shows, and more than boards are.
     pub fn is_bent(&self, target: &TargetModel) -> bool {
-        self.board.chance < IMPROBABLE && self.board.peak_to_valley_m > LEAST_BEND * extent(target)
+        self.board.chance < IMPROBABLE_BEND
+            && self.board.peak_to_valley_m > LEAST_BEND * extent(target)
     }
 }
 
@@ -106,7 +103,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn of<'a>(all: impl Iterator<Item = &'a Felt>) -> Option<Self> {
+    fn of<'a>(all: impl Iterator<Item = &'a ScanCorner>) -> Option<Self> {
         let (low, high) = all.fold(
             (Vector2::repeat(f64::INFINITY), Vector2::repeat(f64::NEG_INFINITY)),
             |(low, high), f| (low.inf(&f.0), high.sup(&f.0)),
@@ -122,7 +119,7 @@ impl Scale {
 }
 
 /// The flatness of a board, from the corners of each capture; `None` where no capture tells.
-pub fn flatness(captures: &[Vec<Felt>]) -> Option<Flatness> {
+pub fn flatness(captures: &[Vec<ScanCorner>]) -> Option<Flatness> {
     let scale = Scale::of(captures.iter().flatten())?;
     let surfaces: Vec<Option<Surface>> = captures.iter().map(|c| surface(c, &scale)).collect();
     let all: Vec<&Surface> = surfaces.iter().flatten().collect();
@@ -166,7 +163,7 @@ fn own_bend(s: &Surface, scale: &Scale) -> Option<Bend> {
 }
 
 /// Heights of one capture's corners, and the surface through them.
-fn surface(corners: &[Felt], scale: &Scale) -> Option<Surface> {
+fn surface(corners: &[ScanCorner], scale: &Scale) -> Option<Surface> {
     if corners.len() < FEWEST_CORNERS {
         return None;
     }
@@ -211,7 +208,7 @@ fn surface(corners: &[Felt], scale: &Scale) -> Option<Surface> {
 }
 
 /// Middle and normal, away from the camera, of the plane through points.
-fn plane_of(corners: &[Felt]) -> Option<(Vector3<f64>, Vector3<f64>)> {
+fn plane_of(corners: &[ScanCorner]) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let middle = corners.iter().map(|c| c.1).sum::<Vector3<f64>>() / corners.len() as f64;
     let scatter: Matrix3<f64> =
         corners.iter().map(|c| (c.1 - middle) * (c.1 - middle).transpose()).sum();
@@ -277,7 +274,7 @@ mod tests {
     use crate::math::random::Random;
 
     /// Captures of a 9 x 6 board, 25 mm apart, with `bow` (m) at the ends of x, seen at random.
-    fn captures(bow: impl Fn(f64, f64) -> f64, sigma: f64, seed: u64) -> Vec<Vec<Felt>> {
+    fn captures(bow: impl Fn(f64, f64) -> f64, sigma: f64, seed: u64) -> Vec<Vec<ScanCorner>> {
         let mut random = Random::new(seed);
         let mut one = || {
             let turn = nalgebra::Rotation3::new(random.normal3() * 0.3);
@@ -329,7 +326,7 @@ mod tests {
     #[test]
     fn few_corners_tell_nothing() {
         assert_eq!(flatness(&[vec![]]), None);
-        let four: Vec<Felt> = captures(|_, _| 0.0, 1e-4, 1)[0][..4].to_vec();
+        let four: Vec<ScanCorner> = captures(|_, _| 0.0, 1e-4, 1)[0][..4].to_vec();
         assert_eq!(flatness(&[four]), None);
     }
 }

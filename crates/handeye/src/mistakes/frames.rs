@@ -1,11 +1,11 @@
-//! Do picture and scan put the board at one place? Scale, tilt and shift between their frames.
+//! Do image and scan put the board at one position? Scale, tilt and shift between their frames.
 //!
-//! A plane is `m·p = 1`. The picture's pose of the board has `m = n/(n·t)`, the scan's corners have
-//! it as their plane. If the scan reads a point `p` of the picture's frame at `(1 + σ) R p + t`, then
+//! A plane is `m·p = 1`. The image's pose of the board has `m = n/(n·t)`, the scan's corners have
+//! it as their plane. If the scan reads a point `p` of the image's frame at `(1 + σ) R p + t`, then
 //! to first order in `σ`, `R = exp(ω)` and `t`
 //!
 //! ```text
-//! m_scan - m_picture = ω x m - σ m - m (m·t)
+//! m_scan - m_image = ω x m - σ m - m (m·t)
 //! ```
 //!
 //! Boards in three directions and at several distances tell all seven. The noise of both planes is
@@ -15,15 +15,16 @@
 
 use nalgebra::{Matrix3, Matrix3x6, Rotation3, SMatrix, SVector, Vector3};
 
+use super::thresholds::{FEWEST, IMPROBABLE_FRAME, SEPARABLE};
 use crate::{
     Camera, Pose, Target, TargetPose,
     math::{lie, statistics},
 };
 
-/// One capture's board, as picture and scan see it.
+/// One capture's board, as image and scan see it.
 pub struct TwoPlanes {
-    /// `n/(n·t)` of the picture's pose, 1/m, and covariance.
-    pub picture: (Vector3<f64>, Matrix3<f64>),
+    /// `n/(n·t)` of the image's pose, 1/m, and covariance.
+    pub image: (Vector3<f64>, Matrix3<f64>),
     /// The same of the scan.
     pub scan: (Vector3<f64>, Matrix3<f64>),
 }
@@ -52,10 +53,10 @@ impl Part {
     }
 }
 
-/// How scan and picture differ.
+/// How scan and image differ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frames {
-    /// `σ, ω (rad), t (m)`: the scan's minus the picture's. Parts that are proven are estimated
+    /// `σ, ω (rad), t (m)`: the scan's minus the image's. Parts that are proven are estimated
     /// together, with the others zero; each other one beside them.
     pub values: SVector<f64, 7>,
     /// Standard deviations.
@@ -70,16 +71,10 @@ pub struct Frames {
     pub chance: f64,
 }
 
-/// Fewer captures do not tell seven unknowns.
-const FEWEST: usize = 4;
-/// Chance of noise below which a part is proven.
-const IMPROBABLE: f64 = 1e-5;
 /// Times that the equations are made anew where the answer is.
-const RELOOKS: usize = 3;
+const ITERATIONS: usize = 3;
 /// Prior standard deviations of scale, tilt (rad) and shift (m): the frames of one camera lie in one housing.
 const PRIOR: [f64; 7] = [0.05, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1];
-/// A part is separable from the others where it is so many standard deviations when all are free.
-const SEPARABLE: f64 = 3.0;
 
 type Seven = SMatrix<f64, 7, 7>;
 
@@ -107,11 +102,11 @@ impl Normal {
     }
 }
 
-/// How the frames of pictures and scans differ; `None` where captures are too few.
+/// How the frames of images and scans differ; `None` where captures are too few.
 pub fn frames(captures: &[TwoPlanes]) -> Option<Frames> {
     let mut near = SVector::zeros();
     let mut found = about(captures, &near)?;
-    for _ in 0..RELOOKS {
+    for _ in 0..ITERATIONS {
         near = found.values;
         Part::ALL
             .into_iter()
@@ -147,7 +142,7 @@ fn about(captures: &[TwoPlanes], near: &SVector<f64, 7>) -> Option<Frames> {
         };
         let best = rest.filter_map(improbable).min_by(|a, b| a.0.total_cmp(&b.0));
         match best {
-            Some((chance, part)) if chance < IMPROBABLE => proven.push(part),
+            Some((chance, part)) if chance < IMPROBABLE_FRAME => proven.push(part),
             _ => break,
         }
     }
@@ -183,8 +178,8 @@ fn normal(captures: &[TwoPlanes], near: &SVector<f64, 7>) -> Option<Normal> {
     }
     let mut sum = Normal { h: Seven::zeros(), g: SVector::zeros(), cost: 0.0 };
     for c in captures {
-        let m = moved(&c.picture.0, near);
-        let w = (c.scan.1 + c.picture.1).cholesky()?.inverse();
+        let m = moved(&c.image.0, near);
+        let w = (c.scan.1 + c.image.1).cholesky()?.inverse();
         let mut j = SMatrix::<f64, 3, 7>::zeros();
         j.fixed_view_mut::<3, 1>(0, 0).copy_from(&-m);
         j.fixed_view_mut::<3, 3>(0, 1).copy_from(&-lie::hat(&m));
@@ -199,11 +194,11 @@ fn normal(captures: &[TwoPlanes], near: &SVector<f64, 7>) -> Option<Normal> {
 
 /// The plane as the scan has it: `R m/(1 + σ + t·R m)`.
 fn moved(m: &Vector3<f64>, by: &SVector<f64, 7>) -> Vector3<f64> {
-    let turned = Rotation3::new(by.fixed_rows::<3>(1).into_owned()) * m;
-    turned / (1.0 + by[0] + turned.dot(&by.fixed_rows::<3>(4)))
+    let rotated = Rotation3::new(by.fixed_rows::<3>(1).into_owned()) * m;
+    rotated / (1.0 + by[0] + rotated.dot(&by.fixed_rows::<3>(4)))
 }
 
-/// The plane of a board in the pose that a picture tells; `None` without covariance.
+/// The plane of a board in the pose that a image tells; `None` without covariance.
 pub fn plane_of_pose(pose: &TargetPose) -> Option<(Vector3<f64>, Matrix3<f64>)> {
     let p: &Pose<Camera, Target> = &pose.camera_from_target;
     let (r, t) = (p.rotation(), p.translation());
@@ -250,7 +245,7 @@ mod tests {
     use crate::math::random::Random;
     use nalgebra::Matrix6;
 
-    /// Boards seen by a picture and a scan whose frame differs by `x`.
+    /// Boards seen by a image and a scan whose frame differs by `x`.
     fn captures(x: &SVector<f64, 7>, count: usize, seed: u64) -> Vec<TwoPlanes> {
         let mut random = Random::new(seed);
         let turn = Rotation3::new(Vector3::new(x[1], x[2], x[3]));
@@ -277,7 +272,7 @@ mod tests {
                 covariance: Some(covariance),
             };
             TwoPlanes {
-                picture: plane_of_pose(&seen).unwrap(),
+                image: plane_of_pose(&seen).unwrap(),
                 scan: plane_of_points(&scan).unwrap(),
             }
         };

@@ -1,56 +1,90 @@
 //! The size of the target as the robot's motions see it.
+//!
+//! With the rotations of a fit, `R_A t_X + t_A = s R_Y t_B + t_Y` is linear in `t_X`, `t_Y` and the size `s` over the
+//! declared one (N. Andreff, R. Horaud and B. Espiau, *Robot hand-eye calibration using structure from motion*, IJRR 20(3),
+//! 2001). It finds sizes that are wrong by any factor. A size near the declared one is fitted with everything else
+//! ([`target_scale`]).
 
-use nalgebra::{DMatrix, DVector, Matrix3};
+use nalgebra::{DMatrix, DVector, Matrix3, SMatrix};
 
-use super::{TargetScale, strays::same_robot};
+use super::{
+    evidence::{Evidence, Explanation},
+    frozen::is_same_robot,
+    score::{Score, agreeing, pair, scored},
+    size_cause::cause_of_size,
+    thresholds::{FEWEST, IMPROBABLE_SIZE, LEAST_SIZE_ERROR, MOST_AGREE, MOST_UNCERTAIN, REACH},
+};
 use crate::{
-    HandEye, PosePair, TargetModel,
+    HandEye, PosePair, Setup,
+    detect::sight::{CAMERA, Sight, TARGET_SCALE},
+    estimate::{self, Extra, ExtraKind, JointFit, Problem, noise::KnownNoise},
     findings::{
         TargetFinding,
         target::{Size, SizeOfAnswer},
     },
     math::{linalg, statistics},
-    mistakes::score::{FEWEST, Fault, Finding, REACH, Score, pair, reach, scored},
     solve::{
-        self, Method,
+        self, Method, View,
         consensus::{self, Consensus, Readings},
     },
 };
 
-/// Wrong size below this part is within what printers and lenses do.
-const LEAST_SCALE_ERROR: f64 = 0.005;
-/// Chance of such a size when the declared one is right, below which it is called wrong.
-const IMPROBABLE: f64 = 1e-3;
-/// The spread of positions must be known this well: a size that is uncertain by more tells nothing.
-const MOST_UNCERTAIN: f64 = 0.1;
-/// Captures that agree once the size is right, of all.
-const MOST_AGREE: f64 = 0.6;
+/// Size of the target as the robot's motions see it, over the declared one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TargetScale {
+    /// The factor on the measured distances that fits best.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// Chance of a factor as far from one when the declared size is right.
+    pub p_value: f64,
+}
 
+/// A size that is wrong by more than printers do, proven by the captures, under which most of them agree.
 pub(super) fn wrong_size(
-    captures: &[Readings],
+    evidence: &Evidence,
     declared: Option<&(Score, Consensus)>,
-) -> Option<Finding> {
-    if !(REACH.0..REACH.1).contains(&reach(captures)) {
+) -> Option<Explanation> {
+    let captures = &evidence.declared;
+    let reach = captures.iter().map(|c| c.anchor_from_mount.translation().norm());
+    if !(REACH.0..REACH.1).contains(&reach.fold(0.0, f64::max)) {
         return None; // it is the robot's unit that is wrong
     }
-    let scale = size(&distinct(captures))?;
-    let off = (scale.value - 1.0).abs();
-    let uncertain = scale.sigma / scale.value;
-    if off < LEAST_SCALE_ERROR || scale.p_value > IMPROBABLE || uncertain > MOST_UNCERTAIN {
+    let size = size(&distinct(captures))?;
+    let is_within_printing = (size.value - 1.0).abs() < LEAST_SIZE_ERROR;
+    let is_uncertain = size.sigma / size.value > MOST_UNCERTAIN;
+    if is_within_printing || is_uncertain || size.p_value > IMPROBABLE_SIZE {
         return None;
     }
-    let (after, _) = scored(&rescaled(captures, scale.value))?;
-    let before = declared.map_or(f64::INFINITY, |(s, _)| s.score);
-    let agrees = after.agree as f64 >= MOST_AGREE * captures.len() as f64;
-    (after.score < before && agrees)
-        .then_some(Finding { fault: Fault::Scale(scale), after: Some(after) })
+    let (after, _) = scored(&rescaled(captures, size.value))?;
+    let before = declared.map_or(f64::INFINITY, |(score, _)| score.score);
+    let do_agree = after.agree as f64 >= MOST_AGREE * captures.len() as f64;
+    (after.score < before && do_agree).then(|| Explanation {
+        p_value: Some(size.p_value),
+        ..Explanation::new(finding(evidence, &size), Some(after))
+    })
+}
+
+fn finding(evidence: &Evidence, size: &TargetScale) -> TargetFinding {
+    let TargetScale { value, sigma, .. } = *size;
+    let Some(target) = &evidence.target else {
+        return TargetFinding::Distances { value, sigma };
+    };
+    TargetFinding::ExplainsAll(Size {
+        value,
+        sigma,
+        declared_mm: (target.pitch_m() * 1e6).round() / 1e3,
+        cause: cause_of_size(value, target),
+        beyond_printing: false,
+        answer: SizeOfAnswer::Declared,
+    })
 }
 
 /// Captures without those that repeat another: they would lend a size certainty it has not.
 fn distinct(captures: &[Readings]) -> Vec<Readings> {
     let mut all: Vec<Readings> = Vec::with_capacity(captures.len());
     for capture in captures {
-        if !all.iter().any(|c| same_robot(c, capture)) {
+        if !all.iter().any(|c| is_same_robot(c, capture)) {
             all.push(capture.clone());
         }
     }
@@ -58,7 +92,7 @@ fn distinct(captures: &[Readings]) -> Vec<Readings> {
 }
 
 /// Captures as they would be with a target `s` times as large.
-pub fn rescaled(captures: &[Readings], s: f64) -> Vec<Readings> {
+pub(super) fn rescaled(captures: &[Readings], s: f64) -> Vec<Readings> {
     let one = |c: &Readings| Readings {
         anchor_from_mount: c.anchor_from_mount,
         camera_from_target: c.camera_from_target.iter().map(|p| p.farther(s)).collect(),
@@ -71,7 +105,7 @@ const SIZE_ROUNDS: usize = 4;
 
 /// Size of the target as the robot sees it: the linear system `R_A t_X + t_A = s R_Y t_B + t_Y` in
 /// `t_X`, `t_Y` and `s`, with rotations of a fit at the size found before.
-pub fn size(captures: &[Readings]) -> Option<TargetScale> {
+fn size(captures: &[Readings]) -> Option<TargetScale> {
     let mut at = 1.0;
     let mut last = None;
     for _ in 0..SIZE_ROUNDS {
@@ -100,8 +134,7 @@ pub fn size(captures: &[Readings]) -> Option<TargetScale> {
 /// depend on the size, where fewer than most do.
 fn fitted(captures: &[Readings]) -> Option<(Vec<PosePair>, HandEye)> {
     let found = consensus::consensus(captures).ok()?;
-    let agrees = |i: &usize| found.agrees[*i] && !captures[*i].camera_from_target.is_empty();
-    let used: Vec<usize> = (0..captures.len()).filter(agrees).collect();
+    let used = agreeing(&found);
     if used.len() as f64 >= MOST_AGREE * captures.len() as f64 && used.len() >= FEWEST {
         let pairs: Vec<_> = used.iter().map(|&i| pair(&captures[i], found.reading[i])).collect();
         return closed_form(pairs);
@@ -113,57 +146,6 @@ fn fitted(captures: &[Readings]) -> Option<(Vec<PosePair>, HandEye)> {
 fn closed_form(pairs: Vec<PosePair>) -> Option<(Vec<PosePair>, HandEye)> {
     let hand_eye = solve::solve(&pairs, Method::Shah).ok()?;
     (pairs.len() >= FEWEST).then_some((pairs, hand_eye))
-}
-
-/// A size is a known factor away from the declared one within this share.
-const LIKE_FACTOR: f64 = 0.01;
-
-/// The usual mistake that makes a target so many times as large as declared, in words.
-pub fn cause_of_size(value: f64, target: &TargetModel) -> Option<String> {
-    let is = |factor: f64| (value / factor - 1.0).abs() < LIKE_FACTOR;
-    let units = [
-        (10.0, "the length was given in centimetres and counts as millimetres"),
-        (0.1, "the declared length is ten times too large: millimetres were taken for centimetres"),
-        (1e3, "the length was given in metres and counts as millimetres"),
-        (
-            1e-3,
-            "the declared length is a thousand times too large: micrometres, or millimetres taken for metres",
-        ),
-        (25.4, "the length was given in inches and counts as millimetres"),
-        (
-            1.0 / 25.4,
-            "the declared length is 25.4 times too large: millimetres were taken for inches",
-        ),
-        (2.0, "half of the length was given"),
-        (0.5, "twice the length was given: that of two squares, or of a circle grid's other pitch"),
-    ];
-    if let Some((_, words)) = units.into_iter().find(|(factor, _)| is(*factor)) {
-        return Some(words.into());
-    }
-    let (columns, rows) = target.grid();
-    [columns, rows].into_iter().filter(|n| *n > 2).find_map(|n| {
-        let n = f64::from(n);
-        // the whole width of n + 1 squares, divided by n corners; that of n - 1 squares between corners likewise
-        let wrong = [(n / (n + 1.0), n + 1.0, n), (n / (n - 1.0), n - 1.0, n)];
-        wrong.into_iter().find(|(factor, ..)| is(*factor)).map(|(_, right, counted)| {
-            format!(
-                "a length of {right:.0} squares was divided by {counted:.0}: squares and corners were mixed up"
-            )
-        })
-    })
-}
-
-/// A wrong size that explains captures which contradict one another otherwise, with the usual mistake that makes it.
-pub fn size_finding(size: &TargetScale, target: &TargetModel) -> TargetFinding {
-    let TargetScale { value, sigma, .. } = *size;
-    TargetFinding::ExplainsAll(Size {
-        value,
-        sigma,
-        declared_mm: (target.pitch_m() * 1e6).round() / 1e3,
-        cause: cause_of_size(value, target),
-        beyond_printing: false,
-        answer: SizeOfAnswer::Declared,
-    })
 }
 
 fn size_of(pairs: &[PosePair], at: &HandEye) -> Option<TargetScale> {
@@ -184,24 +166,83 @@ fn size_of(pairs: &[PosePair], at: &HandEye) -> Option<TargetScale> {
     Some(TargetScale { value: solution[6], sigma, p_value: f64::NAN })
 }
 
+/// Finds the size of the target that fits best. The noise is estimated again at that size: a wrong
+/// size would otherwise pass for noise and hide itself.
+pub fn target_scale(
+    views: &[View],
+    at: &JointFit,
+    known: &KnownNoise,
+    setup: Setup,
+) -> Option<TargetScale> {
+    let size = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), 1.0);
+    let fit_scale = |views: &[View], start: &HandEye| {
+        let views = views.iter().map(of_any_size).collect();
+        let problem =
+            Problem { setup, views, boards: vec![], extras: vec![size], known_position: None };
+        let fit = estimate::fit_joint(&problem, start, known).ok()?;
+        Some((1.0 + fit.extra(size.kind)?.0, fit.extra(size.kind)?.1, fit))
+    };
+    let (first, _, coarse) = fit_scale(views, &at.hand_eye)?;
+    if !(SCALES.0..SCALES.1).contains(&first) {
+        return None;
+    }
+    let (more, sigma, fit) = fit_scale(&views_rescaled(views, first), &coarse.hand_eye)?;
+    let (value, sigma) = (first * more, first * sigma);
+    let dof = fit.degrees_of_freedom - 1.0;
+    let p_value = statistics::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
+    Some(TargetScale { value, sigma, p_value })
+}
+
+/// Sizes of the target, over the declared one, that are worth a second look.
+const SCALES: (f64, f64) = (0.2, 5.0);
+
+/// Views as they would be with a target `s` times as large.
+pub fn views_rescaled(views: &[View], s: f64) -> Vec<View> {
+    let mut all = views.to_vec();
+    for view in &mut all {
+        view.pair.camera_from_target = view.pair.camera_from_target.farther(s);
+    }
+    all
+}
+
+/// A view of which the size of its target is open.
+fn of_any_size(view: &View) -> View {
+    let mut by = SMatrix::<f64, 6, CAMERA>::zeros();
+    by.set_column(TARGET_SCALE, &Sight::by_size(&view.pair.camera_from_target));
+    View { sight: Some(Sight::moving(by).into()), ..view.clone() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::findings::Finding;
+    use crate::mistakes::{score::scored, tests::in_order};
+
+    /// The size that is found of boards that are declared `declared` times as large as they are.
+    fn found(declared: f64, seed: u64) -> Option<f64> {
+        let right = in_order(15, seed);
+        let wrong = Evidence { declared: rescaled(&right.declared, declared), ..right };
+        let found = wrong_size(&wrong, scored(&wrong.declared).as_ref())?;
+        let Finding::Target(TargetFinding::ExplainsAll(size)) = found.finding else { return None };
+        assert!((size.value - 1.0 / declared).abs() < 5.0 * size.sigma, "{size:?}");
+        Some(size.value)
+    }
 
     #[test]
-    fn the_usual_mistakes_about_sizes_have_names() {
-        let board = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
-        let cause = |value: f64| cause_of_size(value, &board).unwrap_or_default();
-        assert!(cause(10.003).contains("centimetres"));
-        assert!(cause(25.3).contains("inches"));
-        assert!(cause(0.5).contains("two squares"));
-        assert!(cause(9.0 / 8.0).contains("8 squares was divided by 9"));
-        assert!(cause(6.0 / 7.0).contains("7 squares was divided by 6"));
-        assert!(cause(0.0394).contains("taken for inches"));
-        assert!(cause(1e-3).contains("thousand times"));
-        assert_eq!(cause_of_size(1.05, &board), None);
-        let size = TargetScale { value: 2.0, sigma: 0.001, p_value: 0.0 };
-        let words = size_finding(&size, &board).message();
-        assert!(words.contains("(60.000 mm instead of 30 mm): half of the length"), "{words}");
+    fn a_size_is_found_from_hundredfold_down_to_what_printers_do() {
+        for declared in [0.01, 0.5, 1.1, 10.0, 100.0] {
+            assert!(found(declared, 3).is_some(), "{declared}");
+        }
+        assert!(found(1.02, 3).is_some());
+        assert_eq!(found(1.004, 3), None);
+        assert_eq!(found(1.0, 3), None);
+    }
+
+    #[test]
+    fn robot_positions_in_another_unit_are_no_size() {
+        let right = in_order(15, 4);
+        let in_millimetres =
+            crate::mistakes::tests::with_robot(&right, |_, c| c.anchor_from_mount.farther(1e3));
+        assert_eq!(wrong_size(&in_millimetres, None), None);
     }
 }

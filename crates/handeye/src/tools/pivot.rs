@@ -20,8 +20,8 @@ use serde::Serialize;
 
 use crate::{
     Base, Error, Flange, Point, Pose, Verdict,
+    estimate::observability::axis_name,
     math::{linalg, statistics},
-    mistakes::axis_name,
 };
 
 /// Fewest poses: with three a wrong one cannot be told from the others.

@@ -21,12 +21,11 @@ use nalgebra::{Matrix6, RowVector6, SMatrix, Vector3};
 use crate::{
     Base, Camera, Error, Flange, HandEye, Intrinsics, Pose, PosePair, Setup, Target, TargetModel,
     estimate::{
-        NoiseModel, Sigma, Source,
+        NoiseModel, Sigma, Source, observability,
         predict::{self, PredictedTre, Volume},
         touches::small_sample,
     },
     math::linalg,
-    mistakes,
     register::rigid_fit::point_jacobian,
     solve::{
         View,
@@ -318,7 +317,7 @@ impl Setting {
     /// The error that a calibration of so many captures would state.
     fn expected(&self, sum: &Matrix12, captures: usize) -> Option<PredictedTre> {
         let s = of_mount(sum)?;
-        let free = mistakes::free_of(&s, &self.hand_eye.mount_from_camera.rotation());
+        let free = observability::free_of(&s, &self.hand_eye.mount_from_camera.rotation());
         let factor = small_sample(6.0 * captures as f64 - 12.0);
         free.is_empty().then(|| predict::tre(&self.volume, &(s * factor), |_| Vector3::zeros()))
     }
@@ -326,8 +325,8 @@ impl Setting {
     fn undetermined(&self, sum: &Matrix12, poses: &[Pose<Base, Flange>]) -> Vec<String> {
         let pairs: Vec<PosePair> = poses.iter().map(|p| self.pair(p)).collect();
         let s = of_mount(sum).unwrap_or_else(|| Matrix6::identity() * FREE_SIGMA.powi(2));
-        let free = mistakes::free_of(&s, &self.hand_eye.mount_from_camera.rotation());
-        mistakes::in_words(&free, &pairs, self.setup)
+        let free = observability::free_of(&s, &self.hand_eye.mount_from_camera.rotation());
+        observability::in_words(&free, &pairs, self.setup)
     }
 }
 

@@ -1,0 +1,75 @@
+//! By how much two poses differ, as angle and distance: the one residual of this room.
+//!
+//! Of a capture it is that of its loop `E = Y⁻¹ A X C`, which is the identity where the capture fits: `angle(E)`, and
+//! `|t(E)|` at the target's origin.
+
+use crate::{HandEye, Pose, PosePair, math::linalg::median};
+
+/// By how much two poses differ, or the loop of a capture fails to close at the target's origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Residual {
+    /// rad.
+    pub angle: f64,
+    /// m.
+    pub distance: f64,
+}
+
+impl Residual {
+    /// From degrees and millimetres.
+    pub const fn of(degrees: f64, millimetres: f64) -> Self {
+        Self { angle: degrees.to_radians(), distance: millimetres * 1e-3 }
+    }
+
+    /// Of a capture under an answer.
+    pub fn new(hand_eye: &HandEye, pair: &PosePair) -> Self {
+        let (angle, distance) = hand_eye.loop_misfit(pair);
+        Self { angle, distance }
+    }
+
+    /// Between two poses.
+    pub fn between<A, B>(a: &Pose<A, B>, b: &Pose<A, B>) -> Self {
+        Self { angle: a.angle_to(b), distance: a.distance_to(b) }
+    }
+
+    /// Medians of both, each by itself.
+    pub fn median(all: &[Self]) -> Self {
+        Self {
+            angle: median(all.iter().map(|r| r.angle)),
+            distance: median(all.iter().map(|r| r.distance)),
+        }
+    }
+
+    /// Whether both are below a limit.
+    pub fn is_within(self, limit: Self) -> bool {
+        self.angle < limit.angle && self.distance < limit.distance
+    }
+
+    /// Both as one number, in units of another residual.
+    pub fn over(self, unit: Self) -> f64 {
+        (self.angle / unit.angle).hypot(self.distance / unit.distance)
+    }
+
+    /// So many times as large.
+    pub fn times(self, factor: f64) -> Self {
+        Self { angle: factor * self.angle, distance: factor * self.distance }
+    }
+
+    /// Both at least as large as those of another one.
+    pub fn at_least(self, least: Self) -> Self {
+        Self { angle: self.angle.max(least.angle), distance: self.distance.max(least.distance) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_is_one_of_angle_and_of_distance() {
+        let limit = Residual::of(2.5, 15.0);
+        assert!(Residual::of(2.4, 14.9).is_within(limit));
+        assert!(!Residual::of(2.6, 0.0).is_within(limit));
+        assert!(!Residual::of(0.0, 15.1).is_within(limit));
+        assert_eq!(Residual::of(1.0, 1.0).at_least(Residual::of(0.5, 2.0)), Residual::of(1.0, 2.0));
+    }
+}
