@@ -13,6 +13,7 @@ fn one_bit() -> u32 {
 
 /// A calibration target and its dimensions. Lengths in millimetres, as people print them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum TargetModel {
     /// Plain checkerboard; `columns` x `rows` INNER corners, id = `row * columns + column`.
@@ -133,6 +134,7 @@ pub enum TargetModel {
 
 /// A family of AprilTags.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum AprilTagFamily {
     /// 4 x 4 bits, 30 tags.
     #[serde(rename = "16h5", alias = "t16h5", alias = "tag16h5")]
