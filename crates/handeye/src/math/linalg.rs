@@ -97,7 +97,7 @@ fn sorted(u: DMatrix<f64>, v: DMatrix<f64>) -> Svd {
 }
 
 /// SVD of a 3 x 3 matrix.
-pub fn svd3(m: &Matrix3<f64>) -> (Matrix3<f64>, Vector3<f64>, Matrix3<f64>) {
+pub(crate) fn svd3(m: &Matrix3<f64>) -> (Matrix3<f64>, Vector3<f64>, Matrix3<f64>) {
     let svd = svd(&DMatrix::from_column_slice(3, 3, m.as_slice()));
     let fixed = |d: &DMatrix<f64>| Matrix3::from_column_slice(d.as_slice());
     (fixed(&svd.u), Vector3::from_column_slice(svd.s.as_slice()), fixed(&svd.v))
@@ -118,7 +118,7 @@ pub fn nearest_rotation(m: &Matrix3<f64>) -> Option<Matrix3<f64>> {
 }
 
 /// Mean of rotations in the chordal sense: the leading eigenvector of `Σ q qᵀ`.
-pub fn mean_rotation<'a>(
+pub(crate) fn mean_rotation<'a>(
     all: impl Iterator<Item = &'a UnitQuaternion<f64>>,
 ) -> UnitQuaternion<f64> {
     let moment: Matrix4<f64> = all.map(|q| q.coords * q.coords.transpose()).sum();

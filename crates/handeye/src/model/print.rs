@@ -53,7 +53,7 @@ pub struct Art {
 const DISC_SHARE: f64 = 0.5;
 /// Diameters of the usual and of the larger circle of ROS-Industrial's grid, over the distance
 /// between neighbours: circles of 10 and 20 mm, 25 mm apart.
-pub const MODIFIED_SHARES: (f64, f64) = (0.4, 0.8);
+pub(crate) const MODIFIED_SHARES: (f64, f64) = (0.4, 0.8);
 /// White around a checkerboard, over the side of a square.
 const RIM_SHARE: f64 = 0.25;
 
@@ -107,7 +107,7 @@ pub fn art(target: &TargetModel) -> Result<Art, Error> {
 }
 
 /// The diameter (mm) of the circle with this id.
-pub fn disc_diameter_mm(target: &TargetModel, id: u32) -> f64 {
+pub(crate) fn disc_diameter_mm(target: &TargetModel, id: u32) -> f64 {
     match *target {
         TargetModel::CircleGrid { pitch_mm, .. } => DISC_SHARE * pitch_mm,
         // the nearest neighbour is in the next row
@@ -299,7 +299,12 @@ fn corner_squares_of(target: &TargetModel, tag: f64, gap: f64) -> Vec<Shape> {
 }
 
 /// Which marker of a ChArUco board sits in square `(i, j)`; `None` in a black one.
-pub fn marker_of_square(i: usize, j: usize, squares_x: usize, white_first: bool) -> Option<u32> {
+pub(crate) fn marker_of_square(
+    i: usize,
+    j: usize,
+    squares_x: usize,
+    white_first: bool,
+) -> Option<u32> {
     let shift = usize::from(white_first);
     if (i + j + shift).is_multiple_of(2) {
         return None;

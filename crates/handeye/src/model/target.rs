@@ -14,7 +14,8 @@ mod check;
 pub(crate) mod kinds;
 mod layout;
 
-pub use kinds::{AprilTagFamily, PlacedTag, TargetModel};
+pub(crate) use kinds::PlacedTag;
+pub use kinds::{AprilTagFamily, TargetModel};
 
 use crate::{Point, Target};
 
@@ -38,7 +39,7 @@ impl TargetModel {
     }
 
     /// Whether the target is a grid of circles.
-    pub fn has_circles(&self) -> bool {
+    pub(crate) fn has_circles(&self) -> bool {
         matches!(
             self,
             Self::CircleGrid { .. }

@@ -33,7 +33,7 @@ const CLEAR: f64 = 0.01;
 
 /// `H = R S`, `S` symmetric: the best rotation, and how well `H` determines it.
 #[derive(Debug, Clone, Copy)]
-pub struct Alignment {
+pub(crate) struct Alignment {
     pub rotation: UnitQuaternion<f64>,
     pub stretch: Matrix3<f64>,
 }
@@ -44,19 +44,19 @@ impl Alignment {
     }
 
     /// Singular values of `H`, largest first; the last one has the sign of its determinant.
-    pub fn singular(&self) -> Vector3<f64> {
+    pub(crate) fn singular(&self) -> Vector3<f64> {
         eigenvalues(&self.stretch)
     }
 
     /// Whether all turns but small ones are surely worse, see [`spread_is_clear`].
-    pub fn is_clear(&self) -> bool {
+    pub(crate) fn is_clear(&self) -> bool {
         spread_is_clear(&self.stretch)
     }
 }
 
 /// Whether `σ₂ + σ₃` is surely above 0.5 % of `σ₁`, of the eigenvalues of a symmetric matrix: with
 /// `s = σ₁ + σ₂ + σ₃` it is at least `det(s I - S) / 2 s²`.
-pub fn spread_is_clear(s: &Matrix3<f64>) -> bool {
+pub(crate) fn spread_is_clear(s: &Matrix3<f64>) -> bool {
     let sum = s.trace();
     (Matrix3::identity() * sum - s).determinant() > CLEAR * sum.powi(3)
 }

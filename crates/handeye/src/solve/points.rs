@@ -124,7 +124,7 @@ pub(crate) fn equations_of(
 /// # Errors
 /// [`Error::TooFewPoses`] below four captures; [`Error::NotDetermined`] where no camera explains
 /// them.
-pub fn fit_points(views: &[PointView]) -> Result<PointFit, Error> {
+pub(crate) fn fit_points(views: &[PointView]) -> Result<PointFit, Error> {
     if views.len() < FEWEST {
         let advice = "take 10 to 15, the robot turned about two axes between them".into();
         return Err(Error::TooFewPoses { found: views.len(), needed: FEWEST, advice });

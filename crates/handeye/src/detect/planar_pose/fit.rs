@@ -119,7 +119,7 @@ impl<'a> Fit<'a> {
     }
 
     /// Robust fit, then a plain one without the corners that do not belong.
-    pub fn polish(&mut self, start: Isometry3<f64>) -> Option<PosedTarget> {
+    pub(crate) fn polish(&mut self, start: Isometry3<f64>) -> Option<PosedTarget> {
         (self.excess, self.felt_scale) = (0.0, 1.0);
         self.reweight(|_| 1.0);
         let mut pose = self.minimise(start)?;
@@ -303,7 +303,7 @@ impl<'a> Fit<'a> {
     }
 
     /// All corners in front of the camera, which sees the board's face.
-    pub fn is_possible(&self, pose: &Isometry3<f64>) -> bool {
+    pub(crate) fn is_possible(&self, pose: &Isometry3<f64>) -> bool {
         let eye = pose.inverse().translation.vector;
         let in_front = |c: &Seen| (pose * nalgebra::Point3::from(c.in_target)).z > 0.0;
         eye.z < 0.0 && self.seen.iter().all(in_front)
