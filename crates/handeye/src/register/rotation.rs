@@ -18,7 +18,7 @@
 
 use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
 
-use crate::math::linalg;
+use crate::math::jacobi;
 
 /// Most steps to the largest eigenvalue: a simple root takes six.
 const MOST_ROOT_STEPS: usize = 30;
@@ -94,9 +94,8 @@ fn unit(q: Vector4<f64>) -> UnitQuaternion<f64> {
 }
 
 fn by_columns(h: &Matrix3<f64>) -> Option<Alignment> {
-    let rotation = linalg::nearest_rotation(h).unwrap_or_else(Matrix3::identity);
-    let rotation = nalgebra::Rotation3::from_matrix_unchecked(rotation);
-    Some(Alignment::of(UnitQuaternion::from_rotation_matrix(&rotation), h))
+    let rotation = jacobi::nearest_rotation(h).unwrap_or_else(UnitQuaternion::identity);
+    Some(Alignment::of(rotation, h))
 }
 
 /// `K(H)`, for quaternions written `(w, x, y, z)`.
@@ -224,7 +223,8 @@ mod tests {
                 let h = random_matrix(&mut random, spread);
                 let bound = random.between(1.0, 2.0) * spread.iter().sum::<f64>();
                 let found = align(&h, bound).unwrap();
-                let expected = linalg::nearest_rotation(&h).unwrap();
+                let expected =
+                    jacobi::nearest_rotation(&h).unwrap().to_rotation_matrix().into_inner();
                 let clear = (spread[1] + spread[2]) / spread[0];
                 let off = (found.rotation.to_rotation_matrix().matrix() - expected).norm();
                 assert!(off < 1e-14 / clear, "{spread:?} {off}");

@@ -14,7 +14,6 @@ pub(crate) mod few_axes;
 mod graduated;
 mod half_turns;
 mod horaud_dornaika;
-mod jacobi;
 mod kronecker;
 pub mod least_squares;
 mod li;
@@ -31,6 +30,7 @@ mod tsai_lenz;
 mod wu;
 mod zhuang;
 
+use crate::math::jacobi;
 use crate::{Error, HandEye, PosePair};
 pub use least_squares::View;
 pub(crate) use motions::check;
