@@ -33,12 +33,14 @@ impl TargetModel {
     /// The length that tells the target's scale, in metres: between neighbouring corners, circles
     /// or rows of circles, along a tag's side, across a ball (0 where that is not known).
     pub fn pitch_m(&self) -> f64 {
-        1e-3 * self.family(|family| family.pitch_mm())
+        1e-3 * self.family(|family| family.lengths_mm().first().map_or(0.0, |(_, mm)| *mm))
     }
 
     /// The same board, all its lengths multiplied by `factor`.
     pub fn resized(&self, factor: f64) -> Self {
-        self.family(|family| family.resized(factor))
+        let mut other = self.clone();
+        other.lengths_mm_mut().into_iter().for_each(|length| *length *= factor);
+        other
     }
 
     /// The target in words.

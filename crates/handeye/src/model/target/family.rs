@@ -29,14 +29,8 @@ pub(super) trait Family {
     /// Columns and rows of corners.
     fn grid(&self) -> (u32, u32);
 
-    /// The length that tells the scale, mm.
-    fn pitch_mm(&self) -> f64;
-
-    /// The lengths by which it is declared, by their keys.
+    /// The lengths by which it is declared, by their keys; the first tells the scale.
     fn lengths_mm(&self) -> Vec<(&'static str, f64)>;
-
-    /// The same with all lengths multiplied.
-    fn resized(&self, factor: f64) -> TargetModel;
 
     /// Where a corner that exists is.
     fn in_plane(&self, id: u32) -> Vector2<f64>;
@@ -115,13 +109,13 @@ impl TargetModel {
             }),
             Self::Tag { ref dictionary, id, size_mm } => read(&Tag { dictionary, id, size_mm }),
             Self::CircleGrid { columns, rows, pitch_mm } => {
-                read(&CircleGrid { columns, rows, pitch_mm })
+                read(&CircleGrid { circles: Circles::Plain, columns, rows, pitch_mm })
             }
             Self::AsymmetricCircleGrid { columns, rows, pitch_mm } => {
-                read(&AsymmetricCircleGrid { columns, rows, pitch_mm })
+                read(&CircleGrid { circles: Circles::Asymmetric, columns, rows, pitch_mm })
             }
             Self::ModifiedCircleGrid { columns, rows, pitch_mm } => {
-                read(&ModifiedCircleGrid { columns, rows, pitch_mm })
+                read(&CircleGrid { circles: Circles::WithLarger, columns, rows, pitch_mm })
             }
             Self::Aprilgrid {
                 tags_x,

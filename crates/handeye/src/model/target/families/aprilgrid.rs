@@ -66,25 +66,8 @@ impl Family for Aprilgrid {
         (self.tags_x.saturating_mul(2), self.tags_y.saturating_mul(2))
     }
 
-    fn pitch_mm(&self) -> f64 {
-        self.tag_mm
-    }
-
     fn lengths_mm(&self) -> Vec<(&'static str, f64)> {
         vec![("tag_mm", self.tag_mm)]
-    }
-
-    fn resized(&self, factor: f64) -> TargetModel {
-        TargetModel::Aprilgrid {
-            tags_x: self.tags_x,
-            tags_y: self.tags_y,
-            tag_mm: self.tag_mm * factor,
-            spacing: self.spacing,
-            family: self.family,
-            first_id: self.first_id,
-            corner_squares: self.corner_squares,
-            border_bits: self.border_bits,
-        }
     }
 
     fn in_plane(&self, id: u32) -> Vector2<f64> {

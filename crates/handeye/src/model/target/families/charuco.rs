@@ -36,24 +36,8 @@ impl Family for Charuco<'_> {
         (self.squares_x.saturating_sub(1), self.squares_y.saturating_sub(1))
     }
 
-    fn pitch_mm(&self) -> f64 {
-        self.square_mm
-    }
-
     fn lengths_mm(&self) -> Vec<(&'static str, f64)> {
         vec![("square_mm", self.square_mm), ("marker_mm", self.marker_mm)]
-    }
-
-    fn resized(&self, factor: f64) -> TargetModel {
-        TargetModel::Charuco {
-            squares_x: self.squares_x,
-            squares_y: self.squares_y,
-            square_mm: self.square_mm * factor,
-            marker_mm: self.marker_mm * factor,
-            dictionary: self.dictionary.into(),
-            legacy: self.legacy,
-            first_id: self.first_id,
-        }
     }
 
     fn in_plane(&self, id: u32) -> Vector2<f64> {

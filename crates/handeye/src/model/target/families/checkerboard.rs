@@ -25,17 +25,8 @@ impl Family for Checkerboard {
         (self.columns, self.rows)
     }
 
-    fn pitch_mm(&self) -> f64 {
-        self.square_mm
-    }
-
     fn lengths_mm(&self) -> Vec<(&'static str, f64)> {
         vec![("square_mm", self.square_mm)]
-    }
-
-    fn resized(&self, factor: f64) -> TargetModel {
-        let Self { columns, rows, square_mm } = *self;
-        TargetModel::Checkerboard { columns, rows, square_mm: square_mm * factor }
     }
 
     fn in_plane(&self, id: u32) -> Vector2<f64> {

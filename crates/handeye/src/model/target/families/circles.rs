@@ -23,31 +23,20 @@ const DISC_SHARE: f64 = 0.5;
 /// between neighbours: circles of 10 and 20 mm, 25 mm apart.
 const MODIFIED_SHARES: (f64, f64) = (0.4, 0.8);
 
+/// How the circles are arranged.
+pub(in crate::model::target) enum Circles {
+    Plain,
+    /// Every second row is shifted.
+    Asymmetric,
+    /// The one at the bottom left is larger.
+    WithLarger,
+}
+
 pub(in crate::model::target) struct CircleGrid {
+    pub circles: Circles,
     pub columns: u32,
     pub rows: u32,
     pub pitch_mm: f64,
-}
-
-pub(in crate::model::target) struct AsymmetricCircleGrid {
-    pub columns: u32,
-    pub rows: u32,
-    pub pitch_mm: f64,
-}
-
-pub(in crate::model::target) struct ModifiedCircleGrid {
-    pub columns: u32,
-    pub rows: u32,
-    pub pitch_mm: f64,
-}
-
-fn check_counts(grid: (u32, u32)) -> Result<(), Error> {
-    check::counts(grid, "circles", "one row of circles does not fix its pose")
-}
-
-/// Column and row of an id.
-fn place(id: u32, columns: u32) -> (f64, f64) {
-    (f64::from(id % columns), f64::from(id / columns))
 }
 
 impl Family for CircleGrid {
@@ -55,132 +44,42 @@ impl Family for CircleGrid {
         (self.columns, self.rows)
     }
 
-    fn pitch_mm(&self) -> f64 {
-        self.pitch_mm
-    }
-
     fn lengths_mm(&self) -> Vec<(&'static str, f64)> {
         vec![("pitch_mm", self.pitch_mm)]
     }
 
-    fn resized(&self, factor: f64) -> TargetModel {
-        let Self { columns, rows, pitch_mm } = *self;
-        TargetModel::CircleGrid { columns, rows, pitch_mm: pitch_mm * factor }
-    }
-
     fn in_plane(&self, id: u32) -> Vector2<f64> {
-        let (column, row) = place(id, self.columns);
-        Vector2::new(column, row) * (1e-3 * self.pitch_mm)
+        let (column, row) = (f64::from(id % self.columns), f64::from(id / self.columns));
+        let at = match self.circles {
+            Circles::Plain => Vector2::new(column, row),
+            Circles::Asymmetric => Vector2::new(2.0 * column + row % 2.0, row),
+            Circles::WithLarger => Vector2::new(column, row - f64::from(self.rows - 1)),
+        };
+        at * (1e-3 * self.pitch_mm)
     }
 
     fn turns(&self) -> Turns {
-        if self.columns == self.rows { Turns::Quarter } else { Turns::Half }
+        match self.circles {
+            Circles::Plain if self.columns == self.rows => Turns::Quarter,
+            Circles::Plain => Turns::Half,
+            Circles::Asymmetric if self.rows.is_multiple_of(2) => Turns::Half,
+            Circles::Asymmetric | Circles::WithLarger => Turns::None,
+        }
     }
 
     fn check_counts(&self) -> Result<(), Error> {
-        check_counts(self.grid())
-    }
-
-    fn disc_diameter_mm(&self, _: u32) -> f64 {
-        DISC_SHARE * self.pitch_mm
-    }
-
-    fn art(&self, target: &TargetModel) -> Result<Art, Error> {
-        Ok(print::circles(target))
-    }
-
-    fn texture(&self, target: &TargetModel) -> Option<Texture> {
-        Some(Texture::circles(target))
-    }
-
-    fn in_words(&self) -> String {
-        let Self { columns, rows, pitch_mm } = self;
-        format!("Circle grid, {columns} x {rows} circles, {pitch_mm} mm from centre to centre")
-    }
-}
-
-impl Family for AsymmetricCircleGrid {
-    fn grid(&self) -> (u32, u32) {
-        (self.columns, self.rows)
-    }
-
-    fn pitch_mm(&self) -> f64 {
-        self.pitch_mm
-    }
-
-    fn lengths_mm(&self) -> Vec<(&'static str, f64)> {
-        vec![("pitch_mm", self.pitch_mm)]
-    }
-
-    fn resized(&self, factor: f64) -> TargetModel {
-        let Self { columns, rows, pitch_mm } = *self;
-        TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm: pitch_mm * factor }
-    }
-
-    fn in_plane(&self, id: u32) -> Vector2<f64> {
-        let (column, row) = place(id, self.columns);
-        Vector2::new(2.0 * column + row % 2.0, row) * (1e-3 * self.pitch_mm)
-    }
-
-    fn turns(&self) -> Turns {
-        if self.rows.is_multiple_of(2) { Turns::Half } else { Turns::None }
-    }
-
-    fn check_counts(&self) -> Result<(), Error> {
-        check_counts(self.grid())
-    }
-
-    /// The nearest neighbour is in the next row.
-    fn disc_diameter_mm(&self, _: u32) -> f64 {
-        DISC_SHARE * std::f64::consts::SQRT_2 * self.pitch_mm
-    }
-
-    fn art(&self, target: &TargetModel) -> Result<Art, Error> {
-        Ok(print::circles(target))
-    }
-
-    fn texture(&self, target: &TargetModel) -> Option<Texture> {
-        Some(Texture::circles(target))
-    }
-
-    fn in_words(&self) -> String {
-        let Self { columns, rows, pitch_mm } = self;
-        format!(
-            "Asymmetric circle grid, {rows} rows of {columns} circles, {pitch_mm} mm from row to row"
-        )
-    }
-}
-
-impl Family for ModifiedCircleGrid {
-    fn grid(&self) -> (u32, u32) {
-        (self.columns, self.rows)
-    }
-
-    fn pitch_mm(&self) -> f64 {
-        self.pitch_mm
-    }
-
-    fn lengths_mm(&self) -> Vec<(&'static str, f64)> {
-        vec![("pitch_mm", self.pitch_mm)]
-    }
-
-    fn resized(&self, factor: f64) -> TargetModel {
-        let Self { columns, rows, pitch_mm } = *self;
-        TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm: pitch_mm * factor }
-    }
-
-    fn in_plane(&self, id: u32) -> Vector2<f64> {
-        let (column, row) = place(id, self.columns);
-        Vector2::new(column, row - f64::from(self.rows - 1)) * (1e-3 * self.pitch_mm)
-    }
-
-    fn check_counts(&self) -> Result<(), Error> {
-        check_counts(self.grid())
+        check::counts(self.grid(), "circles", "one row of circles does not fix its pose")
     }
 
     fn disc_diameter_mm(&self, id: u32) -> f64 {
         let (usual, larger) = MODIFIED_SHARES;
-        self.pitch_mm * if id == (self.rows - 1) * self.columns { larger } else { usual }
+        match self.circles {
+            Circles::Plain => DISC_SHARE * self.pitch_mm,
+            // the nearest neighbour is in the next row
+            Circles::Asymmetric => DISC_SHARE * std::f64::consts::SQRT_2 * self.pitch_mm,
+            Circles::WithLarger if id == (self.rows - 1) * self.columns => self.pitch_mm * larger,
+            Circles::WithLarger => self.pitch_mm * usual,
+        }
     }
 
     fn art(&self, target: &TargetModel) -> Result<Art, Error> {
@@ -192,9 +91,16 @@ impl Family for ModifiedCircleGrid {
     }
 
     fn in_words(&self) -> String {
-        let Self { columns, rows, pitch_mm } = self;
-        format!(
-            "Circle grid with a larger one, {columns} x {rows} circles, {pitch_mm} mm from centre to centre"
-        )
+        let Self { columns, rows, pitch_mm, .. } = self;
+        let (what, apart) = match self.circles {
+            Circles::Plain => ("Circle grid", "centre to centre"),
+            Circles::WithLarger => ("Circle grid with a larger one", "centre to centre"),
+            Circles::Asymmetric => {
+                return format!(
+                    "Asymmetric circle grid, {rows} rows of {columns} circles, {pitch_mm} mm from row to row"
+                );
+            }
+        };
+        format!("{what}, {columns} x {rows} circles, {pitch_mm} mm from {apart}")
     }
 }

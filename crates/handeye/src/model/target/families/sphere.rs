@@ -16,16 +16,8 @@ impl Family for Sphere {
         (0, 0)
     }
 
-    fn pitch_mm(&self) -> f64 {
-        self.diameter_mm.unwrap_or(0.0)
-    }
-
     fn lengths_mm(&self) -> Vec<(&'static str, f64)> {
         self.diameter_mm.map(|d| ("diameter_mm", d)).into_iter().collect()
-    }
-
-    fn resized(&self, factor: f64) -> TargetModel {
-        TargetModel::Sphere { diameter_mm: self.diameter_mm.map(|d| d * factor) }
     }
 
     fn in_plane(&self, _: u32) -> Vector2<f64> {

@@ -26,17 +26,8 @@ impl Family for Tag<'_> {
         (2, 2)
     }
 
-    fn pitch_mm(&self) -> f64 {
-        self.size_mm
-    }
-
     fn lengths_mm(&self) -> Vec<(&'static str, f64)> {
         vec![("size_mm", self.size_mm)]
-    }
-
-    fn resized(&self, factor: f64) -> TargetModel {
-        let Self { dictionary, id, size_mm } = *self;
-        TargetModel::Tag { dictionary: dictionary.into(), id, size_mm: size_mm * factor }
     }
 
     fn in_plane(&self, id: u32) -> Vector2<f64> {

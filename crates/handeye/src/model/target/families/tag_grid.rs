@@ -40,23 +40,8 @@ impl Family for TagGrid<'_> {
         (self.tags_x.saturating_mul(2), self.tags_y.saturating_mul(2))
     }
 
-    fn pitch_mm(&self) -> f64 {
-        self.tag_mm
-    }
-
     fn lengths_mm(&self) -> Vec<(&'static str, f64)> {
         vec![("tag_mm", self.tag_mm), ("gap_mm", self.gap_mm)]
-    }
-
-    fn resized(&self, factor: f64) -> TargetModel {
-        TargetModel::TagGrid {
-            dictionary: self.dictionary.into(),
-            tags_x: self.tags_x,
-            tags_y: self.tags_y,
-            tag_mm: self.tag_mm * factor,
-            gap_mm: self.gap_mm * factor,
-            first_id: self.first_id,
-        }
     }
 
     fn in_plane(&self, id: u32) -> Vector2<f64> {
