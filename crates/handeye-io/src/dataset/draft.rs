@@ -119,7 +119,7 @@ impl Draft {
         // tables of numbers and names: this cannot fail
         let values = toml::to_string(&self.manifest).unwrap_or_default();
         let mut place = Place::default();
-        let mut is_apart = !self.head.is_empty();
+        let mut is_apart = !self.head.is_empty() && self.above.contains_key("setup");
         for line in values.lines() {
             if line.is_empty() {
                 is_apart = true;
