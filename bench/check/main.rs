@@ -1,7 +1,7 @@
 //! Measures `handeye check` on simulated mistakes and writes the table into BENCHMARK.md:
 //!
 //! ```text
-//! cargo run --release -p handeye-io --example check_benchmark [-- CASES CLEAN]
+//! cargo run --release -p handeye-bench --bin check [-- CASES CLEAN]
 //! ```
 
 mod cases;
@@ -18,7 +18,7 @@ const HEAD: &str = "## `handeye check`
 
 Simulated cells with one mistake each, 4 to 15 captures, both setups, corners or board poses, robot
 0.5 mm and 0.03 degrees, corners 0.1 px; written as files, read and checked as a user's.
-`cargo run --release -p handeye-io --example check_benchmark` makes this table.
+`cargo run --release -p handeye-bench --bin check` makes this table.
 
 ";
 
@@ -51,7 +51,7 @@ fn main() {
     fs::remove_dir_all(&root).ok();
     let text = table(&rows);
     print!("{text}");
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../BENCHMARK.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../BENCHMARK.md");
     section::write(path, "check", &format!("{HEAD}{text}"));
 }
 

@@ -91,7 +91,7 @@ def opencv_time(method, poses):
 
 def handeye(*arguments):
     """Per file and method: (rotation, translation, milliseconds), or None where refused."""
-    command = ["cargo", "run", "--release", "-q", "-p", "handeye", "--example", "closed_forms", "--"]
+    command = ["cargo", "run", "--release", "-q", "-p", "handeye-bench", "--bin", "closed_forms", "--"]
     output = subprocess.run([*command, *arguments], cwd=ROOT, check=True, capture_output=True, text=True)
     answers = {}
     for line in output.stdout.splitlines():

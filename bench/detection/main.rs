@@ -2,9 +2,9 @@
 //! `bench/detection/run.py`, which sets other detectors beside it:
 //!
 //! ```text
-//! cargo run --release -p handeye-io --example detection_benchmark -- render FOLDER ACCURACY HARD EMPTY
-//! cargo run --release -p handeye-io --example detection_benchmark -- detect FOLDER
-//! cargo run --release -p handeye-io --example detection_benchmark -- search HARD EMPTY
+//! cargo run --release -p handeye-bench --bin detection -- render FOLDER ACCURACY HARD EMPTY
+//! cargo run --release -p handeye-bench --bin detection -- detect FOLDER
+//! cargo run --release -p handeye-bench --bin detection -- search HARD EMPTY
 //! ```
 //!
 //! The numbers are pictures per case. `render` writes PNG files and `truth.json`, the same bytes for

@@ -252,7 +252,7 @@ def bias(pictures):
 
 
 def handeye(*arguments):
-    command = ["cargo", "run", "--release", "-q", "-p", "handeye-io", "--example", "detection_benchmark", "--"]
+    command = ["cargo", "run", "--release", "-q", "-p", "handeye-bench", "--bin", "detection", "--"]
     done = subprocess.run([*command, *map(str, arguments)], cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE)
     return done.stdout
 

@@ -2,13 +2,13 @@
 //! beside it:
 //!
 //! ```text
-//! cargo run --release -p handeye --example registration_benchmark -- render FOLDER WIDTH HEIGHT SCENES
-//! cargo run --release -p handeye --example registration_benchmark -- register FOLDER SCENE
-//! cargo run --release -p handeye --example registration_benchmark -- threads FOLDER SCENE
-//! cargo run --release -p handeye --example registration_benchmark -- memory FOLDER SCENE
-//! cargo run --release -p handeye --example registration_benchmark -- trees FOLDER SCENE
-//! cargo run --release -p handeye --example registration_benchmark -- pairs
-//! cargo run --release -p handeye --example registration_benchmark -- basin SCENES
+//! cargo run --release -p handeye-bench --bin registration -- render FOLDER WIDTH HEIGHT SCENES
+//! cargo run --release -p handeye-bench --bin registration -- register FOLDER SCENE
+//! cargo run --release -p handeye-bench --bin registration -- threads FOLDER SCENE
+//! cargo run --release -p handeye-bench --bin registration -- memory FOLDER SCENE
+//! cargo run --release -p handeye-bench --bin registration -- trees FOLDER SCENE
+//! cargo run --release -p handeye-bench --bin registration -- pairs
+//! cargo run --release -p handeye-bench --bin registration -- basin SCENES
 //! ```
 //!
 //! `render` writes scans and what is known of them, the same bytes for the same numbers; all others print

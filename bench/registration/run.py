@@ -98,7 +98,7 @@ def seen(file):
 
 
 def handeye(*arguments):
-    command = ["cargo", "run", "--release", "-q", "-p", "handeye", "--example", "registration_benchmark", "--"]
+    command = ["cargo", "run", "--release", "-q", "-p", "handeye-bench", "--bin", "registration", "--"]
     done = subprocess.run([*command, *map(str, arguments)], cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE)
     return json.loads(done.stdout) if done.stdout else None
 

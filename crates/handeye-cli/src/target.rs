@@ -25,7 +25,7 @@ pub fn run(args: &TargetArgs, manners: &Manners) -> Result<u8, Failure> {
     let paper = Paper::named(&args.paper).map_err(|e| Failure::Usage(e.to_string()))?;
     let sheet = drawing::sheet(&target, &paper).map_err(|e| refused(args, e))?;
     let description = describe(&args.out, &target)?;
-    let title = drawing::caption(&target);
+    let title = target.in_words();
     let content = match kind {
         Kind::Pdf => drawing::pdf(&sheet, &title),
         Kind::Svg => drawing::svg(&sheet, &title).into_bytes(),

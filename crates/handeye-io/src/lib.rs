@@ -35,6 +35,8 @@ mod result_file;
 mod result_folder;
 pub mod robot;
 mod scan;
+#[cfg(test)]
+mod schema;
 mod shapes;
 pub mod simulated;
 mod table;
@@ -47,13 +49,14 @@ mod xml;
 pub use camera::read_intrinsics;
 pub use dataset::{
     CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PixelOrigin, PlacementSource,
-    RobotFile, RobotPoses, Shape, WorkspaceBox, WorkspaceFrame, columns, read_robot_poses,
+    Question, RobotFile, RobotPoses, Shape, WorkspaceBox, WorkspaceFrame, columns,
+    read_robot_poses,
 };
 pub use error::{Error, Place};
 pub use files::write_atomically;
 pub use image::{image_size, read_image};
 pub use import::{Declared, Direction, Imported, import};
-pub use init::{FirstManifest, Question, first_manifest};
+pub use init::{FirstManifest, first_manifest};
 pub use mesh::{is_mesh, points_on, read_mesh, spacing_on};
 pub use pairs_file::{MeasuredPoses, PosesFile, poses_from_json, read_poses};
 pub use problem::Problem;

@@ -4,7 +4,7 @@ use std::{fmt, path::Path};
 
 use handeye::{TargetModel, TargetSize};
 use serde::{
-    Deserialize, Deserializer,
+    Deserialize, Deserializer, Serialize, Serializer,
     de::{
         DeserializeSeed, Error as _, IntoDeserializer, MapAccess, SeqAccess, Visitor,
         value::{MapAccessDeserializer, MapDeserializer},
@@ -90,19 +90,6 @@ impl Targets {
         }
     }
 
-    /// The lines of a manifest that describe them.
-    pub fn toml(&self) -> String {
-        let lines = |target: &NamedTarget| {
-            let name = toml::Value::String(target.name.clone());
-            let table = target_toml(&target.model) + &size_toml(target.size, &target.model);
-            table.replacen("[target]\n", &format!("[[target]]\nname = {name}\n"), 1)
-        };
-        match self {
-            Self::One(model, size) => target_toml(model) + &size_toml(*size, model),
-            Self::Several(targets) => targets.iter().map(lines).collect::<Vec<_>>().join("\n"),
-        }
-    }
-
     /// Refuses dimensions that no target has, and targets that cannot be told apart.
     ///
     /// # Errors
@@ -134,6 +121,36 @@ impl Targets {
 impl<'de> Deserialize<'de> for Targets {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(TargetsVisitor)
+    }
+}
+
+/// The keys of a target as they are written.
+#[derive(Serialize)]
+struct TargetKeys<'a> {
+    name: Option<&'a str>,
+    #[serde(flatten)]
+    model: &'a TargetModel,
+    square_sigma_mm: Option<f64>,
+}
+
+impl<'a> TargetKeys<'a> {
+    fn of(name: Option<&'a str>, model: &'a TargetModel, size: TargetSize) -> Self {
+        let square_sigma_mm = match size {
+            TargetSize::Printed => None,
+            TargetSize::Measured(share) => Some(share * model.pitch_m() * 1e3),
+        };
+        Self { name, model, square_sigma_mm }
+    }
+}
+
+impl Serialize for Targets {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::One(model, size) => TargetKeys::of(None, model, *size).serialize(serializer),
+            Self::Several(targets) => serializer.collect_seq(
+                targets.iter().map(|t| TargetKeys::of(Some(&t.name), &t.model, t.size)),
+            ),
+        }
     }
 }
 
@@ -183,8 +200,12 @@ const LEAST_SIGMA: f64 = 1e-5;
 
 /// The keys beside a target's dimensions that say how well its size is known.
 #[derive(Default)]
-struct SizeKeys {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct SizeKeys {
+    /// Whether the size was measured with a caliper. It is then held to 0.03 mm over the longest side, and data that
+    /// say otherwise are reported; a size that was not measured is a prior that the data may move.
     measured: Option<bool>,
+    /// Standard deviation of the declared length (of a square, a tag, or the pitch), where it was measured.
     square_sigma_mm: Option<f64>,
 }
 
@@ -237,17 +258,7 @@ impl<'de, A: MapAccess<'de>> MapAccess<'de> for WithoutSize<'_, A> {
     }
 }
 
-/// The line of a manifest that says how well a target's size is known.
-fn size_toml(size: TargetSize, model: &TargetModel) -> String {
-    match size {
-        TargetSize::Printed => String::new(),
-        TargetSize::Measured(share) => {
-            format!("square_sigma_mm = {}\n", share * model.pitch_m() * 1e3)
-        }
-    }
-}
-
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 struct WithTargets {
     target: Targets,
 }
@@ -302,8 +313,9 @@ pub(crate) fn in_words(message: &str) -> String {
 
 /// The lines of a manifest that describe a target.
 pub fn target_toml(target: &TargetModel) -> String {
+    let targets = WithTargets { target: Targets::One(target.clone(), TargetSize::Printed) };
     // a flat table of numbers and short names: this cannot fail
-    format!("[target]\n{}", toml::to_string(target).unwrap_or_default())
+    toml::to_string(&targets).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 //! Units outside; inside all is metres and radians.
 
 use handeye::frame::FARTHEST_M;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// A unit of length that files use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub enum LengthUnit {
     /// Metre.
     #[serde(rename = "m")]
@@ -63,7 +64,8 @@ pub(crate) fn too_far(metres: f64) -> String {
 }
 
 /// A unit of angle that files use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub enum AngleUnit {
     /// Radian.
     #[serde(rename = "rad")]

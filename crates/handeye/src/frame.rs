@@ -238,7 +238,9 @@ pub fn quaternion_xyzw(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
     if w < 0.0 { [-x, -y, -z, -w] } else { [x, y, z, w] }
 }
 
+/// A pose as files hold it.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "Pose"))]
 #[serde(deny_unknown_fields)]
 struct Stored {
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -247,6 +249,17 @@ struct Stored {
     from: Option<String>,
     translation_m: [f64; 3],
     rotation_xyzw: [f64; 4],
+}
+
+#[cfg(feature = "schema")]
+impl<A: Frame, B: Frame> schemars::JsonSchema for Pose<A, B> {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        Stored::schema_name()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        Stored::json_schema(generator)
+    }
 }
 
 impl<A: Frame, B: Frame> Serialize for Pose<A, B> {

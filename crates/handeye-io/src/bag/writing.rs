@@ -2,7 +2,6 @@
 
 use std::{
     collections::{BTreeMap, BTreeSet},
-    fmt::Write as _,
     fs,
     path::Path,
 };
@@ -19,8 +18,16 @@ use super::{
 };
 use crate::{
     MANIFEST, Targets,
-    dataset::TIMES,
+    camera::CameraSpec,
+    dataset::{
+        Draft, TIMES,
+        manifest::{ImagesSpec, MotionSpec, RobotDirection, RobotSpec, ScansSpec},
+        shapes::TargetSpec,
+    },
     error::{Error, unusable},
+    import::WHO_CARRIES,
+    robot::UrdfSpec,
+    units::{AngleUnit, LengthUnit},
     write_atomically,
 };
 
@@ -271,99 +278,90 @@ fn numbers(at: &At) -> String {
 
 /// The manifest's text, and what it asks.
 fn manifest(plan: &Plan, cameras: &Cameras, written: &Written) -> (String, Vec<String>) {
-    let mut questions = vec![];
+    let mut draft = Draft::new();
     let bag = plan.bag.file_name().unwrap_or_default().to_string_lossy();
-    let mut text = format!("# ROS bag {bag}\n");
-    for (what, topic) in [("pictures", &plan.chosen.image), ("scans", &plan.chosen.scan)] {
-        let Some((topic, about)) =
-            topic.as_ref().and_then(|t| Some((t, plan.survey.topics.get(t)?)))
-        else {
-            continue;
-        };
-        let frame = about.frame.as_deref().unwrap_or("?");
-        let _ = writeln!(text, "# {what}: {topic}, in the frame {frame}");
-    }
-    let _ = writeln!(text, "# robot: {}", plan.options.robot);
-    match plan.options.setup {
-        Some(setup) => text += &format!("setup = \"{}\"\n", setup.name()),
-        None => {
-            let question =
-                "who carries the camera: the robot (eye-in-hand), or the cell (eye-to-hand)?";
-            text += &format!("# {question}\n# setup = \"eye-in-hand\"\n");
-            questions.push(question.into());
+    draft.head(format!("ROS bag {bag}"));
+    for (what, topic) in [("images", &plan.chosen.image), ("scans", &plan.chosen.scan)] {
+        let about = topic.as_ref().and_then(|t| Some((t, plan.survey.topics.get(t)?)));
+        if let Some((topic, about)) = about {
+            let frame = about.frame.as_deref().unwrap_or("?");
+            draft.head(format!("{what}: {topic}, in the frame {frame}"));
         }
     }
-    text += &target(plan, &mut questions);
-    if cameras.image {
-        text += &format!("\n[camera]\nfile = \"{CAMERA}\"\n");
+    draft.head(format!("robot: {}", plan.options.robot));
+    draft.set_setup(plan.options.setup, WHO_CARRIES);
+    let mut questions = vec![];
+    if plan.options.setup.is_none() {
+        questions.push(WHO_CARRIES.into());
     }
-    text += &robot(plan);
-    text += &series(plan, cameras, written);
-    (text, questions)
-}
-
-fn target(plan: &Plan, questions: &mut Vec<String>) -> String {
-    match &plan.options.target {
-        Some(targets) => {
-            if matches!(targets, Targets::Several(_)) {
-                questions.push("which of the targets is it? ([captures] target = \"NAME\")".into());
-            }
-            format!("\n{}", targets.toml())
-        }
-        None => {
-            let question = "which board does the camera see? ([target] kind = ...)";
-            questions.push(question.into());
-            format!("\n# {question}\n# [target]\n")
-        }
-    }
-}
-
-fn robot(plan: &Plan) -> String {
-    let mut text = format!("\n[robot]\nposes = \"{ROBOT}\"\ndirection = \"base_from_flange\"\n");
-    text += &match plan.robot.urdf() {
-        Some(urdf) => {
-            let (base, flange) = urdf.links();
-            let quoted = |name: &str| toml::Value::String(name.into()).to_string();
-            format!(
-                "notation = \"joints\"\nangle_unit = \"rad\"\nurdf = {{ file = \"{URDF}\", base = {}, flange = {} }}\n",
-                quoted(base),
-                quoted(flange)
-            )
-        }
-        None => "notation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n".into(),
-    };
-    text
-}
-
-/// Pictures, scans, and what belongs together.
-fn series(plan: &Plan, cameras: &Cameras, written: &Written) -> String {
-    let ending = |kind: Kind| {
-        let all: BTreeSet<&str> =
-            written.iter().filter(|((_, k), _)| *k == kind).map(|(_, ending)| *ending).collect();
-        match all.len() {
-            0 | 1 => all.first().copied().unwrap_or("png"),
-            _ => "*",
-        }
-    };
-    let mut text = String::new();
-    if plan.chosen.image.is_some() {
-        text += &format!("\n[images]\nfiles = \"images/*.{}\"\n", ending(Kind::Images));
-    }
-    if plan.chosen.scan.is_some() {
-        let ending = ending(Kind::Scans);
-        text += &format!("\n[scans]\nfiles = \"scans/*.{ending}\"\n");
-        text += &match ending {
-            "png" => format!("depth_scale = {:?}\n", pictures::DEPTH_SCALE),
-            _ => "length_unit = \"m\"\n".into(),
-        };
-        if cameras.scan {
-            text += &format!("camera = {{ file = \"{SCAN_CAMERA}\" }}\n");
-        }
-    }
+    questions.extend(target(plan, &mut draft));
+    draft.manifest.camera = cameras.image.then(|| CameraSpec::of_file(CAMERA));
+    draft.manifest.robot = Some(robot(plan));
+    draft.manifest.images = plan
+        .chosen
+        .image
+        .is_some()
+        .then(|| ImagesSpec::of(format!("images/*.{}", ending(written, Kind::Images))));
+    draft.manifest.scans = plan.chosen.scan.is_some().then(|| scans(cameras, written));
     if plan.moving {
-        text += &format!(
-            "\n# the robot moved: robot and camera keep time, each by its own clock\n[motion]\ntimes = \"{TIMES}\"\n"
-        );
+        draft.note("motion", "the robot moved: robot and camera keep time, each by its own clock");
+        draft.manifest.motion = Some(MotionSpec { times: TIMES.into() });
     }
-    text
+    (draft.written().0, questions)
+}
+
+/// Describes the target, or returns what must be asked of it.
+fn target(plan: &Plan, draft: &mut Draft) -> Option<String> {
+    let Some(targets) = &plan.options.target else {
+        let question = "which board does the camera see? ([target] kind = ...)";
+        draft.ask_target(question);
+        return Some(question.into());
+    };
+    draft.manifest.target = Some(TargetSpec::Boards(targets.clone()));
+    let is_one = matches!(targets, Targets::One(..));
+    (!is_one).then(|| "which of the targets is it? ([captures] target = \"NAME\")".into())
+}
+
+fn robot(plan: &Plan) -> RobotSpec {
+    let table = RobotSpec {
+        poses: ROBOT.into(),
+        direction: Some(RobotDirection::BaseFromFlange),
+        ..RobotSpec::default()
+    };
+    let Some(urdf) = plan.robot.urdf() else {
+        return RobotSpec {
+            notation: Some("quaternion-xyzw".into()),
+            length_unit: Some(LengthUnit::Metre),
+            ..table
+        };
+    };
+    let (base, flange) = urdf.links();
+    RobotSpec {
+        notation: Some("joints".into()),
+        angle_unit: Some(AngleUnit::Radian),
+        urdf: Some(UrdfSpec { file: URDF.into(), base: base.into(), flange: flange.into() }),
+        ..table
+    }
+}
+
+/// The ending that all files of a kind have, or `*`.
+fn ending(written: &Written, kind: Kind) -> &'static str {
+    let all: BTreeSet<&'static str> =
+        written.iter().filter(|((_, k), _)| *k == kind).map(|(_, ending)| *ending).collect();
+    match all.len() {
+        0 | 1 => all.first().copied().unwrap_or("png"),
+        _ => "*",
+    }
+}
+
+fn scans(cameras: &Cameras, written: &Written) -> ScansSpec {
+    let ending = ending(written, Kind::Scans);
+    let is_depth = ending == "png";
+    ScansSpec {
+        files: format!("scans/*.{ending}"),
+        length_unit: (!is_depth).then_some(LengthUnit::Metre),
+        depth_scale: is_depth.then_some(pictures::DEPTH_SCALE),
+        camera: cameras.scan.then(|| CameraSpec::of_file(SCAN_CAMERA)),
+        ..ScansSpec::default()
+    }
 }

@@ -8,7 +8,7 @@ mod visp;
 use std::path::Path;
 
 use handeye::{Distortion, Intrinsics, LensSigma, intrinsics::LensModel};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     error::{Error, Place, malformed},
@@ -18,28 +18,43 @@ use crate::{
 use found::Found;
 
 /// The intrinsics of a manifest: a file, or the values themselves, or both.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CameraSpec {
+    /// ROS camera_info, OpenCV FileStorage, Kalibr camchain, ViSP XML, JSON or NPZ.
     pub(crate) file: Option<String>,
+    /// Which of the file's cameras.
     pub(crate) camera: Option<String>,
+    /// Pixels in a row of the images.
     pub(crate) width: Option<u32>,
+    /// Rows of the images.
     pub(crate) height: Option<u32>,
     pub(crate) fx: Option<f64>,
     pub(crate) fy: Option<f64>,
     pub(crate) cx: Option<f64>,
     pub(crate) cy: Option<f64>,
+    /// none, plumb_bob (OpenCV's 4, 5, 8 or 12 coefficients), rational_polynomial, or equidistant (a fisheye lens).
     pub(crate) distortion_model: Option<String>,
+    /// Its coefficients, in OpenCV's order.
     pub(crate) distortion: Option<Vec<f64>>,
+    /// Width of the images over the calibrated width.
     pub(crate) resized: Option<f64>,
-    /// Standard deviations of given intrinsics.
+    /// Standard deviation of the given focal length, where the calibration states it. Data that say otherwise are then
+    /// wrong; without it the data may move the intrinsics.
     pub(crate) focal_sigma_px: Option<f64>,
+    /// Standard deviation of the given principal point per axis, likewise.
     pub(crate) center_sigma_px: Option<f64>,
-    /// The model of the lens to be calibrated from the views.
+    /// Model of the lens to calibrate from the views; beside given intrinsics, to check them.
     pub(crate) calibrate: Option<LensModel>,
 }
 
 impl CameraSpec {
+    /// The intrinsics of a file.
+    pub(crate) fn of_file(name: impl Into<String>) -> Self {
+        Self { file: Some(name.into()), ..Self::default() }
+    }
+
     /// Whether nothing is given but the wish to calibrate, and perhaps the size of the pictures.
     pub(crate) fn is_open(&self) -> bool {
         let Self { width, height, calibrate, .. } = *self;

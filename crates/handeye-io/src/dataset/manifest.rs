@@ -3,93 +3,202 @@
 use std::path::PathBuf;
 
 use handeye::Setup;
-use serde::Deserialize;
+#[cfg(test)]
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use toml::de::{DeTable, DeValue};
 
-use super::shapes::{ObjectSpec, SceneSpec, TargetSpec};
+use super::{
+    WorkspaceFrame,
+    draft::QUESTION,
+    shapes::{ObjectSpec, SceneSpec, TargetSpec},
+};
 use crate::{
     camera::CameraSpec,
     error::{Error, Place, malformed, nearest},
-    init::QUESTION,
     robot::{DhSpec, UrdfSpec},
     table::{Column, Layout},
     target_file::{self, in_words},
     units::{AngleUnit, LengthUnit},
 };
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Manifest {
-    pub(super) setup: Setup,
-    pub(super) target: Option<TargetSpec>,
-    pub(super) scene: Option<SceneSpec>,
-    pub(super) object: Option<ObjectSpec>,
-    pub(super) camera: Option<CameraSpec>,
-    pub(super) robot: Option<RobotSpec>,
-    pub(super) images: Option<ImagesSpec>,
-    pub(super) scans: Option<ScansSpec>,
-    pub(super) board_poses: Option<BoardPosesSpec>,
-    pub(super) corners: Option<CornersSpec>,
-    pub(super) point_pairs: Option<PointPairsSpec>,
-    #[serde(default)]
-    pub(super) captures: CapturesSpec,
-    pub(super) motion: Option<MotionSpec>,
-    #[serde(default)]
-    pub(super) placements: Vec<PlacementSpec>,
-    pub(super) touches: Option<TouchesSpec>,
-    pub(super) workspace: Option<WorkspaceSpec>,
-    pub(super) known_position: Option<KnownPositionSpec>,
-    #[serde(default)]
-    pub(super) noise: NoiseSpec,
-    #[serde(default)]
-    pub(super) limits: LimitsSpec,
-    #[serde(default)]
-    pub(super) answer: AnswerSpec,
+    /// Whether the robot carries the camera or the target.
+    pub(crate) setup: Setup,
+    /// What the camera looks at; lengths in millimetres. Several, each with a name, where images show more than one;
+    /// captures.target says which of them the calibration uses. Without a board: "scene", a still scene (eye-in-hand),
+    /// or "object", an object of known shape, in scans.
+    pub(crate) target: Option<TargetSpec>,
+    /// Belongs to target = "scene"; may be left out.
+    pub(crate) scene: Option<SceneSpec>,
+    /// Belongs to target = "object".
+    pub(crate) object: Option<ObjectSpec>,
+    /// Intrinsics; left out, they are calibrated from the views.
+    pub(crate) camera: Option<CameraSpec>,
+    /// What the robot reported at every capture.
+    pub(crate) robot: Option<RobotSpec>,
+    /// Images of the captures.
+    pub(crate) images: Option<ImagesSpec>,
+    /// Scans of the captures: point clouds or depth images.
+    pub(crate) scans: Option<ScansSpec>,
+    /// Poses of the board that another program found.
+    pub(crate) board_poses: Option<BoardPosesSpec>,
+    /// Corners that another program found.
+    pub(crate) corners: Option<CornersSpec>,
+    /// Points that both camera and robot measured.
+    pub(crate) point_pairs: Option<PointPairsSpec>,
+    /// Which files belong together, and which captures are used.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) captures: CapturesSpec,
+    /// The robot did not stop for its captures; the offset of the two clocks is estimated.
+    pub(crate) motion: Option<MotionSpec>,
+    /// Boards that lay still and were touched.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) placements: Vec<PlacementSpec>,
+    /// Corners that the robot touched.
+    pub(crate) touches: Option<TouchesSpec>,
+    /// The box in which the robot will work.
+    pub(crate) workspace: Option<WorkspaceSpec>,
+    /// The camera's position along one direction of the base (eye-to-hand) or flange (eye-in-hand).
+    pub(crate) known_position: Option<KnownPositionSpec>,
+    /// Standard deviations; what is left out is estimated.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) noise: NoiseSpec,
+    /// What the job tolerates.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) limits: LimitsSpec,
+    /// What the answer is for.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) answer: AnswerSpec,
+}
+
+/// Whether a key has the value that it has when it is left out.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// One name or several.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
-pub(super) enum Fields {
+pub(crate) enum Fields {
     One(String),
     Several(Vec<String>),
 }
 
 /// A name of a file, or the content itself.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
-pub(super) enum FileOr<T> {
+pub(crate) enum FileOr<T> {
     File(String),
     Inline(T),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub(super) enum RobotDirection {
+pub(crate) enum RobotDirection {
     BaseFromFlange,
     FlangeFromBase,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub(super) enum BoardDirection {
+pub(crate) enum BoardDirection {
     CameraFromTarget,
     TargetFromCamera,
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
-pub(super) enum PoseFrame {
+pub(crate) enum PoseFrame {
     #[default]
     Flange,
     Tool,
 }
 
-/// A table of poses: the keys that [robot] and [board_poses] share.
+/// The robot's poses: where they stand, and how they are written.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RobotSpec {
+    /// A file of poses, or a pattern of files with one pose each.
+    pub(crate) poses: String,
+    /// Path of the values in a JSON or YAML document, such as poses.*.tcp; several are joined.
+    pub(crate) field: Option<Fields>,
+    /// How the poses are written: ur, ur-rpy, kuka, fanuc, abb, yaskawa, kawasaki, staubli, doosan, denso, matrix4x4,
+    /// quaternion-xyzw, quaternion-wxyz, rotation-vector, euler-<axes>-intrinsic, euler-<axes>-extrinsic, joints.
+    #[cfg_attr(test, schemars(required))]
+    pub(crate) notation: Option<String>,
+    /// Unit of lengths; needed for notations of no maker.
+    pub(crate) length_unit: Option<LengthUnit>,
+    /// Unit of angles; the notation's own unless said.
+    pub(crate) angle_unit: Option<AngleUnit>,
+    /// First and last record, from 1, both included.
+    #[cfg_attr(test, schemars(regex(pattern = r"^\s*\d+\s*\.\.=?\s*\d+\s*$")))]
+    pub(crate) rows: Option<String>,
+    /// The columns in the notation's order, by number from 1 or by name.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) columns: Vec<Column>,
+    /// Lines before the table.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) skip_header: usize,
+    /// What the poses take to what.
+    #[cfg_attr(test, schemars(required))]
+    pub(crate) direction: Option<RobotDirection>,
+    /// Whether the poses are of the flange or of the tool.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) frame: PoseFrame,
+    /// flange_from_tool
+    pub(crate) tool: Option<ToolSpec>,
+    /// The arm that joint values are of: Denavit-Hartenberg parameters, or a file of them.
+    pub(crate) dh: Option<FileOr<DhSpec>>,
+    /// The arm that joint values are of, in place of dh.
+    pub(crate) urdf: Option<UrdfSpec>,
+}
+
+/// Poses of the board: where they stand, and how they are written.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BoardPosesSpec {
+    /// A file of poses, or a pattern of files with one pose each.
+    pub(crate) poses: String,
+    /// Path of the values in a JSON or YAML document, such as poses.*.tcp; several are joined.
+    pub(crate) field: Option<Fields>,
+    /// How the poses are written: ur, ur-rpy, kuka, fanuc, abb, yaskawa, kawasaki, staubli, doosan, denso, matrix4x4,
+    /// quaternion-xyzw, quaternion-wxyz, rotation-vector, euler-<axes>-intrinsic, euler-<axes>-extrinsic, joints.
+    #[cfg_attr(test, schemars(required))]
+    pub(crate) notation: Option<String>,
+    /// Unit of lengths; needed for notations of no maker.
+    pub(crate) length_unit: Option<LengthUnit>,
+    /// Unit of angles; the notation's own unless said.
+    pub(crate) angle_unit: Option<AngleUnit>,
+    /// First and last record, from 1, both included.
+    #[cfg_attr(test, schemars(regex(pattern = r"^\s*\d+\s*\.\.=?\s*\d+\s*$")))]
+    pub(crate) rows: Option<String>,
+    /// The columns in the notation's order, by number from 1 or by name.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) columns: Vec<Column>,
+    /// Lines before the table.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) skip_header: usize,
+    /// What the poses take to what.
+    #[cfg_attr(test, schemars(required))]
+    pub(crate) direction: Option<BoardDirection>,
+}
+
+/// A table of poses: the keys that [robot] and [board_poses] share, and the arm.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PoseTable {
-    pub(super) poses: String,
     pub(super) field: Option<Fields>,
+    pub(super) poses: String,
     pub(super) notation: Option<String>,
     pub(super) length_unit: Option<LengthUnit>,
     pub(super) angle_unit: Option<AngleUnit>,
@@ -106,51 +215,37 @@ pub(super) enum ArmSpec {
     Urdf(UrdfSpec),
 }
 
-macro_rules! pose_table { ($Spec:ident { $($field:ident: $Kind:ty,)* }) => {
-    #[derive(Debug, Clone, Deserialize)]
-    #[serde(deny_unknown_fields)]
-    pub(super) struct $Spec {
-        pub(super) poses: String,
-        field: Option<Fields>,
-        notation: Option<String>,
-        length_unit: Option<LengthUnit>,
-        angle_unit: Option<AngleUnit>,
-        rows: Option<String>,
-        #[serde(default)]
-        columns: Vec<Column>,
-        #[serde(default)]
-        skip_header: usize,
-        $(#[serde(default)] pub(super) $field: $Kind,)*
-    }
-    impl $Spec {
-        pub(super) fn table(&self) -> PoseTable {
-            PoseTable {
-                poses: self.poses.clone(),
-                field: self.field.clone(),
-                notation: self.notation.clone(),
-                length_unit: self.length_unit,
-                angle_unit: self.angle_unit,
-                rows: self.rows.clone(),
-                columns: self.columns.clone(),
-                skip_header: self.skip_header,
-                arm: None,
-            }
+impl BoardPosesSpec {
+    pub(super) fn table(&self) -> PoseTable {
+        PoseTable {
+            poses: self.poses.clone(),
+            field: self.field.clone(),
+            notation: self.notation.clone(),
+            length_unit: self.length_unit,
+            angle_unit: self.angle_unit,
+            rows: self.rows.clone(),
+            columns: self.columns.clone(),
+            skip_header: self.skip_header,
+            arm: None,
         }
     }
-} }
-
-pose_table!(RobotSpec {
-    direction: Option<RobotDirection>,
-    frame: PoseFrame,
-    tool: Option<ToolSpec>,
-    dh: Option<FileOr<DhSpec>>,
-    urdf: Option<UrdfSpec>,
-});
-pose_table!(BoardPosesSpec {
-    direction: Option<BoardDirection>,
-});
+}
 
 impl RobotSpec {
+    pub(super) fn table(&self) -> PoseTable {
+        PoseTable {
+            poses: self.poses.clone(),
+            field: self.field.clone(),
+            notation: self.notation.clone(),
+            length_unit: self.length_unit,
+            angle_unit: self.angle_unit,
+            rows: self.rows.clone(),
+            columns: self.columns.clone(),
+            skip_header: self.skip_header,
+            arm: None,
+        }
+    }
+
     /// The table with the model of the arm; a manifest names one, not two.
     pub(super) fn with_arm(&self, source: &Source) -> Result<PoseTable, Error> {
         let arm = match (&self.dh, &self.urdf) {
@@ -166,32 +261,54 @@ impl RobotSpec {
 }
 
 /// Where the tool sits on the flange.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct ToolSpec {
-    pub(super) translation_mm: [f64; 3],
-    pub(super) rotation_xyzw: [f64; 4],
+pub(crate) struct ToolSpec {
+    /// Where it is on the flange.
+    pub(crate) translation_mm: [f64; 3],
+    /// Its rotation on the flange.
+    pub(crate) rotation_xyzw: [f64; 4],
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// Images of the captures.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct ImagesSpec {
-    pub(super) files: String,
-    pub(super) bit_depth: Option<u32>,
+pub(crate) struct ImagesSpec {
+    /// The files, by a pattern.
+    pub(crate) files: String,
+    /// Bits of a pixel that are used, where the file has more.
+    pub(crate) bit_depth: Option<u32>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+impl ImagesSpec {
+    /// All the images of a pattern.
+    pub(crate) fn of(files: impl Into<String>) -> Self {
+        Self { files: files.into(), bit_depth: None }
+    }
+}
+
+/// Scans of the captures.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct ScansSpec {
-    pub(super) files: String,
-    pub(super) length_unit: Option<LengthUnit>,
-    pub(super) depth_scale: Option<f64>,
-    pub(super) organised: Option<(usize, usize)>,
-    pub(super) camera: Option<CameraSpec>,
+pub(crate) struct ScansSpec {
+    /// The files, by a pattern.
+    pub(crate) files: String,
+    /// Unit of lengths, where the files do not say it.
+    pub(crate) length_unit: Option<LengthUnit>,
+    /// Metres per unit of depth.
+    pub(crate) depth_scale: Option<f64>,
+    /// Width and height of the grid that the points of a file are in.
+    pub(crate) organised: Option<(usize, usize)>,
+    /// Intrinsics of the depth images; left out, those of the images.
+    pub(crate) camera: Option<CameraSpec>,
 }
 
 /// What pixel (0, 0) is, to the program that found the corners.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum PixelOrigin {
     /// The centre of the first pixel: OpenCV's convention, and that of this program.
@@ -200,153 +317,258 @@ pub enum PixelOrigin {
     Corner,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// Corners that another program found.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct CornersSpec {
-    pub(super) files: String,
-    pub(super) pixel_origin: Option<PixelOrigin>,
+pub(crate) struct CornersSpec {
+    /// The files, by a pattern: a table of corners for each capture.
+    pub(crate) files: String,
+    /// Where in the first pixel (0, 0) is. ChArUco corners of OpenCV 4.9 to 4.13: corner.
+    #[cfg_attr(test, schemars(required))]
+    pub(crate) pixel_origin: Option<PixelOrigin>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// Points that camera and robot both measured.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct PointPairsSpec {
-    pub(super) camera: PointsSpec,
-    pub(super) robot: PointsSpec,
+pub(crate) struct PointPairsSpec {
+    /// The points as the camera measured them.
+    pub(crate) camera: PointsSpec,
+    /// The same points as the robot measured them.
+    pub(crate) robot: PointsSpec,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// A table of points.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct PointsSpec {
-    pub(super) file: String,
-    pub(super) field: Option<Fields>,
-    pub(super) length_unit: Option<LengthUnit>,
-    #[serde(default)]
-    pub(super) columns: Vec<Column>,
+pub(crate) struct PointsSpec {
+    /// A table of points.
+    pub(crate) file: String,
+    /// Path of the values in a JSON or YAML document, such as poses.*.tcp; several are joined.
+    pub(crate) field: Option<Fields>,
+    /// Unit of the points.
+    #[cfg_attr(test, schemars(required))]
+    pub(crate) length_unit: Option<LengthUnit>,
+    /// The columns of x, y and z, by number from 1 or by name.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) columns: Vec<Column>,
 }
 
-#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Pairing {
+pub(crate) enum Pairing {
     #[default]
     Order,
     Number,
 }
 
-#[derive(Debug, Clone, Default, Deserialize)]
+/// Which files belong together, and which captures are used.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct CapturesSpec {
-    #[serde(default)]
-    pub(super) pairing: Pairing,
-    pub(super) target: Option<String>,
-    #[serde(default)]
-    pub(super) exclude: Vec<String>,
+pub(crate) struct CapturesSpec {
+    /// Whether the n-th files belong together, or those of one number in their names.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) pairing: Pairing,
+    /// The name of the target that the calibration uses, where there are several.
+    pub(crate) target: Option<String>,
+    /// Names of captures that are not used.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) exclude: Vec<String>,
 }
 
 /// A robot that did not stop for its captures.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct MotionSpec {
-    pub(super) times: String,
+pub(crate) struct MotionSpec {
+    /// Table with the columns image and time_s: when each capture was taken, by the camera's clock. The robot's poses
+    /// have a column time_s of their own.
+    pub(crate) times: String,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// A board that lay still and was touched.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct PlacementSpec {
-    pub(super) id: String,
-    pub(super) image: Option<String>,
-    pub(super) scan: Option<String>,
-    pub(super) corners: Option<String>,
-    pub(super) board_pose: Option<Vec<f64>>,
+pub(crate) struct PlacementSpec {
+    /// Its name.
+    pub(crate) id: String,
+    /// An image of the board there.
+    pub(crate) image: Option<String>,
+    /// A scan of the board there.
+    pub(crate) scan: Option<String>,
+    /// A table of its corners, found by another program.
+    pub(crate) corners: Option<String>,
+    /// Its pose, found by another program.
+    pub(crate) board_pose: Option<Vec<f64>>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum TouchKind {
+pub(crate) enum TouchKind {
     Tip,
     FlangePose,
     Joints,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// Corners that the robot touched.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct TouchesSpec {
-    pub(super) file: Option<String>,
-    pub(super) field: Option<Fields>,
-    pub(super) kind: Option<TouchKind>,
-    pub(super) notation: Option<String>,
-    pub(super) length_unit: Option<LengthUnit>,
-    pub(super) angle_unit: Option<AngleUnit>,
-    pub(super) tip: Option<TipSpec>,
-    #[serde(default)]
-    pub(super) points: Vec<TouchPoint>,
+pub(crate) struct TouchesSpec {
+    /// A table of touches.
+    pub(crate) file: Option<String>,
+    /// Path of the values in a JSON or YAML document, such as poses.*.tcp; several are joined.
+    pub(crate) field: Option<Fields>,
+    /// What was recorded: the point of the tip, the pose of the flange, or joint values.
+    #[cfg_attr(test, schemars(required))]
+    pub(crate) kind: Option<TouchKind>,
+    /// How the poses are written, as in [robot].
+    pub(crate) notation: Option<String>,
+    /// Unit of lengths.
+    pub(crate) length_unit: Option<LengthUnit>,
+    /// Unit of angles.
+    pub(crate) angle_unit: Option<AngleUnit>,
+    /// The tip of the touching tool.
+    pub(crate) tip: Option<TipSpec>,
+    /// The touches themselves, in place of a file.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) points: Vec<TouchPoint>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// The tip of a touching tool.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct TipSpec {
-    pub(super) in_flange_mm: [f64; 3],
+pub(crate) struct TipSpec {
+    /// Where it is on the flange.
+    pub(crate) in_flange_mm: [f64; 3],
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// One touch.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct TouchPoint {
-    pub(super) placement: Option<String>,
-    pub(super) corner: Option<u32>,
-    pub(super) row: Option<u32>,
-    pub(super) column: Option<u32>,
-    pub(super) values: Vec<f64>,
+pub(crate) struct TouchPoint {
+    /// Where the board lay.
+    pub(crate) placement: Option<String>,
+    /// Which corner.
+    pub(crate) corner: Option<u32>,
+    /// Its row, in place of corner.
+    pub(crate) row: Option<u32>,
+    /// Its column, in place of corner.
+    pub(crate) column: Option<u32>,
+    /// What the robot reported.
+    pub(crate) values: Vec<f64>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// The box in which the robot will work.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct WorkspaceSpec {
-    pub(super) frame: super::WorkspaceFrame,
-    pub(super) minimum_mm: [f64; 3],
-    pub(super) maximum_mm: [f64; 3],
+pub(crate) struct WorkspaceSpec {
+    /// The frame of the box.
+    pub(crate) frame: WorkspaceFrame,
+    /// Least x, y and z.
+    pub(crate) minimum_mm: [f64; 3],
+    /// Largest x, y and z.
+    pub(crate) maximum_mm: [f64; 3],
 }
 
 /// The camera's position along one direction of the base (eye-to-hand) or flange (eye-in-hand).
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct KnownPositionSpec {
-    pub(super) axis: [f64; 3],
-    pub(super) value_mm: f64,
-    pub(super) sigma_mm: f64,
+pub(crate) struct KnownPositionSpec {
+    /// The direction.
+    pub(crate) axis: [f64; 3],
+    /// The position along it.
+    pub(crate) value_mm: f64,
+    /// Its standard deviation.
+    pub(crate) sigma_mm: f64,
 }
 
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
+/// Standard deviations.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct NoiseSpec {
-    pub(super) image_px: Option<f64>,
-    pub(super) robot_position_mm: Option<f64>,
-    pub(super) robot_rotation_deg: Option<f64>,
-    pub(super) depth_mm: Option<f64>,
-    pub(super) touch_mm: Option<f64>,
-    pub(super) tip_mm: Option<f64>,
+pub(crate) struct NoiseSpec {
+    /// Of a corner in an image.
+    pub(crate) image_px: Option<f64>,
+    /// Of the robot's position.
+    pub(crate) robot_position_mm: Option<f64>,
+    /// Of the robot's rotation.
+    pub(crate) robot_rotation_deg: Option<f64>,
+    /// Of a point of a scan.
+    pub(crate) depth_mm: Option<f64>,
+    /// Of a touch.
+    pub(crate) touch_mm: Option<f64>,
+    /// Of the tip's offset.
+    pub(crate) tip_mm: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
+/// What the job tolerates.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct LimitsSpec {
-    pub(super) max_error_mm: Option<f64>,
+pub(crate) struct LimitsSpec {
+    /// Tolerated error, 95 %.
+    pub(crate) max_error_mm: Option<f64>,
 }
 
 /// What the answer is for.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub(super) struct AnswerSpec {
-    pub(super) frame: Option<FrameSpec>,
-    pub(super) max_error_mm: Option<f64>,
+pub(crate) struct AnswerSpec {
+    /// The frame of the camera, where images and scans do not agree: that of the scans, if there are any, or that of
+    /// the images.
+    pub(crate) frame: Option<FrameSpec>,
+    /// Tolerated error, 95 %; as in limits.
+    pub(crate) max_error_mm: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
-pub(super) enum FrameSpec {
+pub(crate) enum FrameSpec {
     Scan,
     Image,
 }
 
 impl Manifest {
+    /// A manifest that says nothing else.
+    pub(crate) fn new(setup: Setup) -> Manifest {
+        Manifest {
+            setup,
+            target: None,
+            scene: None,
+            object: None,
+            camera: None,
+            robot: None,
+            images: None,
+            scans: None,
+            board_poses: None,
+            corners: None,
+            point_pairs: None,
+            captures: CapturesSpec::default(),
+            motion: None,
+            placements: vec![],
+            touches: None,
+            workspace: None,
+            known_position: None,
+            noise: NoiseSpec::default(),
+            limits: LimitsSpec::default(),
+            answer: AnswerSpec::default(),
+        }
+    }
+
     /// Reads the text of a manifest; every error has its line.
     pub(crate) fn parse(source: &Source) -> Result<Manifest, Error> {
         toml::from_str(&source.text).map_err(|e| {

@@ -1,14 +1,15 @@
 //! A folder of captures: its manifest `handeye.toml`, checked and put together.
 
 mod corners;
-mod manifest;
+mod draft;
+pub(crate) mod manifest;
 mod motion;
 mod opening;
 mod pairing;
 mod poses;
 mod rereading;
 mod robot_file;
-mod shapes;
+pub(crate) mod shapes;
 mod touches;
 
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ use handeye::{
     intrinsics::LensModel,
     model::{kinematics::Arm, session::KnownPosition},
 };
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     bag,
@@ -28,6 +29,8 @@ use crate::{
     files, image,
     scan::{self, ScanOptions},
 };
+pub use draft::Question;
+pub(crate) use draft::{Draft, EXAMPLE_TARGET};
 pub use manifest::PixelOrigin;
 pub(crate) use manifest::{Manifest, Source};
 pub(crate) use motion::TIMES;
@@ -158,7 +161,8 @@ pub struct PlacementSource {
 }
 
 /// The frame a workspace box is written in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum WorkspaceFrame {
     /// The robot's base.

@@ -7,7 +7,7 @@ use std::{
 
 use handeye::{Camera, Mount, Pose, Scan, Setup, Warning};
 use serde::{
-    Deserialize, Deserializer,
+    Deserialize, Deserializer, Serialize, Serializer,
     de::{Error as _, MapAccess, SeqAccess, Visitor},
 };
 
@@ -52,7 +52,7 @@ const SCENE: &str = "scene";
 const OBJECT: &str = "object";
 
 /// What stands under `target`: boards, or a word for what takes their place.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) enum TargetSpec {
     Boards(Targets),
     Scene,
@@ -71,6 +71,16 @@ impl TargetSpec {
 impl<'de> Deserialize<'de> for TargetSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(TargetVisitor)
+    }
+}
+
+impl Serialize for TargetSpec {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Boards(targets) => targets.serialize(serializer),
+            Self::Scene => SCENE.serialize(serializer),
+            Self::Object => OBJECT.serialize(serializer),
+        }
     }
 }
 
@@ -104,16 +114,23 @@ impl<'de> Visitor<'de> for TargetVisitor {
     }
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// A still scene that the scans show.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneSpec {
+    /// calibration.json of an earlier calibration: about where the camera sits on the flange.
     initial: Option<String>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// An object of known shape that the scans show.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ObjectSpec {
+    /// Mesh of the object (STL, OBJ, PLY with faces), or a scan of it in any format that scans have.
     model: String,
+    /// Unit of the model, where its file does not say it.
     length_unit: Option<LengthUnit>,
 }
 

@@ -153,7 +153,7 @@ pub fn sheet(target: &TargetModel, paper: &Paper) -> Result<Sheet, DrawingError>
     };
     let footer = paper.height - MARGIN - FOOTER;
     draw_ruler(&mut sheet, MARGIN, footer);
-    for (k, line) in [caption(target), ADVICE.into()].into_iter().enumerate() {
+    for (k, line) in [target.in_words(), ADVICE.into()].into_iter().enumerate() {
         let y = footer + 10.0 + 3.4 * k as f64;
         sheet.texts.push(Text { x: MARGIN, y, size: LETTERS, text: line });
     }
@@ -205,62 +205,6 @@ fn draw_ruler(sheet: &mut Sheet, left: f64, top: f64) {
         let (x, y) = (left + mm, top + 6.2);
         sheet.texts.push(Text { x, y, size: LETTERS, text: label.into() });
     }
-}
-
-/// The target in words.
-pub fn caption(target: &TargetModel) -> String {
-    match target {
-        TargetModel::Checkerboard { columns, rows, square_mm } => {
-            format!("Checkerboard, {columns} x {rows} inner corners, squares of {square_mm} mm")
-        }
-        TargetModel::Charuco {
-            squares_x,
-            squares_y,
-            square_mm,
-            marker_mm,
-            dictionary,
-            legacy,
-            first_id,
-        } => {
-            let layout = if *legacy { ", legacy layout" } else { "" };
-            let from = if *first_id > 0 { format!(" from {first_id}") } else { String::new() };
-            format!(
-                "ChArUco, {squares_x} x {squares_y} squares of {square_mm} mm, markers of \
-                 {marker_mm} mm, {dictionary}{from}{layout}"
-            )
-        }
-        TargetModel::Tag { dictionary, id, size_mm } => {
-            format!("Tag {id} of {dictionary}, black square of {size_mm} mm")
-        }
-        TargetModel::CircleGrid { columns, rows, pitch_mm } => {
-            format!("Circle grid, {columns} x {rows} circles, {pitch_mm} mm from centre to centre")
-        }
-        TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm } => format!(
-            "Asymmetric circle grid, {rows} rows of {columns} circles, {pitch_mm} mm from row to row"
-        ),
-        TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm } => format!(
-            "Circle grid with a larger one, {columns} x {rows} circles, {pitch_mm} mm from centre to \
-             centre"
-        ),
-        TargetModel::Aprilgrid { tags_x, tags_y, tag_mm, spacing, family, first_id, .. } => {
-            format!(
-                "Aprilgrid, {tags_x} x {tags_y} tags of {tag_mm} mm, gaps of {} mm, {} from {first_id}",
-                round(tag_mm * spacing),
-                family.dictionary()
-            )
-        }
-        TargetModel::TagGrid { dictionary, tags_x, tags_y, tag_mm, gap_mm, first_id } => format!(
-            "Tag grid, {tags_x} x {tags_y} tags of {tag_mm} mm, gaps of {gap_mm} mm, {dictionary} \
-             from {first_id}"
-        ),
-        TargetModel::Sphere { diameter_mm: Some(d) } => format!("Ball of {d} mm"),
-        TargetModel::Sphere { diameter_mm: None } => "Ball".into(),
-    }
-}
-
-/// To a micrometre.
-fn round(mm: f64) -> f64 {
-    (mm * 1e3).round() / 1e3
 }
 
 #[cfg(test)]

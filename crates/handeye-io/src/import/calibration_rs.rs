@@ -5,13 +5,18 @@ use std::path::Path;
 
 use handeye::TargetModel;
 
-use super::{Declared, Described, industrial, quoted, split};
+use super::{Declared, Described, industrial, split};
 use crate::{
     Error, Place,
+    dataset::{
+        Draft,
+        manifest::{Fields, ImagesSpec, Pairing, RobotDirection, RobotSpec},
+    },
     error::{malformed, unusable},
     files,
-    target_file::target_toml,
+    table::Column,
     tree::Tree,
+    units::{AngleUnit, LengthUnit},
 };
 
 const LAYOUT: &str = "calibration-rs";
@@ -25,7 +30,7 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
         return Err(unusable(source, what));
     };
     let open = unresolved(&tree);
-    let mut set = Set { source, open, questions: vec![] };
+    let mut set = Set { source, open, draft: Draft::new(), questions: vec![] };
     set.questions = set
         .open
         .iter()
@@ -41,18 +46,17 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     if camera.get("roi_xywh").is_some_and(|roi| *roi != Tree::Null) {
         set.questions.push("its roi_xywh is not cut out: are the images whole?".into());
     }
-    let target = set.target(tree.get("target"));
-    let robot = set.robot(robot, tree.get("pose_convention"))?;
-    let images = set.images(camera)?;
-    let pairing = match tree.get("pose_pairing").map(|p| text(p, "kind")) {
-        Some("shared_filename_token") => "\n[captures]\npairing = \"number\"\n",
-        _ => "",
-    };
+    set.target(tree.get("target"));
+    set.robot(robot, tree.get("pose_convention"))?;
+    set.draft.manifest.images = Some(ImagesSpec::of(set.images(camera)?));
+    if tree.get("pose_pairing").map(|p| text(p, "kind")) == Some("shared_filename_token") {
+        set.draft.manifest.captures.pairing = Pairing::Number;
+    }
     Ok(Some(Described {
         layout: LAYOUT,
         folder: split(source).0,
         setup: None,
-        sections: format!("\n{target}{robot}\n[images]\nfiles = {}\n{pairing}", quoted(&images)),
+        draft: set.draft,
         questions: set.questions,
         notes: vec![],
     }))
@@ -88,80 +92,107 @@ fn unresolved(tree: &Tree) -> Vec<String> {
 struct Set<'a> {
     source: &'a Path,
     open: Vec<String>,
+    draft: Draft,
     questions: Vec<String>,
 }
 
 impl Set<'_> {
-    /// The `[target]`, commented out where ours has no such board.
-    fn target(&mut self, target: Option<&Tree>) -> String {
+    /// The `[target]`, an example where ours has no such board.
+    fn target(&mut self, target: Option<&Tree>) {
         let is_open = self.open.iter().any(|key| key.starts_with("target"));
         if let Some(model) = target.and_then(board).filter(|_| !is_open) {
-            return target_toml(&model);
+            return self.draft.set_target(model);
         }
         let kind = target.map_or("", |t| text(t, "kind"));
         let what = format!("which target is in the images? (it says {kind:?})");
-        let lines = format!("# {what}\n# [target]\n# kind = \"checkerboard\"\n");
+        self.draft.ask_target(&what);
         self.questions.push(what);
-        lines
     }
 
-    /// The `[robot]`; what is open is commented out.
-    fn robot(&mut self, robot: &Tree, convention: Option<&Tree>) -> Result<String, Error> {
-        let mut lines = format!("\n[robot]\nposes = {}\n", quoted(text(robot, "path")));
-        lines += &self.columns(robot, convention)?;
+    /// The `[robot]`; what is open is asked.
+    fn robot(&mut self, robot: &Tree, convention: Option<&Tree>) -> Result<(), Error> {
+        let (field, columns) = self.columns(robot, convention)?;
         let convention = |key: &str| convention.map_or("", |c| text(c, key));
         let rotation = convention("rotation_format");
-        lines += &self.line("rotation_format", "notation", notation(rotation), "quaternion-xyzw");
-        if rotation.starts_with("euler") {
-            lines += if rotation.ends_with("_rad") {
-                "angle_unit = \"rad\"\n"
-            } else {
-                "angle_unit = \"deg\"\n"
-            };
-        }
-        let unit = ["m", "mm"].into_iter().find(|u| *u == convention("translation_units"));
-        lines += &self.line("translation_units", "length_unit", unit, "mm");
-        let direction = match convention("transform") {
-            "t_base_tcp" | "t_world_tcp" => Some("base_from_flange"),
-            "t_tcp_base" | "t_tcp_world" => Some("flange_from_base"),
+        let angle_unit = rotation.starts_with("euler").then(|| match rotation.ends_with("_rad") {
+            true => AngleUnit::Radian,
+            false => AngleUnit::Degree,
+        });
+        let length_unit = match convention("translation_units") {
+            "m" => Some(LengthUnit::Metre),
+            "mm" => Some(LengthUnit::Millimetre),
             _ => None,
         };
-        lines += &self.line("transform", "direction", direction, "base_from_flange");
-        lines += "# its poses are of the TCP: the answer is then the camera's place on the TCP\n";
-        Ok(lines)
+        let direction = match convention("transform") {
+            "t_base_tcp" | "t_world_tcp" => Some(RobotDirection::BaseFromFlange),
+            "t_tcp_base" | "t_tcp_world" => Some(RobotDirection::FlangeFromBase),
+            _ => None,
+        };
+        self.draft.manifest.robot = Some(RobotSpec {
+            poses: text(robot, "path").into(),
+            field,
+            columns,
+            notation: self.or_asked(
+                "rotation_format",
+                "notation",
+                notation(rotation).map(String::from),
+                "quaternion-xyzw".into(),
+            ),
+            angle_unit,
+            length_unit: self.or_asked(
+                "translation_units",
+                "length_unit",
+                length_unit,
+                LengthUnit::Millimetre,
+            ),
+            direction: self.or_asked(
+                "transform",
+                "direction",
+                direction,
+                RobotDirection::BaseFromFlange,
+            ),
+            ..RobotSpec::default()
+        });
+        self.draft.note(
+            "robot",
+            "its poses are of the TCP: the answer is then the camera's place on the TCP",
+        );
+        Ok(())
     }
 
-    /// A key of `[robot]`, or the question behind it.
-    fn line(&mut self, theirs: &str, ours: &str, value: Option<&str>, example: &str) -> String {
+    /// The value of a key of `[robot]`, or an example and the question behind it.
+    fn or_asked<T>(&mut self, theirs: &str, ours: &str, value: Option<T>, example: T) -> Option<T> {
         let is_open = self
             .open
             .iter()
             .any(|key| *key == format!("pose_convention.{theirs}") || key == "pose_convention");
-        match value.filter(|_| !is_open) {
-            Some(value) => format!("{ours} = \"{value}\"\n"),
-            None => {
-                let what =
-                    format!("[robot] {ours} is missing: pose_convention.{theirs} does not say it");
-                if !is_open {
-                    self.questions.push(what.clone());
-                }
-                format!("# {what}\n# {ours} = \"{example}\"\n")
-            }
+        if value.is_some() && !is_open {
+            return value;
         }
+        let what = format!("[robot] {ours} is missing: pose_convention.{theirs} does not say it");
+        self.draft.ask(&[&format!("robot.{ours}")], what.as_str());
+        if !is_open {
+            self.questions.push(what);
+        }
+        Some(example)
     }
 
-    /// Where the numbers stand in the file of poses.
-    fn columns(&self, robot: &Tree, convention: Option<&Tree>) -> Result<String, Error> {
+    /// Where the numbers stand in the file of poses: under a key, or in columns.
+    fn columns(
+        &self,
+        robot: &Tree,
+        convention: Option<&Tree>,
+    ) -> Result<(Option<Fields>, Vec<Column>), Error> {
         if text(robot, "format") == "jsonl" {
             let what =
                 "robot_poses are lines of JSON, which are not read: put them into one JSON list";
             return Err(unusable(self.source, what));
         }
         if let Some(field) = robot.get("matrix_field").and_then(Tree::text) {
-            return Ok(format!("field = {}\n", quoted(&format!("*.{field}"))));
+            return Ok((Some(Fields::One(format!("*.{field}"))), vec![]));
         }
         let Some(columns) = robot.get("columns").filter(|c| **c != Tree::Null) else {
-            return Ok(String::new());
+            return Ok((None, vec![]));
         };
         let Some(Tree::List(rotation)) = columns.get("rotation") else {
             return Err(unusable(self.source, "robot_poses.columns has no list `rotation`"));
@@ -170,9 +201,8 @@ impl Set<'_> {
         let turn = rotation.iter().filter_map(Tree::text);
         let is_matrix =
             convention.is_some_and(|c| text(c, "rotation_format").starts_with("matrix"));
-        let names: Vec<String> =
-            place.into_iter().filter(|_| !is_matrix).chain(turn).map(quoted).collect();
-        Ok(format!("columns = [{}]\n", names.join(", ")))
+        let names = place.into_iter().filter(|_| !is_matrix).chain(turn);
+        Ok((None, names.map(|name| Column::Name(name.into())).collect()))
     }
 
     /// The pattern of the pictures.

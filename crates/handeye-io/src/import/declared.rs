@@ -108,7 +108,7 @@ impl Declared {
 }
 
 /// The question behind a setup that nobody said.
-pub(super) const WHO_CARRIES: &str =
+pub(crate) const WHO_CARRIES: &str =
     "who carries the camera: the robot (eye-in-hand), or the cell (eye-to-hand)?";
 
 /// What the files say of the setup, or the user.

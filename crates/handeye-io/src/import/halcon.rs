@@ -3,8 +3,18 @@
 
 use std::{collections::BTreeMap, path::Path};
 
-use super::{Declared, Described, quoted};
-use crate::{Error, error::unusable, files, table::halcon};
+use super::{Declared, Described};
+use crate::{
+    Error,
+    dataset::{
+        Draft,
+        manifest::{BoardDirection, BoardPosesSpec, ImagesSpec, RobotDirection, RobotSpec},
+    },
+    error::unusable,
+    files,
+    table::halcon,
+    units::LengthUnit,
+};
 
 /// Captures have at least so many files each.
 const FEWEST: usize = 3;
@@ -42,28 +52,21 @@ pub(super) fn describe(source: &Path, declared: &Declared) -> Result<Option<Desc
             return Err(unusable(source, what));
         }
     };
-    let mut questions = vec![];
-    let mut sections = table(
-        "robot",
-        robot,
-        ["base_from_flange", "flange_from_base"],
-        source,
-        declared,
-        &mut questions,
-    )?;
-    if let Some(board) = board {
-        let directions = ["camera_from_target", "target_from_camera"];
-        sections += &table("board_poses", board, directions, source, declared, &mut questions)?;
-    } else {
-        sections = pictures(&groups, &mut questions) + &sections;
+    let mut set = Set { source, declared, draft: Draft::new(), questions: vec![] };
+    set.robot(robot)?;
+    match board {
+        Some(board) => set.board_poses(board)?,
+        None => set.pictures(&groups),
     }
-    sections += "# the tool of HALCON is taken as the flange: the answer is the camera's place on, or under, that\n";
+    set.draft.note_at_end(
+        "the tool of HALCON is taken as the flange: the answer is the camera's place on, or under, that",
+    );
     Ok(Some(Described {
         layout: "poses of HALCON",
         folder: source.into(),
         setup: None,
-        sections,
-        questions,
+        draft: set.draft,
+        questions: set.questions,
         notes: vec![],
     }))
 }
@@ -85,66 +88,91 @@ fn groups(folder: &Path) -> Result<BTreeMap<String, Vec<std::path::PathBuf>>, Er
     Ok(groups)
 }
 
-/// `[robot]` or `[board_poses]`; the direction as declared, as the name has it, or asked.
-fn table(
-    section: &str,
-    files: &str,
-    directions: [&str; 2],
-    source: &Path,
-    declared: &Declared,
-    questions: &mut Vec<String>,
-) -> Result<String, Error> {
-    let bare: String = files.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect();
-    let one = super::Direction::named(directions[0]).map_err(|e| unusable(source, e))?;
-    let said = declared.between(one, source)?.map(|d| d.name());
-    let in_name = |names: &[&str]| names.iter().any(|name| bare.contains(name));
-    let said = said.or_else(|| match section {
-        "robot" if in_name(&["toolinbase"]) => Some(directions[0].into()),
-        "robot" if in_name(&["baseintool"]) => Some(directions[1].into()),
-        "board_poses" if in_name(&["objincam", "calobjincam", "calplateincam"]) => {
-            Some(directions[0].into())
-        }
-        _ => None,
-    });
-    let direction = match said {
-        Some(direction) => format!("direction = \"{direction}\"\n"),
-        None => {
-            let halcons = if section == "robot" {
-                ["ToolInBasePose", "BaseInToolPose"]
-            } else {
-                ["ObjInCameraPose", "CameraInObjPose"]
-            };
-            let what = format!(
-                "is {files} {} (HALCON's {}) or {} ({})?",
-                directions[0], halcons[0], directions[1], halcons[1]
-            );
-            questions.push(format!("[{section}] direction: {what}"));
-            format!("# {what}\n# direction = \"{}\"\n", directions[0])
-        }
-    };
-    Ok(format!(
-        "\n[{section}]\nposes = {}\nnotation = \"quaternion-xyzw\" # read so, whatever the type in the file\n\
-         length_unit = \"m\"\n{direction}",
-        quoted(files)
-    ))
+/// What is described so far.
+struct Set<'a> {
+    source: &'a Path,
+    declared: &'a Declared,
+    draft: Draft,
+    questions: Vec<String>,
 }
 
-/// `[images]` and the question which target they show.
-fn pictures(
-    groups: &BTreeMap<String, Vec<std::path::PathBuf>>,
-    questions: &mut Vec<String>,
-) -> String {
-    let found: Vec<&String> = groups.keys().filter(|name| !name.ends_with(".dat")).collect();
-    let question = match found[..] {
-        [] => {
-            "what did the camera see? ([images] files, or [board_poses] of HALCON's calibration object)"
+/// How the numbers of a pose are read.
+const NOTATION: &str = "quaternion-xyzw";
+const READ_SO: &str = "read so, whatever the type in the file";
+
+impl Set<'_> {
+    fn robot(&mut self, files: &str) -> Result<(), Error> {
+        let ways = [("base_from_flange", "ToolInBasePose"), ("flange_from_base", "BaseInToolPose")];
+        let is_inverse =
+            self.is_inverse("robot", files, ways, [&["toolinbase"], &["baseintool"]])?;
+        self.draft.note_behind("robot.notation", READ_SO);
+        self.draft.manifest.robot = Some(RobotSpec {
+            poses: files.into(),
+            notation: Some(NOTATION.into()),
+            length_unit: Some(LengthUnit::Metre),
+            direction: Some(match is_inverse {
+                false => RobotDirection::BaseFromFlange,
+                true => RobotDirection::FlangeFromBase,
+            }),
+            ..RobotSpec::default()
+        });
+        Ok(())
+    }
+
+    fn board_poses(&mut self, files: &str) -> Result<(), Error> {
+        let ways =
+            [("camera_from_target", "ObjInCameraPose"), ("target_from_camera", "CameraInObjPose")];
+        let names: [&[&str]; 2] = [&["objincam", "calobjincam", "calplateincam"], &[]];
+        let is_inverse = self.is_inverse("board_poses", files, ways, names)?;
+        self.draft.note_behind("board_poses.notation", READ_SO);
+        self.draft.manifest.board_poses = Some(BoardPosesSpec {
+            poses: files.into(),
+            notation: Some(NOTATION.into()),
+            length_unit: Some(LengthUnit::Metre),
+            direction: Some(match is_inverse {
+                false => BoardDirection::CameraFromTarget,
+                true => BoardDirection::TargetFromCamera,
+            }),
+            ..BoardPosesSpec::default()
+        });
+        Ok(())
+    }
+
+    /// Whether poses have the second of two directions (ours and HALCON's word for it): as declared, as parts of the
+    /// files' name have it, or asked.
+    fn is_inverse(
+        &mut self,
+        section: &str,
+        files: &str,
+        [one, other]: [(&str, &str); 2],
+        names: [&[&str]; 2],
+    ) -> Result<bool, Error> {
+        let direction = super::Direction::named(one.0).map_err(|e| unusable(self.source, e))?;
+        if let Some(declared) = self.declared.between(direction, self.source)? {
+            return Ok(declared != direction);
         }
-        _ => "which target is in the images?",
-    };
-    questions.push(question.into());
-    let images = match found[..] {
-        [first, ..] => format!("\n[images]\nfiles = {}\n", quoted(first)),
-        [] => String::new(),
-    };
-    format!("\n# {question}\n# [target]\n# kind = \"circle-grid\"\n{images}")
+        let bare: String = files.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect();
+        if let Some(way) = names.iter().position(|all| all.iter().any(|name| bare.contains(name))) {
+            return Ok(way == 1);
+        }
+        let what =
+            format!("is {files} {} (HALCON's {}) or {} ({})?", one.0, one.1, other.0, other.1);
+        self.draft.ask(&[&format!("{section}.direction")], what.as_str());
+        self.questions.push(format!("[{section}] direction: {what}"));
+        Ok(false)
+    }
+
+    /// `[images]` and the question which target they show.
+    fn pictures(&mut self, groups: &BTreeMap<String, Vec<std::path::PathBuf>>) {
+        let found = groups.keys().find(|name| !name.ends_with(".dat"));
+        self.draft.manifest.images = found.map(ImagesSpec::of);
+        let question = match found {
+            None => {
+                "what did the camera see? ([images] files, or [board_poses] of HALCON's calibration object)"
+            }
+            Some(_) => "which target is in the images?",
+        };
+        self.draft.ask_target(question);
+        self.questions.push(question.into());
+    }
 }

@@ -7,8 +7,18 @@ use std::{collections::BTreeSet, path::Path};
 
 use handeye::{Setup, TargetModel};
 
-use super::{Declared, Described, quoted};
-use crate::{Error, Place, error::unusable, files, target_file::target_toml, tree::Tree};
+use super::{Declared, Described};
+use crate::{
+    Error, Place,
+    dataset::{
+        Draft,
+        manifest::{ImagesSpec, RobotDirection, RobotSpec},
+    },
+    error::unusable,
+    files,
+    tree::Tree,
+    units::LengthUnit,
+};
 
 /// OpenCV's dictionaries by their numbers.
 const DICTIONARIES: [&str; 17] = [
@@ -71,34 +81,39 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
         others.iter().filter(|f| f.is_file()).map(|f| Tree::read(f)).collect::<Result<_, _>>()?;
     let all = || std::iter::once(&tree).chain(&beside);
     let mut questions = vec![];
-    let target = match all().find_map(|t| t.get("target_finder")).and_then(target) {
-        Some(model) => target_toml(&model),
+    let mut draft = Draft::new();
+    match all().find_map(|t| t.get("target_finder")).and_then(target) {
+        Some(model) => draft.set_target(model),
         None => {
             let what = "which target is in the images?";
             questions.push(what.into());
-            format!("# {what}\n# [target]\n# kind = \"checkerboard\"\n")
+            draft.ask_target(what);
         }
-    };
-    let sections = format!(
-        "\n{target}\n[robot]\nposes = {}\nnotation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n\
-         direction = \"base_from_flange\"\n\n[images]\nfiles = {}\n{exclude}",
-        quoted(&poses),
-        quoted(&images)
-    );
+    }
+    draft.manifest.robot = Some(RobotSpec {
+        poses,
+        notation: Some("quaternion-xyzw".into()),
+        length_unit: Some(LengthUnit::Metre),
+        direction: Some(RobotDirection::BaseFromFlange),
+        ..RobotSpec::default()
+    });
+    draft.manifest.images = Some(ImagesSpec::of(images));
+    draft.note("captures.exclude", format!("not in {}", super::split(&file).1));
+    draft.manifest.captures.exclude = exclude;
     let layout =
         if tree.get("data").is_some() { "industrial_calibration" } else { "robot_cal_tools" };
     let beside = files::expand(&folder, "camera_intr*.yaml", &Place::file(&file)).is_ok();
     let has_intrinsics = beside || all().any(|t| t.get("intrinsics").is_some());
     let notes = if has_intrinsics { vec![NOT_TAKEN.into()] } else { vec![] };
-    Ok(Some(Described { layout, folder, setup: all().find_map(setup), sections, questions, notes }))
+    Ok(Some(Described { layout, folder, setup: all().find_map(setup), draft, questions, notes }))
 }
 
-/// The line that leaves out what lies in the folders, but is not in the list: samples that were deleted.
+/// The names of what lies in the folders, but is not in the list: samples that were deleted.
 fn not_listed(
     pairs: &[(String, String)],
     patterns: [&str; 2],
     list: &Path,
-) -> Result<String, Error> {
+) -> Result<Vec<String>, Error> {
     let (folder, _) = super::split(list);
     let listed = |which: fn(&(String, String)) -> &String| pairs.iter().map(which);
     let gone = listed(|p| &p.0).chain(listed(|p| &p.1)).find(|name| !folder.join(name).is_file());
@@ -112,16 +127,8 @@ fn not_listed(
     };
     let pictures = stems(patterns[1])?;
     let names: BTreeSet<String> = pairs.iter().map(|p| files::stem(Path::new(&p.1))).collect();
-    let others: Vec<String> = stems(patterns[0])?
-        .into_iter()
-        .filter(|name| pictures.contains(name) && !names.contains(name))
-        .map(|name| quoted(&name))
-        .collect();
-    if others.is_empty() {
-        return Ok(String::new());
-    }
-    let (_, name) = super::split(list);
-    Ok(format!("\n[captures]\n# not in {name}\nexclude = [{}]\n", others.join(", ")))
+    let others = stems(patterns[0])?.into_iter();
+    Ok(others.filter(|name| pictures.contains(name) && !names.contains(name)).collect())
 }
 
 /// `poses/*.yaml` of `poses/0.yaml`, `poses/1.yaml` ...

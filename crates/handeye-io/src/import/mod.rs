@@ -24,7 +24,8 @@ use std::path::{Path, PathBuf};
 
 use handeye::Setup;
 
-use crate::{Error, MANIFEST, bag, error::unusable};
+use crate::{Error, MANIFEST, bag, dataset::Draft, error::unusable};
+pub(crate) use declared::WHO_CARRIES;
 pub use declared::{Declared, Direction};
 
 /// What was recognised, and the file that belongs beside it.
@@ -51,8 +52,8 @@ struct Described {
     layout: &'static str,
     folder: PathBuf,
     setup: Option<Setup>,
-    /// All but the line of the setup.
-    sections: String,
+    /// All but the setup.
+    draft: Draft,
     questions: Vec<String>,
     /// What was taken from where, or left.
     notes: Vec<String>,
@@ -112,18 +113,18 @@ pub fn import(source: &Path, declared: &Declared) -> Result<Imported, Error> {
 
 fn with_setup(set: Described, given: Option<Setup>, source: &Path) -> Result<Imported, Error> {
     let mut questions = set.questions;
-    let line = match declared::setup(set.setup, given, source)? {
-        Some(setup) => format!("setup = \"{}\"", setup.name()),
-        None => {
-            questions.insert(0, declared::WHO_CARRIES.into());
-            format!("# {}\n# setup = \"eye-in-hand\"", declared::WHO_CARRIES)
-        }
-    };
+    let mut draft = set.draft;
+    draft.head(set.layout);
+    let setup = declared::setup(set.setup, given, source)?;
+    if setup.is_none() {
+        questions.insert(0, WHO_CARRIES.into());
+    }
+    draft.set_setup(setup, WHO_CARRIES);
     Ok(Imported {
         layout: set.layout,
         folder: set.folder,
         name: MANIFEST.into(),
-        text: format!("# {}\n{line}\n{}", set.layout, set.sections),
+        text: draft.written().0,
         questions,
         notes: set.notes,
         next: "handeye calibrate {}",
@@ -134,11 +135,6 @@ fn with_setup(set: Described, given: Option<Setup>, source: &Path) -> Result<Imp
 fn split(file: &Path) -> (PathBuf, String) {
     let folder = file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     (folder.into(), file.file_name().unwrap_or_default().to_string_lossy().into_owned())
-}
-
-/// A TOML string.
-fn quoted(text: &str) -> String {
-    toml::Value::String(text.into()).to_string()
 }
 
 #[cfg(test)]

@@ -9,12 +9,17 @@ use std::path::Path;
 
 use handeye::Setup;
 
-use super::{Declared, Described, declared::WHO_CARRIES, quoted, ros, split};
+use super::{Declared, Described, WHO_CARRIES, ros, split};
 use crate::{
     Error,
+    dataset::{
+        Draft,
+        manifest::{BoardDirection, BoardPosesSpec, Fields, RobotDirection, RobotSpec},
+    },
     error::{undeclared, unusable},
     files,
     tree::Tree,
+    units::LengthUnit,
 };
 
 pub(super) fn describe(source: &Path, declared: &Declared) -> Result<Option<Described>, Error> {
@@ -60,17 +65,17 @@ fn easy_handeye(
         undeclared(source, "--setup", &question)
     })?;
     let direction = match setup {
-        Setup::EyeInHand => "base_from_flange",
-        Setup::EyeToHand => "flange_from_base",
+        Setup::EyeInHand => RobotDirection::BaseFromFlange,
+        Setup::EyeToHand => RobotDirection::FlangeFromBase,
     };
     let (folder, file) = split(source);
-    let sections =
-        sections(&file, ["samples.*.robot", "samples.*.tracking"], "quaternion-xyzw", direction);
+    let draft =
+        tables(&file, ["samples.*.robot", "samples.*.tracking"], "quaternion-xyzw", direction);
     Ok(Described {
         layout: "easy_handeye2 samples",
         folder,
         setup: Some(setup),
-        sections,
+        draft,
         questions: vec![],
         notes: vec![],
     })
@@ -78,23 +83,36 @@ fn easy_handeye(
 
 fn moveit(source: &Path, fields: [&str; 2]) -> Described {
     let (folder, file) = split(source);
-    let sections = sections(&file, fields, "matrix4x4", "base_from_flange");
+    let draft = tables(&file, fields, "matrix4x4", RobotDirection::BaseFromFlange);
     Described {
         layout: "moveit_calibration samples",
         folder,
         setup: None,
-        sections,
+        draft,
         questions: vec![],
         notes: vec![],
     }
 }
 
-fn sections(file: &str, fields: [&str; 2], notation: &str, direction: &str) -> String {
-    let file = quoted(file);
-    format!(
-        "\n[robot]\nposes = {file}\nfield = \"{}\"\nnotation = \"{notation}\"\nlength_unit = \"m\"\n\
-         direction = \"{direction}\"\n\n[board_poses]\nposes = {file}\nfield = \"{}\"\nnotation = \"{notation}\"\n\
-         length_unit = \"m\"\ndirection = \"camera_from_target\"\n",
-        fields[0], fields[1]
-    )
+/// `[robot]` and `[board_poses]`, which stand in the same file.
+fn tables(file: &str, fields: [&str; 2], notation: &str, direction: RobotDirection) -> Draft {
+    let [robot, board] = fields.map(|field| Some(Fields::One(field.into())));
+    let mut draft = Draft::new();
+    draft.manifest.robot = Some(RobotSpec {
+        poses: file.into(),
+        field: robot,
+        notation: Some(notation.into()),
+        length_unit: Some(LengthUnit::Metre),
+        direction: Some(direction),
+        ..RobotSpec::default()
+    });
+    draft.manifest.board_poses = Some(BoardPosesSpec {
+        poses: file.into(),
+        field: board,
+        notation: Some(notation.into()),
+        length_unit: Some(LengthUnit::Metre),
+        direction: Some(BoardDirection::CameraFromTarget),
+        ..BoardPosesSpec::default()
+    });
+    draft
 }

@@ -5,8 +5,17 @@ use std::path::Path;
 
 use handeye::{Setup, TargetModel};
 
-use super::{Declared, Described, quoted};
-use crate::{Error, error::unusable, files, target_file::target_toml};
+use super::{Declared, Described};
+use crate::{
+    Error,
+    dataset::{
+        Draft,
+        manifest::{ImagesSpec, RobotDirection, RobotSpec},
+    },
+    error::unusable,
+    files,
+    units::LengthUnit,
+};
 
 pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>, Error> {
     let folder = if source.is_dir() { source.to_path_buf() } else { super::split(source).0 };
@@ -49,17 +58,21 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     if folder.join("images/camera1").is_dir() {
         questions.push("only images/camera0 is described: one manifest for each camera".into());
     }
-    let sections = format!(
-        "\n{}\n[robot]\nposes = \"robot_cali.txt\"\nnotation = \"matrix4x4\"\nlength_unit = \"mm\"\n\
-         direction = \"flange_from_base\"\n\n[images]\nfiles = {}\n",
-        target_toml(&target),
-        quoted(&format!("images/camera0/*.{ending}"))
-    );
+    let mut draft = Draft::new();
+    draft.set_target(target);
+    draft.manifest.robot = Some(RobotSpec {
+        poses: "robot_cali.txt".into(),
+        notation: Some("matrix4x4".into()),
+        length_unit: Some(LengthUnit::Millimetre),
+        direction: Some(RobotDirection::FlangeFromBase),
+        ..RobotSpec::default()
+    });
+    draft.manifest.images = Some(ImagesSpec::of(format!("images/camera0/*.{ending}")));
     Ok(Some(Described {
         layout: "Tabb and Ahmad Yousef's layout",
         folder,
         setup: Some(Setup::EyeInHand),
-        sections,
+        draft,
         questions,
         notes: vec![],
     }))

@@ -4,7 +4,16 @@
 use std::path::Path;
 
 use super::{Declared, Described, vision};
-use crate::{Error, files, tree::Tree};
+use crate::{
+    Error,
+    dataset::{
+        Draft,
+        manifest::{Fields, RobotDirection, RobotSpec, ScansSpec},
+    },
+    files,
+    tree::Tree,
+    units::LengthUnit,
+};
 
 pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>, Error> {
     if !source.is_dir() {
@@ -23,28 +32,36 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     if count("img", ".zdf") == 0 || count("pos", ".yaml") == 0 {
         return Ok(None);
     }
-    let field = key_of_matrix(source, &names)?;
     let question = "which target is in the scans?";
-    let sections = format!(
-        "\n# {question}\n# [target]\n# kind = \"checkerboard\"\n# columns = 7\n# rows = 6\n# square_mm = 30.0\n\n\
-         [robot]\nposes = \"pos*.yaml\"\n{field}notation = \"matrix4x4\"\nlength_unit = \"mm\"\n\
-         direction = \"base_from_flange\"\n\n[scans]\nfiles = \"img*.zdf\"\nlength_unit = \"mm\"\n"
-    );
+    let mut draft = Draft::new();
+    draft.ask_target(question);
+    draft.manifest.robot = Some(RobotSpec {
+        poses: "pos*.yaml".into(),
+        field: key_of_matrix(source, &names)?.map(|key| Fields::One(key.into())),
+        notation: Some("matrix4x4".into()),
+        length_unit: Some(LengthUnit::Millimetre),
+        direction: Some(RobotDirection::BaseFromFlange),
+        ..RobotSpec::default()
+    });
+    draft.manifest.scans = Some(ScansSpec {
+        files: "img*.zdf".into(),
+        length_unit: Some(LengthUnit::Millimetre),
+        ..ScansSpec::default()
+    });
     Ok(Some(Described {
         layout: "Zivid's data set",
         folder: source.into(),
         setup: None,
-        sections,
+        draft,
         questions: vec![question.into()],
         notes: vec![],
     }))
 }
 
-/// The line of the manifest that says where the matrices stand in their files.
-fn key_of_matrix(folder: &Path, names: &[String]) -> Result<String, Error> {
+/// The key under which the matrices stand in their files.
+fn key_of_matrix(folder: &Path, names: &[String]) -> Result<Option<&'static str>, Error> {
     let is_pose = |name: &&String| name.starts_with("pos") && name.ends_with(".yaml");
-    let Some(first) = names.iter().filter(is_pose).min() else { return Ok(String::new()) };
+    let Some(first) = names.iter().filter(is_pose).min() else { return Ok(None) };
     let tree = Tree::read(&folder.join(first))?;
-    let key = vision::ZIVID.into_iter().find(|key| tree.get(key).is_some());
-    Ok(key.map_or(String::new(), |key| format!("field = \"{key}\"\n")))
+    Ok(vision::ZIVID.into_iter().find(|key| tree.get(key).is_some()))
 }

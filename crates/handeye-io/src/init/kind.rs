@@ -18,6 +18,7 @@ use crate::{
     table::{self, Cell, Layout, Record},
     target_file::read_target,
     tree::Tree,
+    units::LengthUnit,
 };
 
 /// What a group of files holds.
@@ -43,7 +44,7 @@ pub(super) struct Poses {
     pub(super) count: usize,
     pub(super) notation: Notation,
     /// The unit of the positions and why it must be that.
-    pub(super) unit: Option<(&'static str, String)>,
+    pub(super) unit: Option<(LengthUnit, String)>,
 }
 
 /// The notation, as far as the numbers prove it.
@@ -68,7 +69,7 @@ pub(super) struct Touches {
     pub(super) placements: Vec<String>,
     /// Poses of the flange; otherwise points of the tip.
     pub(super) poses: Option<Poses>,
-    pub(super) unit: Option<(&'static str, String)>,
+    pub(super) unit: Option<(LengthUnit, String)>,
 }
 
 const PICTURES: [&str; 6] = ["png", "jpg", "jpeg", "bmp", "tif", "tiff"];
@@ -318,10 +319,11 @@ const FARTHEST_M: f64 = 300.0;
 const NEAREST_MM: f64 = 5.0;
 
 /// The unit of x, y and z: said in the header, or proven by their size.
-fn unit(records: &[Record]) -> Option<(&'static str, String)> {
+fn unit(records: &[Record]) -> Option<(LengthUnit, String)> {
     let named = |name: &str| records[0].names.iter().any(|n| n.to_lowercase() == name);
-    for unit in ["mm", "m"] {
-        if named(&format!("x_{unit}")) || named(&format!("x [{unit}]")) {
+    for unit in [LengthUnit::Millimetre, LengthUnit::Metre] {
+        let name = unit.name();
+        if named(&format!("x_{name}")) || named(&format!("x [{name}]")) {
             return Some((unit, "as the header says".into()));
         }
     }
@@ -335,15 +337,15 @@ fn unit(records: &[Record]) -> Option<(&'static str, String)> {
 fn unit_at(
     records: &[Record],
     position: impl Fn(&Record) -> [f64; 3],
-) -> Option<(&'static str, String)> {
+) -> Option<(LengthUnit, String)> {
     let reach = |r: &Record| position(r).iter().map(|x| x * x).sum::<f64>().sqrt();
     let all: Vec<f64> = records.iter().map(reach).collect();
     let far = all.iter().copied().fold(0.0, f64::max);
     let why = format!("positions reach {far:.3} units");
     match far {
         _ if all.iter().any(|r| !r.is_finite()) => None,
-        far if far >= FARTHEST_M => Some(("mm", why)),
-        far if far > 0.0 && far <= NEAREST_MM => Some(("m", why)),
+        far if far >= FARTHEST_M => Some((LengthUnit::Millimetre, why)),
+        far if far > 0.0 && far <= NEAREST_MM => Some((LengthUnit::Metre, why)),
         _ => None,
     }
 }

@@ -8,7 +8,7 @@ mod sections;
 use std::path::Path;
 
 use crate::{
-    bag,
+    Question, bag,
     error::{Error, unusable},
 };
 use groups::Group;
@@ -21,15 +21,6 @@ pub struct FirstManifest {
     pub text: String,
     /// What the files do not prove.
     pub questions: Vec<Question>,
-}
-
-/// What somebody must say.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Question {
-    /// Line of the manifest, counted from 1.
-    pub line: usize,
-    /// The question, whole.
-    pub text: String,
 }
 
 /// A first manifest for the files of a folder.
@@ -53,58 +44,6 @@ pub fn first_manifest(folder: &Path) -> Result<FirstManifest, Error> {
         }
         return Err(Error::NothingFound { folder: folder.into() });
     }
-    let mut page = Page::default();
-    sections::write(&kinds, folder, &mut page);
-    Ok(FirstManifest { text: page.text, questions: page.questions })
-}
-
-/// How a question of a manifest begins.
-pub(crate) const QUESTION: &str = "# QUESTION: ";
-
-/// Columns of a manifest.
-const WIDTH: usize = 80;
-
-/// The manifest while it is written.
-#[derive(Default)]
-struct Page {
-    text: String,
-    questions: Vec<Question>,
-}
-
-impl Page {
-    fn line(&mut self, line: &str) {
-        self.text += line;
-        self.text += "\n";
-    }
-
-    /// A table's heading, with a blank line above.
-    fn table(&mut self, heading: &str) {
-        self.line("");
-        self.line(heading);
-    }
-
-    fn note(&mut self, text: &str) {
-        self.wrapped("# ", "#   ", text);
-    }
-
-    /// A question, and below it the lines that wait for the answer.
-    fn ask(&mut self, question: &str, answers: &[&str]) {
-        let line = self.text.lines().count() + 1;
-        self.questions.push(Question { line, text: question.into() });
-        self.wrapped(QUESTION, "#   ", question);
-        answers.iter().for_each(|answer| self.line(&format!("# {answer}")));
-    }
-
-    fn wrapped(&mut self, first: &str, next: &str, text: &str) {
-        let mut line = first.to_owned();
-        for (k, word) in text.split_whitespace().enumerate() {
-            if k > 0 && line.chars().count() + 1 + word.chars().count() > WIDTH {
-                self.line(line.trim_end());
-                line = next.to_owned();
-            }
-            line += word;
-            line += " ";
-        }
-        self.line(line.trim_end());
-    }
+    let (text, questions) = sections::draft(&kinds, folder).written();
+    Ok(FirstManifest { text, questions })
 }

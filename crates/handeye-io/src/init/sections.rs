@@ -5,11 +5,22 @@ use std::path::Path;
 use handeye::TargetModel;
 
 use super::{
-    Page,
     groups::Group,
     kind::{self, Kind, Notation, Poses, Touches},
 };
-use crate::{scan_unit, target_file::target_toml};
+use crate::{
+    PixelOrigin,
+    camera::CameraSpec,
+    dataset::{
+        Draft, EXAMPLE_TARGET,
+        manifest::{
+            BoardDirection, BoardPosesSpec, CornersSpec, Fields, FileOr, ImagesSpec, Pairing,
+            PlacementSpec, RobotDirection, RobotSpec, ScansSpec, TipSpec, TouchKind, TouchesSpec,
+        },
+    },
+    scan_unit,
+    units::{AngleUnit, LengthUnit},
+};
 
 /// Files and what they hold.
 type Kinds = [(Group, Kind)];
@@ -19,12 +30,12 @@ const OF_BOARD: [&str; 6] = ["board", "target", "marker", "cpo", "cam_from", "ca
 /// Poses of the robot are called so.
 const OF_ROBOT: [&str; 8] = ["robot", "pose", "flange", "gripper", "rpe", "tcp", "arm", "joint"];
 
-pub(super) fn write(kinds: &Kinds, folder: &Path, page: &mut Page) {
-    page.note("What the files prove is filled in. Answer every QUESTION: correct the lines below it and remove their #.");
-    page.line("");
-    page.ask(
+pub(super) fn draft(kinds: &Kinds, folder: &Path) -> Draft {
+    let mut draft = Draft::new();
+    draft.head("What the files prove is filled in. Answer every QUESTION: correct the lines below it and remove their #.");
+    draft.set_setup(
+        None,
         "does the robot carry the camera (\"eye-in-hand\"), or the board (\"eye-to-hand\")?",
-        &["setup = \"eye-in-hand\""],
     );
     let seen = kinds
         .iter()
@@ -33,20 +44,21 @@ pub(super) fn write(kinds: &Kinds, folder: &Path, page: &mut Page) {
     let placements = touched.map_or(vec![], |(_, t)| t.placements.clone());
     let captures = captures(kinds, &placements);
     if seen {
-        target(kinds, page);
-        camera(kinds, page);
+        target(kinds, &mut draft);
+        camera(kinds, &mut draft);
     }
-    robot(kinds, captures, page);
-    pictures(kinds, &placements, page);
-    scans(kinds, folder, &placements, page);
-    corners(kinds, &placements, page);
+    robot(kinds, captures, &mut draft);
+    pictures(kinds, &placements, &mut draft);
+    scans(kinds, folder, &placements, &mut draft);
+    corners(kinds, &placements, &mut draft);
     if !seen {
-        board_poses(kinds, page);
+        board_poses(kinds, &mut draft);
     }
     if let Some((group, touches)) = touched {
-        placed(kinds, touches, page);
-        touched_corners(group, touches, page);
+        placed(kinds, touches, &mut draft);
+        touched_corners(group, touches, &mut draft);
     }
+    draft
 }
 
 fn quoted(text: &str) -> String {
@@ -73,63 +85,59 @@ fn captures(kinds: &Kinds, placements: &[String]) -> Option<usize> {
     of_kind(kinds, placements, seen).first().map(|g| g.members.len())
 }
 
-/// `files = ...`, and the other groups that may be meant.
-fn files(groups: &[&Group], page: &mut Page) {
-    let Some((first, others)) = groups.split_first() else { return };
-    page.line(&format!("files = {}  # {}", quoted(&first.pattern), first.size()));
+/// The value of a key that names files; the other groups that may be meant stand below it.
+fn files(key: &str, groups: &[&Group], draft: &mut Draft) -> Option<String> {
+    let (first, others) = groups.split_first()?;
+    draft.note_behind(key, first.size());
     for other in others.iter().take(5) {
-        page.line(&format!("# or {}, {}?", quoted(&other.pattern), other.size()));
+        draft.note_below(key, format!("or {}, {}?", quoted(&other.pattern), other.size()));
     }
+    Some(first.pattern.clone())
 }
 
 // ---------------------------------------------------------------- target, camera
 
-fn target(kinds: &Kinds, page: &mut Page) {
+fn target(kinds: &Kinds, draft: &mut Draft) {
     let known: Vec<(&Group, &TargetModel)> = kinds
         .iter()
         .filter_map(|(g, k)| if let Kind::Target(t) = k { Some((g, t)) } else { None })
         .collect();
-    page.table("[target]");
     if let [(group, target)] = known[..] {
-        page.note(&format!("as {} says", group.pattern));
-        let text = target_toml(target);
-        text.lines().filter(|l| l.contains('=')).for_each(|l| page.line(l));
-        return;
+        draft.set_target(target.clone());
+        return draft.note("target.kind", format!("as {} says", group.pattern));
     }
-    page.ask(
+    draft.set_target(EXAMPLE_TARGET);
+    draft.ask(
+        &["target.kind", "target.columns", "target.rows", "target.square_mm"],
         "which board is it: \"checkerboard\", \"charuco\" or \"tag\"? How many INNER corners has \
          it along x and y, and how long is the side of a square? (Measure the print over many \
          squares.)",
-        &["kind = \"checkerboard\"", "columns = 11", "rows = 8", "square_mm = 30.0"],
     );
-    page.note("charuco: squares_x, squares_y, square_mm, marker_mm, dictionary = \"DICT_6X6_250\"");
-    page.note("tag: dictionary, id, size_mm");
+    for line in [
+        "charuco: squares_x, squares_y, square_mm, marker_mm, dictionary = \"DICT_6X6_250\"",
+        "tag: dictionary, id, size_mm",
+    ] {
+        draft.note_below("target.square_mm", line);
+    }
 }
 
-fn camera(kinds: &Kinds, page: &mut Page) {
+fn camera(kinds: &Kinds, draft: &mut Draft) {
     let cameras: Vec<&Group> = of_kind(kinds, &[], |k| matches!(k, Kind::Camera));
-    let names: Vec<String> = cameras
-        .iter()
-        .flat_map(|g| &g.members)
-        .map(|m| format!("file = {}", quoted(&m.to_string_lossy().replace('\\', "/"))))
-        .collect();
-    match &names[..] {
-        [] => {
-            page.line("");
-            page.note("[camera]: no calibration of the camera was found; it is calibrated from the pictures. A file of intrinsics, or width, height, fx, fy, cx, cy and distortion, is better.");
-        }
-        [only] => {
-            page.table("[camera]");
-            page.line(only);
-        }
-        several => {
-            page.table("[camera]");
-            let lines: Vec<&str> = several.iter().map(String::as_str).collect();
-            page.ask(
-                "which of these is the calibration of the camera that took the images?",
-                &lines,
-            );
-        }
+    let members = cameras.iter().flat_map(|g| &g.members);
+    let names: Vec<String> = members.map(|m| m.to_string_lossy().replace('\\', "/")).collect();
+    let Some((first, others)) = names.split_first() else {
+        return draft.note("robot", "[camera]: no calibration of the camera was found; it is calibrated from the images. A file of intrinsics, or width, height, fx, fy, cx, cy and distortion, is better.");
+    };
+    draft.manifest.camera = Some(CameraSpec::of_file(first));
+    if others.is_empty() {
+        return;
+    }
+    draft.ask(
+        &["camera.file"],
+        "which of these is the calibration of the camera that took the images?",
+    );
+    for name in others {
+        draft.note_below("camera.file", format!("file = {}", quoted(name)));
     }
 }
 
@@ -145,193 +153,237 @@ fn poses_of(kinds: &Kinds, captures: Option<usize>) -> Vec<(&Group, &Poses)> {
     all
 }
 
-fn robot(kinds: &Kinds, captures: Option<usize>, page: &mut Page) {
-    page.table("[robot]");
+fn robot(kinds: &Kinds, captures: Option<usize>, draft: &mut Draft) {
     let all = poses_of(kinds, captures);
     let Some(((group, poses), others)) = all.split_first() else {
-        return unknown_poses(kinds, page);
+        return unknown_poses(kinds, draft);
     };
-    let count = format!("{} poses in {}", poses.count, group.size());
-    page.line(&format!("poses = {}  # {count}", quoted(&group.pattern)));
+    draft.note_behind("robot.poses", format!("{} poses in {}", poses.count, group.size()));
     for (other, poses) in others.iter().take(5) {
-        page.line(&format!("# or {}, {} poses?", quoted(&other.pattern), poses.count));
+        let line = format!("or {}, {} poses?", quoted(&other.pattern), poses.count);
+        draft.note_below("robot.poses", line);
     }
-    notation(poses.notation, page);
-    unit(poses, page);
-    direction(page);
+    let mut spec = RobotSpec { poses: group.pattern.clone(), ..RobotSpec::default() };
+    notation(poses.notation, &mut spec, draft);
+    spec.length_unit = unit(poses, draft);
+    spec.direction = Some(direction(draft));
+    draft.manifest.robot = Some(spec);
     if let Some(captures) = captures.filter(|c| *c != poses.count) {
-        page.line("");
-        page.ask(
-            &format!(
+        draft.manifest.captures.pairing = Pairing::Number;
+        draft.ask(
+            &["captures"],
+            format!(
                 "{} poses, but {captures} captures of the camera: which belong together? Those of \
                  one number in their names, or some rows of the poses (rows = \"1..{captures}\" in \
                  [robot])?",
                 poses.count
             ),
-            &["[captures]", "pairing = \"number\""],
         );
     }
 }
 
-fn unknown_poses(kinds: &Kinds, page: &mut Page) {
-    let lines = possible_poses(kinds);
-    let lines: Vec<&str> = lines.iter().map(String::as_str).collect();
-    if lines.is_empty() {
-        page.ask("where are the robot's poses?", &["poses = \"poses.csv\""]);
+fn unknown_poses(kinds: &Kinds, draft: &mut Draft) {
+    let all = possible_poses(kinds);
+    let (keys, question) = if all.is_empty() {
+        (vec!["robot.poses"], "where are the robot's poses?")
     } else {
-        page.ask(
+        (
+            vec!["robot.poses", "robot.field"],
             "which of these are the robot's poses? (field = the keys that lead to one pose, * for \
              every element; columns = [..] chooses from tables)",
-            &lines,
-        );
+        )
+    };
+    draft.ask(&keys, question);
+    let mut spec = RobotSpec { poses: "poses.csv".into(), ..RobotSpec::default() };
+    if let Some((first, others)) = all.split_first() {
+        spec.poses = first.pattern.clone();
+        spec.field = first.field.clone().map(Fields::One);
+        let last = if first.field.is_some() { "robot.field" } else { "robot.poses" };
+        draft.note_behind(last, first.size.as_str());
+        for other in others {
+            let field =
+                other.field.as_ref().map_or(String::new(), |f| format!("  field = {}", quoted(f)));
+            let poses = quoted(&other.pattern);
+            draft.note_below(last, format!("or poses = {poses}{field}  # {}", other.size));
+        }
     }
-    notation(Notation::SomeAngles { degrees: false }, page);
-    page.ask(
+    notation(Notation::SomeAngles { degrees: false }, &mut spec, draft);
+    spec.length_unit = Some(LengthUnit::Millimetre);
+    draft.ask(
+        &["robot.length_unit"],
         "are the positions in \"m\" or in \"mm\"? (generic notations only)",
-        &["length_unit = \"mm\""],
     );
-    direction(page);
+    spec.direction = Some(direction(draft));
+    draft.manifest.robot = Some(spec);
+}
+
+/// Files in which poses may stand.
+struct Candidate {
+    pattern: String,
+    field: Option<String>,
+    count: usize,
+    size: String,
 }
 
 /// Where poses may stand, those with most of them first.
-fn possible_poses(kinds: &Kinds) -> Vec<String> {
-    let mut all: Vec<(usize, String)> = Vec::new();
+fn possible_poses(kinds: &Kinds) -> Vec<Candidate> {
+    let mut all: Vec<Candidate> = Vec::new();
     for (group, kind) in kinds {
         let Kind::Table(fields) = kind else { continue };
-        let poses = format!("poses = {}", quoted(&group.pattern));
+        let pattern = group.pattern.clone();
         if fields.is_empty() {
-            all.push((group.members.len(), poses.clone()));
+            let (count, size) = (group.members.len(), group.size());
+            all.push(Candidate { pattern: pattern.clone(), field: None, count, size });
         }
         all.extend(fields.iter().take(5).map(|f| {
-            let (count, field) = (f.count * group.members.len(), quoted(&f.path));
-            let named = if f.path.is_empty() { String::new() } else { format!("field = {field}") };
-            (count, format!("{poses}  {named}  # {count} of {} numbers", f.numbers))
+            let count = f.count * group.members.len();
+            let field = (!f.path.is_empty()).then(|| f.path.clone());
+            let size = format!("{count} of {} numbers", f.numbers);
+            Candidate { pattern: pattern.clone(), field, count, size }
         }));
     }
-    all.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
-    let split = |(_, line): (usize, String)| line.replacen("  field", "\n# field", 1);
-    all.into_iter().take(6).map(split).collect()
+    all.sort_by_key(|candidate| std::cmp::Reverse(candidate.count));
+    all.truncate(6);
+    all
 }
 
-fn notation(notation: Notation, page: &mut Page) {
-    match notation {
-        Notation::Is(name) => page.line(&format!("notation = {}", quoted(name))),
-        Notation::SomeQuaternion => page.ask(
+/// The notation, as far as the numbers prove it; the rest is asked.
+fn notation(notation: Notation, spec: &mut RobotSpec, draft: &mut Draft) {
+    let name = match notation {
+        Notation::Is(name) => name,
+        Notation::SomeQuaternion => "quaternion-xyzw",
+        Notation::Joints => "joints",
+        Notation::SomeAngles { degrees: true } => "kuka",
+        Notation::SomeAngles { degrees: false } => "ur",
+    };
+    spec.notation = Some(name.into());
+    if notation == Notation::Joints {
+        spec.angle_unit = Some(AngleUnit::Degree);
+        spec.dh = Some(FileOr::File("robot_dh.json".into()));
+    }
+    let question = match notation {
+        Notation::Is(_) => return,
+        Notation::SomeQuaternion => {
             "a position and a unit quaternion: does its scalar stand last (\"quaternion-xyzw\"), \
-             or first (\"quaternion-wxyz\", and \"abb\")?",
-            &["notation = \"quaternion-xyzw\""],
-        ),
-        Notation::Joints => page.ask(
-            "joint values: in \"deg\" or in \"rad\", and with which Denavit-Hartenberg parameters?",
-            &["notation = \"joints\"", "angle_unit = \"deg\"", "dh = \"robot_dh.json\""],
-        ),
-        Notation::SomeAngles { degrees: true } => page.ask(
+             or first (\"quaternion-wxyz\", and \"abb\")?"
+        }
+        Notation::Joints => {
+            "joint values: in \"deg\" or in \"rad\", and with which Denavit-Hartenberg parameters?"
+        }
+        Notation::SomeAngles { degrees: true } => {
             "a position and three angles in degrees: whose robot, or in which order? kuka, fanuc, \
-             yaskawa, kawasaki, staubli, doosan, denso, or euler-zyx-intrinsic and the like",
-            &["notation = \"kuka\""],
-        ),
-        Notation::SomeAngles { degrees: false } => page.ask(
+             yaskawa, kawasaki, staubli, doosan, denso, or euler-zyx-intrinsic and the like"
+        }
+        Notation::SomeAngles { degrees: false } => {
             "how are the poses written? ur, kuka, fanuc, abb, yaskawa, kawasaki, staubli, doosan, \
              denso, matrix4x4, quaternion-xyzw, quaternion-wxyz, rotation-vector, \
-             euler-zyx-intrinsic (with angle_unit), joints ...",
-            &["notation = \"ur\""],
-        ),
-    }
+             euler-zyx-intrinsic (with angle_unit), joints ..."
+        }
+    };
+    draft.ask(&["robot.notation", "robot.angle_unit", "robot.dh"], question);
 }
 
-/// Makers' notations bring their units.
-fn unit(poses: &Poses, page: &mut Page) {
+/// The unit of positions: makers' notations bring theirs.
+fn unit(poses: &Poses, draft: &mut Draft) -> Option<LengthUnit> {
     let generic = match poses.notation {
         Notation::Is(name) => name.starts_with("quaternion") || name == "matrix4x4",
-        Notation::Joints => return,
+        Notation::Joints => false,
         _ => true,
     };
-    match &poses.unit {
-        Some((unit, why)) if generic => page.line(&format!("length_unit = \"{unit}\"  # {why}")),
-        None if generic => page.ask(
-            "are the positions in \"m\" or in \"mm\"? (not needed with a robot maker's notation)",
-            &["length_unit = \"mm\""],
-        ),
-        _ => {}
+    if !generic {
+        return None;
     }
+    let question =
+        "are the positions in \"m\" or in \"mm\"? (not needed with a robot maker's notation)";
+    Some(proven_unit("robot.length_unit", &poses.unit, question, draft))
 }
 
-fn direction(page: &mut Page) {
-    page.ask(
+/// A unit that the numbers prove, or the question which it is.
+fn proven_unit(
+    key: &str,
+    unit: &Option<(LengthUnit, String)>,
+    question: &str,
+    draft: &mut Draft,
+) -> LengthUnit {
+    let Some((unit, why)) = unit else {
+        draft.ask(&[key], question);
+        return LengthUnit::Millimetre;
+    };
+    draft.note_behind(key, why.as_str());
+    *unit
+}
+
+fn direction(draft: &mut Draft) -> RobotDirection {
+    draft.ask(
+        &["robot.direction"],
         "where is the flange in the base (\"base_from_flange\", what controllers show), or the \
          other way (\"flange_from_base\")?",
-        &["direction = \"base_from_flange\""],
     );
+    RobotDirection::BaseFromFlange
 }
 
 // ---------------------------------------------------------------- what the camera saw
 
-fn pictures(kinds: &Kinds, placements: &[String], page: &mut Page) {
+fn pictures(kinds: &Kinds, placements: &[String], draft: &mut Draft) {
     let groups = of_kind(kinds, placements, |k| matches!(k, Kind::Pictures));
-    if !groups.is_empty() {
-        page.table("[images]");
-        files(&groups, page);
-    }
+    draft.manifest.images = files("images.files", &groups, draft).map(ImagesSpec::of);
 }
 
-fn scans(kinds: &Kinds, folder: &Path, placements: &[String], page: &mut Page) {
+fn scans(kinds: &Kinds, folder: &Path, placements: &[String], draft: &mut Draft) {
     let groups = of_kind(kinds, placements, |k| matches!(k, Kind::Depth | Kind::Clouds));
     let Some(first) = groups.first() else { return };
-    page.table("[scans]");
-    files(&groups, page);
+    let files = files("scans.files", &groups, draft).unwrap_or_default();
     let depth = kinds.iter().any(|(g, k)| g.pattern == first.pattern && matches!(k, Kind::Depth));
+    let mut spec = ScansSpec { files, ..ScansSpec::default() };
     if scan_unit(&folder.join(&first.members[0])).is_some() {
-        return;
-    }
-    if !depth {
-        return page.ask("are the points in \"m\" or in \"mm\"?", &["length_unit = \"mm\""]);
-    }
-    page.ask(
-        "how many metres is one unit of depth? (0.001 for millimetres)",
-        &["depth_scale = 0.001"],
-    );
-    let images = of_kind(kinds, placements, |k| matches!(k, Kind::Pictures));
-    let size = |g: &&Group| kind::size_of(g, folder);
-    let (of_scan, of_image) = (size(first), images.first().and_then(size));
-    if of_scan.is_none() || of_scan != of_image {
-        page.line("");
-        page.ask(
-            "has the depth image other intrinsics than the images? (where it has other pixels)",
-            &["[scans.camera]", "file = \"depth_camera.yaml\""],
+        // the files say it
+    } else if depth {
+        spec.depth_scale = Some(0.001);
+        draft.ask(
+            &["scans.depth_scale"],
+            "how many metres is one unit of depth? (0.001 for millimetres)",
         );
+        let images = of_kind(kinds, placements, |k| matches!(k, Kind::Pictures));
+        let size = |g: &&Group| kind::size_of(g, folder);
+        let (of_scan, of_image) = (size(first), images.first().and_then(size));
+        if of_scan.is_none() || of_scan != of_image {
+            spec.camera = Some(CameraSpec::of_file("depth_camera.yaml"));
+            draft.ask(
+                &["scans.camera"],
+                "has the depth image other intrinsics than the images? (where it has other pixels)",
+            );
+        }
+    } else {
+        spec.length_unit = Some(LengthUnit::Millimetre);
+        draft.ask(&["scans.length_unit"], "are the points in \"m\" or in \"mm\"?");
     }
+    draft.manifest.scans = Some(spec);
 }
 
-fn corners(kinds: &Kinds, placements: &[String], page: &mut Page) {
+fn corners(kinds: &Kinds, placements: &[String], draft: &mut Draft) {
     let groups = of_kind(kinds, placements, |k| matches!(k, Kind::Corners));
-    if groups.is_empty() {
-        return;
-    }
-    page.table("[corners]");
-    files(&groups, page);
-    page.ask(
+    let Some(files) = files("corners.files", &groups, draft) else { return };
+    draft.manifest.corners = Some(CornersSpec { files, pixel_origin: Some(PixelOrigin::Centre) });
+    draft.ask(
+        &["corners.pixel_origin"],
         "is (0, 0) the \"centre\" of the first pixel, as in OpenCV, or its outer \"corner\"?",
-        &["pixel_origin = \"centre\""],
     );
 }
 
-fn board_poses(kinds: &Kinds, page: &mut Page) {
-    let all = kinds.iter().filter(|(g, _)| g.is_called(&OF_BOARD));
-    let named = all.filter(|(_, k)| matches!(k, Kind::Poses(_))).map(|(g, _)| quoted(&g.pattern));
-    let names: Vec<String> = named.map(|name| format!("poses = {name}")).collect();
-    let usual = "poses = \"board_poses.csv\"".to_owned();
-    let poses = names.first().unwrap_or(&usual);
-    page.line("");
-    page.ask(
+fn board_poses(kinds: &Kinds, draft: &mut Draft) {
+    let mut all = kinds.iter().filter(|(g, _)| g.is_called(&OF_BOARD));
+    let named = all.find(|(_, k)| matches!(k, Kind::Poses(_))).map(|(g, _)| g.pattern.clone());
+    draft.manifest.board_poses = Some(BoardPosesSpec {
+        poses: named.unwrap_or("board_poses.csv".into()),
+        notation: Some("matrix4x4".into()),
+        length_unit: Some(LengthUnit::Metre),
+        direction: Some(BoardDirection::CameraFromTarget),
+        ..BoardPosesSpec::default()
+    });
+    draft.ask(
+        &["board_poses"],
         "there are no images, scans or corners: what did the camera see? With poses of the board \
          from another program, say where and how they are written.",
-        &[
-            "[board_poses]",
-            poses,
-            "notation = \"matrix4x4\"",
-            "length_unit = \"m\"",
-            "direction = \"camera_from_target\"",
-        ],
     );
 }
 
@@ -341,75 +393,68 @@ fn touches(kinds: &Kinds) -> Option<(&Group, &Touches)> {
     kinds.iter().find_map(|(g, k)| if let Kind::Touches(t) = k { Some((g, t)) } else { None })
 }
 
-/// Key of a placement's file in the manifest.
-fn key(kind: &Kind) -> Option<&'static str> {
-    match kind {
-        Kind::Pictures => Some("image"),
-        Kind::Depth | Kind::Clouds => Some("scan"),
-        Kind::Corners => Some("corners"),
-        _ => None,
+/// The files of a placement.
+fn placement(kinds: &Kinds, id: &str) -> PlacementSpec {
+    let mut spec = PlacementSpec { id: id.into(), ..PlacementSpec::default() };
+    for (group, kind) in kinds {
+        let own = group.members.iter().find(|m| crate::files::stem(m) == *id);
+        let name = own.map(|file| file.to_string_lossy().replace('\\', "/"));
+        let key = match kind {
+            Kind::Pictures => &mut spec.image,
+            Kind::Depth | Kind::Clouds => &mut spec.scan,
+            Kind::Corners => &mut spec.corners,
+            _ => continue,
+        };
+        if name.is_some() {
+            *key = name;
+        }
     }
+    spec
 }
 
-fn placed(kinds: &Kinds, touches: &Touches, page: &mut Page) {
-    let mut orphans = Vec::new();
-    for id in &touches.placements {
-        let mut lines = Vec::new();
-        for (group, kind) in kinds {
-            let own = group.members.iter().find(|m| crate::files::stem(m) == *id);
-            if let (Some(file), Some(key)) = (own, key(kind)) {
-                let name = file.to_string_lossy().replace('\\', "/");
-                lines.push(format!("{key} = {}", quoted(&name)));
-            }
-        }
-        if lines.is_empty() {
-            orphans.push(id);
-            continue;
-        }
-        page.table("[[placements]]");
-        page.line(&format!("id = {}", quoted(id)));
-        lines.iter().for_each(|line| page.line(line));
-    }
-    for id in orphans {
-        page.line("");
-        let (id, question) = (
-            format!("id = {}", quoted(id)),
-            format!(
-                "the touches name a placement {id}: which image shows the board there? (not \
-                 needed where the camera is on the robot and the board is that of the captures)"
-            ),
+fn placed(kinds: &Kinds, touches: &Touches, draft: &mut Draft) {
+    let specs = touches.placements.iter().map(|id| placement(kinds, id));
+    let has_files = |spec: &PlacementSpec| {
+        spec.image.is_some() || spec.scan.is_some() || spec.corners.is_some()
+    };
+    let (mut found, orphans): (Vec<_>, Vec<_>) = specs.partition(has_files);
+    for orphan in orphans {
+        let question = format!(
+            "the touches name a placement {}: which image shows the board there? (not needed where \
+             the camera is on the robot and the board is that of the captures)",
+            quoted(&orphan.id)
         );
-        page.ask(&question, &["[[placements]]", &id, "image = \"placement.png\""]);
+        draft.ask(&[&format!("placements.{}", found.len())], question);
+        found.push(PlacementSpec { image: Some("placement.png".into()), ..orphan });
     }
+    draft.manifest.placements = found;
 }
 
-fn touched_corners(group: &Group, touches: &Touches, page: &mut Page) {
-    page.table("[touches]");
-    page.line(&format!("file = {}  # {} touches", quoted(&group.pattern), touches.count));
+fn touched_corners(group: &Group, touches: &Touches, draft: &mut Draft) {
+    draft.note_behind("touches.file", format!("{} touches", touches.count));
+    let mut spec = TouchesSpec { file: Some(group.pattern.clone()), ..TouchesSpec::default() };
     let Some(poses) = &touches.poses else {
-        page.line("kind = \"tip\"");
-        match &touches.unit {
-            Some((unit, why)) => page.line(&format!("length_unit = \"{unit}\"  # {why}")),
-            None => page.ask("is the tip in \"m\" or in \"mm\"?", &["length_unit = \"mm\""]),
-        }
+        let question = "is the tip in \"m\" or in \"mm\"?";
+        let unit = proven_unit("touches.length_unit", &touches.unit, question, draft);
+        (spec.kind, spec.length_unit) = (Some(TouchKind::Tip), Some(unit));
+        draft.manifest.touches = Some(spec);
         return;
     };
-    match poses.notation {
-        Notation::Joints => page.line("kind = \"joints\""),
-        _ => page.line("kind = \"flange-pose\""),
-    }
-    match (poses.notation, &poses.unit) {
-        (Notation::Is(name), unit) => {
-            page.line(&format!("notation = {}", quoted(name)));
-            if let Some((unit, why)) = unit {
-                page.line(&format!("length_unit = \"{unit}\"  # {why}"));
-            }
+    spec.kind = Some(match poses.notation {
+        Notation::Joints => TouchKind::Joints,
+        _ => TouchKind::FlangePose,
+    });
+    if let Notation::Is(name) = poses.notation {
+        spec.notation = Some(name.into());
+        if let Some((unit, why)) = &poses.unit {
+            spec.length_unit = Some(*unit);
+            draft.note_behind("touches.length_unit", why.as_str());
         }
-        _ => page.note("written as in [robot]; else say notation and length_unit here"),
+    } else {
+        let note = "written as in [robot]; else say notation and length_unit here";
+        draft.note_below("touches.kind", note);
     }
-    page.line("");
-    page.ask(
-        "where is the tip of the touching tool on the flange, in mm?",
-        &["[touches.tip]", "in_flange_mm = [0.0, 0.0, 150.0]"],
-    );
+    spec.tip = Some(TipSpec { in_flange_mm: [0.0, 0.0, 150.0] });
+    draft.ask(&["touches.tip"], "where is the tip of the touching tool on the flange, in mm?");
+    draft.manifest.touches = Some(spec);
 }

@@ -5,10 +5,10 @@
 use std::path::Path;
 
 use handeye::{
-    Base, FirstJoint, Flange, LastLink, Pose,
+    Base, FirstJoint, Flange, Frame, LastLink, Pose,
     model::kinematics::{Arm, DhConvention, Joint},
 };
-use serde::{Deserialize, de::IgnoredAny};
+use serde::{Deserialize, Serialize, de::IgnoredAny};
 
 use crate::{
     error::{Error, Place, malformed},
@@ -19,53 +19,78 @@ use crate::{
 };
 
 /// Denavit-Hartenberg parameters as a manifest or a JSON file holds them.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DhSpec {
+    /// Which of the two conventions the parameters follow.
     #[serde(alias = "dh_convention")]
     convention: DhConvention,
-    #[serde(default)]
+    /// Unit of a and d.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     length_unit: Option<LengthUnit>,
-    #[serde(default)]
+    /// Unit of alpha, theta_offset and beta.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     angle_unit: Option<AngleUnit>,
-    #[serde(default)]
+    /// The units, in place of length_unit and angle_unit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     units: Option<DhUnits>,
+    /// The joints, from the base outwards.
+    #[cfg_attr(test, schemars(length(min = 1)))]
     joints: Vec<DhJoint>,
-    #[serde(default = "Pose::identity")]
+    /// Where the first joint's frame is in the base; left out, there.
+    #[serde(default = "Pose::<Base, FirstJoint>::identity", skip_serializing_if = "is_identity")]
     base_from_first_joint: Pose<Base, FirstJoint>,
-    #[serde(default = "Pose::identity")]
+    /// Where the flange is in the last link's frame; left out, there.
+    #[serde(default = "Pose::<LastLink, Flange>::identity", skip_serializing_if = "is_identity")]
     last_link_from_flange: Pose<LastLink, Flange>,
-    #[serde(default, rename = "robot_name")]
+    #[serde(default, rename = "robot_name", skip_serializing)]
+    #[cfg_attr(test, schemars(with = "String"))]
     _robot_name: IgnoredAny,
-    #[serde(default, rename = "manufacturer")]
+    #[serde(default, rename = "manufacturer", skip_serializing)]
+    #[cfg_attr(test, schemars(with = "String"))]
     _manufacturer: IgnoredAny,
-    #[serde(default, rename = "degrees_of_freedom")]
+    #[serde(default, rename = "degrees_of_freedom", skip_serializing)]
+    #[cfg_attr(test, schemars(with = "u32"))]
     _degrees_of_freedom: IgnoredAny,
-    #[serde(default, rename = "joint_order")]
+    #[serde(default, rename = "joint_order", skip_serializing)]
+    #[cfg_attr(test, schemars(with = "Vec<String>"))]
     _joint_order: IgnoredAny,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// The units of Denavit-Hartenberg parameters.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct DhUnits {
     length: LengthUnit,
     angle: AngleUnit,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+/// The parameters of one joint.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct DhJoint {
     a: f64,
     alpha: f64,
     d: f64,
+    /// What is added to the joint's value.
     #[serde(default, alias = "theta", alias = "offset")]
     theta_offset: f64,
+    /// Rotation about y, of Hayati's parameters for parallel axes.
     #[serde(default)]
     beta: f64,
+    /// Whether the joint slides.
     #[serde(default)]
     prismatic: bool,
-    #[serde(default, rename = "joint_id", alias = "name")]
+    #[serde(default, rename = "joint_id", alias = "name", skip_serializing)]
+    #[cfg_attr(test, schemars(with = "String"))]
     _name: IgnoredAny,
+}
+
+fn is_identity<A: Frame, B: Frame>(pose: &Pose<A, B>) -> bool {
+    *pose == Pose::identity()
 }
 
 /// An arm, how its joints are called where they have names, and the unit of the values of those that slide.
@@ -167,6 +192,11 @@ fn joint_names(n: usize) -> Vec<String> {
 }
 
 impl DhJoint {
+    fn of(joint: &Joint) -> Self {
+        let Joint { a, alpha, d, theta_offset, beta, prismatic } = *joint;
+        Self { a, alpha, d, theta_offset, beta, prismatic, _name: IgnoredAny }
+    }
+
     fn in_si(&self, length: LengthUnit, angle: AngleUnit) -> Joint {
         Joint {
             a: length.to_metres(self.a),
@@ -181,19 +211,21 @@ impl DhJoint {
 
 /// An arm as a file that `dh = "..."` of a manifest reads: metres and radians.
 pub fn arm_file(arm: &Arm) -> String {
-    let mut model = serde_json::json!({
-        "convention": arm.convention,
-        "length_unit": "m",
-        "angle_unit": "rad",
-        "joints": arm.joints,
-    });
-    if arm.base_from_first_joint != Pose::identity() {
-        model["base_from_first_joint"] = serde_json::json!(arm.base_from_first_joint);
-    }
-    if arm.last_link_from_flange != Pose::identity() {
-        model["last_link_from_flange"] = serde_json::json!(arm.last_link_from_flange);
-    }
-    format!("{model:#}\n")
+    let spec = DhSpec {
+        convention: arm.convention,
+        length_unit: Some(LengthUnit::Metre),
+        angle_unit: Some(AngleUnit::Radian),
+        units: None,
+        joints: arm.joints.iter().map(DhJoint::of).collect(),
+        base_from_first_joint: arm.base_from_first_joint,
+        last_link_from_flange: arm.last_link_from_flange,
+        _robot_name: IgnoredAny,
+        _manufacturer: IgnoredAny,
+        _degrees_of_freedom: IgnoredAny,
+        _joint_order: IgnoredAny,
+    };
+    // numbers and short names: this cannot fail
+    serde_json::to_string_pretty(&spec).unwrap_or_default() + "\n"
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use handeye::{
 };
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     error::{Error, Place, malformed, nearest},
@@ -19,11 +19,15 @@ use crate::{
 };
 
 /// A model of an arm as a manifest names it.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UrdfSpec {
+    /// The robot's URDF.
     pub(crate) file: String,
+    /// The link that is the robot's base.
     pub(crate) base: String,
+    /// The link that is its flange.
     pub(crate) flange: String,
 }
 

@@ -1,110 +1,119 @@
 //! The manifest of a simulated cell.
 
-use std::fmt::Write as _;
-
 use handeye::{
     Distortion, Intrinsics,
     simulate::{Cell, Recording, cell::placement_name},
 };
-use serde_json::{Value, json};
 
 use super::{ARM, ScanFormat, TRUTH, Writing, pictures::DEPTH_SCALE};
+use crate::{
+    PixelOrigin,
+    camera::CameraSpec,
+    dataset::{
+        Draft,
+        manifest::{
+            CornersSpec, FileOr, ImagesSpec, NoiseSpec, PlacementSpec, RobotDirection, RobotSpec,
+            ScansSpec, TipSpec, TouchKind, TouchesSpec,
+        },
+    },
+    units::{AngleUnit, LengthUnit},
+};
 
-/// The text of `handeye.toml`.
+/// The text of `handeye.toml`. Captures have names of three digits, placements have others.
 pub(super) fn manifest(recording: &Recording, writing: Writing) -> String {
-    let with_images = writing.images;
-    let cell = recording.cell;
-    let setup = cell.setup.name();
-    let mut text = format!("# A simulated cell; its truth is in {TRUTH}.\nsetup = \"{setup}\"\n");
-    text += &format!("\n[target]\n{}", table(&json!(cell.target)));
-    text += &format!("\n[camera]\n{}", camera(&cell.intrinsics));
-    text += "\n[robot]\nposes = \"robot.csv\"\ndirection = \"base_from_flange\"\n";
-    text += &match cell.arm {
-        Some(_) => format!("notation = \"joints\"\nangle_unit = \"deg\"\ndh = \"{ARM}\"\n"),
-        None => "notation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n".into(),
-    };
-    let scans = with_images && cell.depth.is_some();
-    text += if cell.target.is_empty() {
-        "" // a ball is seen in scans alone
-    } else if with_images {
-        "\n[images]\nfiles = \"images/[captures].png\"\n"
-    } else {
-        "\n[corners]\nfiles = \"corners/[captures].csv\"\npixel_origin = \"centre\"\n"
-    };
-    if scans {
-        text += &format!(
-            "\n[scans]\nfiles = \"scans/[captures].{}\"\n{}",
-            writing.scans.ending(),
-            scan_keys(cell, writing.scans)
-        );
-    }
+    let (cell, with_images) = (recording.cell, writing.images);
+    let mut draft = Draft::new();
+    draft.head(format!("A simulated cell; its truth is in {TRUTH}."));
+    draft.set_target(cell.target.clone());
+    let has_scans = with_images && cell.depth.is_some();
+    let m = &mut draft.manifest;
+    m.setup = cell.setup;
+    m.camera = Some(camera(&cell.intrinsics));
+    m.robot = Some(robot(cell));
+    // a ball is seen in scans alone
+    let has_corners = !cell.target.is_empty();
+    m.images = (has_corners && with_images).then(|| ImagesSpec::of("images/???.png"));
+    m.corners = (has_corners && !with_images).then(|| CornersSpec {
+        files: "corners/???.csv".into(),
+        pixel_origin: Some(PixelOrigin::Centre),
+    });
+    m.scans = has_scans.then(|| scans(cell, writing.scans));
     if !with_images && cell.noise.corner_px > 0.0 {
-        text += &format!("\n[noise]\nimage_px = {}\n", cell.noise.corner_px);
+        m.noise = NoiseSpec { image_px: Some(cell.noise.corner_px), ..NoiseSpec::default() };
     }
-    for k in 0..cell.placements {
-        text += &placement(&placement_name(k), with_images, scans.then_some(writing.scans));
-    }
-    text += &touches_table(recording);
-    // captures have names of three digits, placements have others
-    text.replace("[captures]", "???")
+    let format = has_scans.then_some(writing.scans);
+    let names = (0..cell.placements).map(placement_name);
+    m.placements = names.map(|id| placement(id, with_images, format)).collect();
+    m.touches = touches(recording);
+    draft.written().0
 }
 
-fn scan_keys(cell: &Cell, format: ScanFormat) -> String {
-    match format {
-        ScanFormat::DepthPng => format!(
-            "depth_scale = {DEPTH_SCALE}\n\n[scans.camera]\n{}",
-            camera(&cell.scan_intrinsics())
-        ),
-        ScanFormat::Ply | ScanFormat::Pcd => "length_unit = \"m\"\n".into(),
+fn robot(cell: &Cell) -> RobotSpec {
+    let is_joints = cell.arm.is_some();
+    RobotSpec {
+        poses: "robot.csv".into(),
+        direction: Some(RobotDirection::BaseFromFlange),
+        notation: Some(if is_joints { "joints" } else { "quaternion-xyzw" }.into()),
+        length_unit: (!is_joints).then_some(LengthUnit::Metre),
+        angle_unit: is_joints.then_some(AngleUnit::Degree),
+        dh: is_joints.then(|| FileOr::File(ARM.into())),
+        ..RobotSpec::default()
     }
 }
 
-fn placement(id: &str, with_images: bool, scans: Option<ScanFormat>) -> String {
-    let mut text = format!("\n[[placements]]\nid = \"{id}\"\n");
-    text += &if with_images {
-        format!("image = \"images/{id}.png\"\n")
-    } else {
-        format!("corners = \"corners/{id}.csv\"\n")
-    };
-    if let Some(format) = scans {
-        text += &format!("scan = \"scans/{id}.{}\"\n", format.ending());
+fn scans(cell: &Cell, format: ScanFormat) -> ScansSpec {
+    let is_depth = format == ScanFormat::DepthPng;
+    ScansSpec {
+        files: format!("scans/???.{}", format.ending()),
+        length_unit: (!is_depth).then_some(LengthUnit::Metre),
+        depth_scale: is_depth.then_some(DEPTH_SCALE),
+        camera: is_depth.then(|| camera(&cell.scan_intrinsics())),
+        ..ScansSpec::default()
     }
-    text
 }
 
-fn touches_table(recording: &Recording) -> String {
+fn placement(id: String, with_images: bool, scans: Option<ScanFormat>) -> PlacementSpec {
+    PlacementSpec {
+        image: with_images.then(|| format!("images/{id}.png")),
+        corners: (!with_images).then(|| format!("corners/{id}.csv")),
+        scan: scans.map(|format| format!("scans/{id}.{}", format.ending())),
+        id,
+        ..PlacementSpec::default()
+    }
+}
+
+fn touches(recording: &Recording) -> Option<TouchesSpec> {
     if recording.touches.is_empty() {
-        return String::new();
+        return None;
     }
+    let is_joints = recording.cell.arm.is_some();
     let tip = recording.believed_tip().vector() * 1e3;
-    let kind = match recording.cell.arm {
-        Some(_) => "kind = \"joints\"\n",
-        None => "kind = \"flange-pose\"\nnotation = \"quaternion-xyzw\"\nlength_unit = \"m\"\n",
-    };
-    format!(
-        "\n[touches]\nfile = \"touches.csv\"\n{kind}\n\
-         [touches.tip]\nin_flange_mm = [{:?}, {:?}, {:?}]\n",
-        tip.x, tip.y, tip.z
-    )
+    Some(TouchesSpec {
+        file: Some("touches.csv".into()),
+        kind: Some(if is_joints { TouchKind::Joints } else { TouchKind::FlangePose }),
+        notation: (!is_joints).then(|| "quaternion-xyzw".into()),
+        length_unit: (!is_joints).then_some(LengthUnit::Metre),
+        tip: Some(TipSpec { in_flange_mm: tip.into() }),
+        ..TouchesSpec::default()
+    })
 }
 
-fn camera(c: &Intrinsics) -> String {
-    let mut text = format!(
-        "width = {}\nheight = {}\nfx = {:?}\nfy = {:?}\ncx = {:?}\ncy = {:?}\n",
-        c.width, c.height, c.fx, c.fy, c.cx, c.cy
-    );
+fn camera(c: &Intrinsics) -> CameraSpec {
     let model = match c.distortion {
-        Distortion::None => return text + "distortion_model = \"none\"\n",
+        Distortion::None => "none",
         Distortion::BrownConrady(_) => "brown-conrady",
         Distortion::KannalaBrandt(_) => "kannala-brandt",
     };
-    let _ = writeln!(text, "distortion_model = \"{model}\"");
-    let _ = writeln!(text, "distortion = {:?}", c.coefficients());
-    text
-}
-
-/// A flat JSON object as TOML.
-fn table(value: &Value) -> String {
-    let entries = value.as_object().into_iter().flatten();
-    entries.map(|(key, value)| format!("{key} = {value}\n")).collect()
+    let is_distorted = c.distortion != Distortion::None;
+    CameraSpec {
+        width: Some(c.width),
+        height: Some(c.height),
+        fx: Some(c.fx),
+        fy: Some(c.fy),
+        cx: Some(c.cx),
+        cy: Some(c.cy),
+        distortion_model: Some(model.into()),
+        distortion: is_distorted.then(|| c.coefficients().to_vec()),
+        ..CameraSpec::default()
+    }
 }

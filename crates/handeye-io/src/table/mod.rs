@@ -56,10 +56,11 @@ pub(crate) struct Layout {
 }
 
 /// A column, by number from 1 or by name.
-#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum Column {
-    Number(usize),
+    Number(#[cfg_attr(test, schemars(range(min = 1)))] usize),
     Name(String),
 }
 

@@ -43,15 +43,20 @@ pub fn detect_with(
     if width.min(height) < SMALLEST_IMAGE {
         return Err(NotFound::SmallImage { width, height });
     }
-    if let TargetModel::Tag { dictionary, id, .. } = target {
-        return tag::detect(image, dictionary, *id);
-    }
-    if target.has_circles() {
-        return circles::detect_with(image, target, camera);
-    }
-    let found = match tags::Board::apart(target) {
-        Some(board) => board?.detect(image),
-        None => search(image, target, &|grids| grids),
+    let found = match target {
+        TargetModel::Tag { dictionary, id, .. } => return tag::detect(image, dictionary, *id),
+        TargetModel::CircleGrid { .. }
+        | TargetModel::AsymmetricCircleGrid { .. }
+        | TargetModel::ModifiedCircleGrid { .. } => {
+            return circles::detect_with(image, target, camera);
+        }
+        TargetModel::Aprilgrid { .. } | TargetModel::TagGrid { .. }
+            if let Some(board) = tags::Board::apart(target) =>
+        {
+            board?.detect(image)
+        }
+        TargetModel::Sphere { .. } => return Err(NotFound::ScansOnly),
+        _ => search(image, target, &|grids| grids),
     };
     without_strays(found, target, (width, height), camera)
 }
@@ -114,7 +119,6 @@ impl<'a> Family<'a> {
         }
         match target {
             TargetModel::Checkerboard { .. } => Ok(Self::Checkerboard(target)),
-            TargetModel::Sphere { .. } => Err(NotFound::ScansOnly),
             // the others were looked for before
             _ => Err(NotFound::Unsupported("this target")),
         }

@@ -38,7 +38,7 @@ impl Crossing {
     }
 
     /// Sine of the angle at which the edges cross.
-    pub fn slant(&self) -> f64 {
+    pub(crate) fn slant(&self) -> f64 {
         (self.rays[1] - self.rays[0]).sin().abs()
     }
 }
@@ -88,7 +88,7 @@ impl Default for Circle {
 
 impl Circle {
     /// The crossing at a pixel, if there is one.
-    pub fn crossing_at(&self, smooth: &GrayImage, x: usize, y: usize) -> Option<Crossing> {
+    pub(crate) fn crossing_at(&self, smooth: &GrayImage, x: usize, y: usize) -> Option<Crossing> {
         let at = saddle(smooth, x, y)?;
         let grey = |radius: &f64| self.around(smooth, &at, *radius);
         RADII.iter().find_map(|radius| crossing_of(&at, &grey(radius)?))

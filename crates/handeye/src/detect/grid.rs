@@ -76,7 +76,7 @@ impl Grid {
     }
 
     /// Another grid with the labels that it has as the continuation of this one.
-    pub fn continued(&self, other: &Self) -> Option<Self> {
+    pub(crate) fn continued(&self, other: &Self) -> Option<Self> {
         let middle = other.corners.values().sum::<Vector2<f64>>() / other.corners.len() as f64;
         let mut near: Vec<_> = self.corners.iter().collect();
         near.sort_by(|a, b| (a.1 - middle).norm().total_cmp(&(b.1 - middle).norm()));
@@ -117,14 +117,14 @@ impl Grid {
     }
 
     /// Every label changed.
-    pub fn relabel(&self, f: impl Fn((i32, i32)) -> (i32, i32)) -> Self {
+    pub(crate) fn relabel(&self, f: impl Fn((i32, i32)) -> (i32, i32)) -> Self {
         Self { corners: self.corners.iter().map(|(k, p)| (f(*k), *p)).collect() }
     }
 }
 
 /// A corner as its neighbours have it.
 #[derive(Debug, Clone, Copy)]
-pub struct Prediction {
+pub(crate) struct Prediction {
     /// Where, px.
     pub pixel: Vector2<f64>,
     /// Its variance over that of a neighbour.

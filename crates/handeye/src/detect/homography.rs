@@ -107,7 +107,7 @@ pub fn apply(h: &Matrix3<f64>, at: &Vector2<f64>) -> Vector2<f64> {
 /// The homography from the unit square's corners (0,0), (1,0), (1,1), (0,1) to a quadrilateral.
 ///
 /// P. Heckbert, *Fundamentals of texture mapping*, 1989, section 2.2.3.
-pub fn from_unit_square(quad: &[Vector2<f64>; 4]) -> Matrix3<f64> {
+pub(crate) fn from_unit_square(quad: &[Vector2<f64>; 4]) -> Matrix3<f64> {
     let [p0, p1, p2, p3] = quad;
     let sum = p0 - p1 + p2 - p3;
     let (d1, d2) = (p1 - p2, p3 - p2);

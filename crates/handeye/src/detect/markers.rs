@@ -7,7 +7,7 @@ pub use crate::model::dictionary::{Dictionary, Reading};
 
 /// What the cells of a marker, border included, look like in a picture.
 #[derive(Debug, Clone)]
-pub struct Cells {
+pub(crate) struct Cells {
     /// The inner bits.
     pub code: u64,
     /// Border cells that are not black.
@@ -25,7 +25,7 @@ const SHARPENINGS: usize = 5;
 
 /// Mean greys of the cells of a marker, border included, row by row.
 #[derive(Debug, Clone)]
-pub struct Greys {
+pub(crate) struct Greys {
     grey: Vec<f64>,
     /// Cells along a side.
     cells: usize,
@@ -75,7 +75,7 @@ impl Greys {
 
     /// The greys before a blur that mixed neighbouring cells, with white around the marker; by van
     /// Cittert's iteration `x ← x + (y - K x)`.
-    pub fn sharpened(&self) -> Self {
+    pub(crate) fn sharpened(&self) -> Self {
         let white = self.grey.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let mut sharp = self.grey.clone();
         for _ in 0..SHARPENINGS {
@@ -131,7 +131,7 @@ fn means(grey: &[f64], threshold: f64) -> (f64, f64) {
 }
 
 /// Grey value between pixels; `None` outside.
-pub fn bilinear(image: &GrayImage, at: &Vector2<f64>) -> Option<f64> {
+pub(crate) fn bilinear(image: &GrayImage, at: &Vector2<f64>) -> Option<f64> {
     let (x, y) = (at.x.floor(), at.y.floor());
     let inside =
         x >= 0.0 && y >= 0.0 && x + 1.0 < image.width() as f64 && y + 1.0 < image.height() as f64;

@@ -14,13 +14,13 @@ mod crossings;
 mod erf;
 mod fits;
 mod grid;
-pub mod homography;
+pub(crate) mod homography;
 mod levenberg;
 pub mod markers;
 mod mesh;
 mod outcome;
 mod partial;
-pub mod planar_pose;
+pub(crate) mod planar_pose;
 mod pyramid;
 pub mod residuals;
 mod saturated;
@@ -28,7 +28,7 @@ mod several;
 pub mod sight;
 pub mod sphere;
 mod strays;
-pub mod subpixel;
+pub(crate) mod subpixel;
 pub mod surface;
 pub mod tag;
 mod tags;
@@ -37,9 +37,9 @@ mod view;
 pub use board::{detect, detect_with};
 pub use outcome::NotFound;
 pub use planar_pose::{
-    PosedTarget, relabelled, symmetry_turn, target_poses, target_poses_with, typical_excess,
-    with_symmetries,
+    PosedTarget, target_poses, target_poses_with, typical_excess, with_symmetries,
 };
+pub(crate) use planar_pose::{relabelled, symmetry_turn};
 pub use several::detect_several;
-pub use sight::{Sight, sighted};
+pub(crate) use sight::{Sight, sighted};
 pub use surface::{Missing, lift};

@@ -23,8 +23,8 @@ mod tests;
 
 pub(super) use fit::Fit;
 pub(crate) use fit::moved;
-pub use start::two_rotations;
-pub use symmetry::{relabelled, symmetry_turn, with_symmetries};
+pub use symmetry::with_symmetries;
+pub(crate) use symmetry::{relabelled, symmetry_turn};
 
 use crate::{
     Error, ImageCorner, Intrinsics, SurfaceCorner, TargetModel, TargetPose, math::linalg::median,

@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 use crate::GrayImage;
 
 /// A picture and how its pixels map back: `original = (at + 0.5) * factor - 0.5`.
-pub struct Scaled<'a> {
+pub(crate) struct Scaled<'a> {
     /// The new picture.
     pub image: Cow<'a, GrayImage>,
     factor: f64,
@@ -21,7 +21,7 @@ impl<'a> Scaled<'a> {
     }
 
     /// Half as large, each pixel the mean of four.
-    pub fn halved(&self) -> Self {
+    pub(crate) fn halved(&self) -> Self {
         let (width, height) = (self.image.width() / 2, self.image.height() / 2);
         let full = self.image.width();
         let mut values = vec![0.0; width * height];
@@ -66,18 +66,18 @@ impl<'a> Scaled<'a> {
     }
 
     /// A pixel of this picture, in the original.
-    pub fn original(&self, at: &Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn original(&self, at: &Vector2<f64>) -> Vector2<f64> {
         at.add_scalar(0.5) * self.factor - Vector2::repeat(0.5)
     }
 
     /// A pixel of the original, in this picture.
-    pub fn reduced(&self, at: &Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn reduced(&self, at: &Vector2<f64>) -> Vector2<f64> {
         at.add_scalar(0.5) / self.factor - Vector2::repeat(0.5)
     }
 }
 
 /// Smoothed with the binomial kernel 1 4 6 4 1 in both directions (standard deviation 1 px).
-pub fn smoothed(image: &GrayImage) -> GrayImage {
+pub(crate) fn smoothed(image: &GrayImage) -> GrayImage {
     let (width, height) = (image.width(), image.height());
     let mut padded = vec![0.0; width + 4];
     let mut across = |y: usize, out: &mut [f32]| {

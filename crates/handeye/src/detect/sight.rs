@@ -22,20 +22,20 @@ use crate::{
 /// Number of parameters of camera and target that a target pose may depend on.
 pub const CAMERA: usize = PRINT + SHAPES;
 /// The target is larger by this share.
-pub const TARGET_SCALE: usize = 0;
+pub(crate) const TARGET_SCALE: usize = 0;
 /// Depths in scans are too large by this share.
 pub const DEPTH_SCALE: usize = 1;
 /// Depths in scans are too large by this (m).
-pub const DEPTH_BIAS: usize = 2;
+pub(crate) const DEPTH_BIAS: usize = 2;
 /// The first of the lens' parameters, [`Intrinsics::by_parameters`].
 pub const LENS: usize = 3;
 /// The camera's clock is farther ahead of the robot's by this (s).
-pub const CLOCK: usize = 12;
+pub(crate) const CLOCK: usize = 12;
 /// The first of the target's deviations from its shape: its y is longer than its x by this share, and the second
 /// derivatives of its height by x x, x y and y y (1/m), about its middle.
 pub const PRINT: usize = 13;
 /// How many there are.
-pub const SHAPES: usize = 4;
+pub(crate) const SHAPES: usize = 4;
 
 /// How a point of a target moves with the deviations of its shape.
 pub fn by_shape(in_target: &Vector3<f64>, middle: &Vector3<f64>) -> SMatrix<f64, 3, SHAPES> {
@@ -65,19 +65,19 @@ impl Sight {
 
     /// How a pose of unknown corners moves with the size of the target: the larger, the farther
     /// away, `t (1 + s) = t + R (Rᵀ t) s`.
-    pub fn by_size(camera_from_target: &Pose<Camera, Target>) -> Vector6<f64> {
+    pub(crate) fn by_size(camera_from_target: &Pose<Camera, Target>) -> Vector6<f64> {
         let outward = camera_from_target.rotation().transpose() * camera_from_target.translation();
         Vector6::new(0.0, 0.0, 0.0, outward.x, outward.y, outward.z)
     }
 
     /// The same for a pose in another frame of the target: `carry = Ad(new_from_old)`.
-    pub fn carried(&self, carry: &Matrix6<f64>) -> Self {
+    pub(crate) fn carried(&self, carry: &Matrix6<f64>) -> Self {
         Self { by_camera: carry * self.by_camera, ..self.clone() }
     }
 }
 
 /// The best pose near `start`, and what the view knows beyond it. `None` where corners are too few.
-pub fn sighted(
+pub(crate) fn sighted(
     corners: &[ImageCorner],
     surface: &[SurfaceCorner],
     target: &TargetModel,
@@ -189,7 +189,7 @@ fn by_scan(
 const ON_RAY: f64 = 0.5;
 
 /// Whether a corner in a scan was lifted along the ray of its pixel.
-pub fn on_ray(camera: &Intrinsics, in_camera: &Vector3<f64>, pixel: &Vector2<f64>) -> bool {
+pub(crate) fn on_ray(camera: &Intrinsics, in_camera: &Vector3<f64>, pixel: &Vector2<f64>) -> bool {
     camera.project(in_camera).is_some_and(|p| (p - pixel).norm() < ON_RAY)
 }
 
@@ -214,7 +214,7 @@ fn by_ray(
 
 /// A scan's corners where another lens lifts them onto the scanned plane; those that were not lifted along the rays of
 /// their pixels stay.
-pub fn lifted_again(
+pub(crate) fn lifted_again(
     surface: &[SurfaceCorner],
     corners: &[ImageCorner],
     from: &Intrinsics,

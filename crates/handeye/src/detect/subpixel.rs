@@ -32,7 +32,7 @@ use model::Parameters;
 
 /// A corner known to about a pixel, and the board around it.
 #[derive(Debug, Clone, Copy)]
-pub struct RoughCorner {
+pub(crate) struct RoughCorner {
     /// About where, px.
     pub pixel: Vector2<f64>,
     /// From this corner to the next one along the board's x, px.
@@ -49,7 +49,7 @@ pub struct RoughCorner {
 
 /// A corner after the fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FittedCorner {
+pub(crate) struct FittedCorner {
     /// Where, px.
     pub pixel: Vector2<f64>,
     /// How sure, px².
@@ -65,7 +65,7 @@ pub struct FittedCorner {
 
 /// Why a corner was left out.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum Unfit {
+pub(crate) enum Unfit {
     /// The picture ends too close to it.
     #[error("too close to the image's edge")]
     AtTheEdge,
@@ -104,7 +104,7 @@ const NEAR_PX: f64 = 6.0;
 
 /// A corner to a few hundredths of a pixel, from the pixels next to it.
 #[derive(Debug, Clone, Copy)]
-pub struct NearCorner {
+pub(crate) struct NearCorner {
     /// Where, px.
     pub pixel: Vector2<f64>,
     /// The other parameters, relative to `pixel`.
@@ -115,7 +115,7 @@ pub struct NearCorner {
 ///
 /// # Errors
 /// Why there is none.
-pub fn approach(image: &GrayImage, rough: &RoughCorner) -> Result<NearCorner, Unfit> {
+pub(crate) fn approach(image: &GrayImage, rough: &RoughCorner) -> Result<NearCorner, Unfit> {
     let disc = Disc::gather(image, rough, radius(rough)?.min(NEAR_PX))?;
     let at = disc.descend(disc.start(rough), NEAR_STEP_PX).ok_or(Unfit::NoCorner)?.at;
     let pixel = disc.place(&at);

@@ -240,7 +240,7 @@ impl Level<'_> {
     }
 
     /// This picture and the larger ones.
-    pub fn and_larger(&self) -> impl Iterator<Item = Level<'_>> {
+    pub(crate) fn and_larger(&self) -> impl Iterator<Item = Level<'_>> {
         (self.at..self.levels.all.len()).map(|at| Level { levels: self.levels, at })
     }
 
@@ -251,7 +251,7 @@ impl Level<'_> {
 
     /// The corners of a quadrilateral found here, in the original: to some tenths of this
     /// picture's pixel where its sides are clear.
-    pub fn approached(&self, quad: &Quad, print: &Print) -> Quad {
+    pub(crate) fn approached(&self, quad: &Quad, print: &Print) -> Quad {
         let near = approached(self.image(), quad, &print.surroundings());
         self.original(&near.unwrap_or(*quad))
     }
@@ -262,7 +262,7 @@ impl Level<'_> {
     }
 
     /// A quadrilateral of the original, in this picture.
-    pub fn reduced(&self, quad: &Quad) -> Quad {
+    pub(crate) fn reduced(&self, quad: &Quad) -> Quad {
         quad.each_ref().map(|p| self.scaled().reduced(p))
     }
 
@@ -290,7 +290,7 @@ impl Level<'_> {
     }
 
     /// The corners of such a quadrilateral that can be seen, where nothing was read in it.
-    pub fn seen_in_part(
+    pub(crate) fn seen_in_part(
         &self,
         quad: &Quad,
         print: &Print,

@@ -96,7 +96,7 @@ impl<'a> Board<'a> {
 
     /// The tags of the board that are found, their corners to about a pixel, by corner ids; and
     /// their sides, px.
-    pub fn rough(&self, image: &GrayImage) -> BTreeMap<u32, (Vector2<f64>, f64)> {
+    pub(crate) fn rough(&self, image: &GrayImage) -> BTreeMap<u32, (Vector2<f64>, f64)> {
         let corners = |tag: &SeenTag| {
             let side = tag.area().sqrt();
             self.tags[&tag.id].corners.into_iter().zip(tag.quad.map(|pixel| (pixel, side)))

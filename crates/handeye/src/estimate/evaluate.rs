@@ -92,7 +92,7 @@ pub fn held_out(estimator: &Estimator, views: &[View], start: &HandEye) -> Vec<O
 
 /// The misfit (rad, m) of every capture when the camera's place comes from elsewhere and the
 /// target's place from the other captures.
-pub fn placed_without(
+pub(crate) fn placed_without(
     views: &[View],
     mount_from_camera: &crate::Pose<crate::Mount, crate::Camera>,
 ) -> Vec<Option<(f64, f64)>> {

@@ -38,7 +38,7 @@ impl Extra {
 
 /// Size of a systematic difference of unit strength: rotation (rad) and position (m) per axis, at
 /// the middle of the touched places.
-pub const SYSTEMATIC: (f64, f64) = (0.04 / 180.0 * std::f64::consts::PI, 0.5e-3);
+pub(crate) const SYSTEMATIC: (f64, f64) = (0.04 / 180.0 * std::f64::consts::PI, 0.5e-3);
 
 /// Standard deviation of a tool tip that was measured with care, m per axis.
 pub const TIP_PRIOR: f64 = 0.5e-3;

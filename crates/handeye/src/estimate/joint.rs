@@ -265,7 +265,10 @@ impl JointFit {
 
     /// The covariance of `(X, Y, extras)` as a sum over the sources of noise; `None` stands for what
     /// was believed of the extras beforehand, and for all else that is in it.
-    pub fn covariance_shares(&self, problem: &Problem) -> Vec<(Option<Source>, DMatrix<f64>)> {
+    pub(crate) fn covariance_shares(
+        &self,
+        problem: &Problem,
+    ) -> Vec<(Option<Source>, DMatrix<f64>)> {
         let Some(covariance) = &self.covariance else { return vec![] };
         let system = System::at(problem, &self.state(problem, &self.noise));
         let Some(by_noise) = system.stated_covariance(&self.noise) else { return vec![] };
@@ -280,7 +283,7 @@ impl JointFit {
 
     /// The covariance of `(X, Y, extras)` as it were with other data of the same kind, or with
     /// other noise: what does not come from noise stays.
-    pub fn covariance_for(
+    pub(crate) fn covariance_for(
         &self,
         own: &Problem,
         problem: &Problem,

@@ -6,7 +6,7 @@
 //! comparison, are in [`crate::solve::least_squares`].
 
 pub mod certify;
-pub mod drift;
+pub(crate) mod drift;
 pub mod evaluate;
 pub mod extra;
 pub mod joint;
@@ -20,6 +20,7 @@ pub mod touches;
 
 pub use extra::{Extra, ExtraKind};
 pub use joint::{fit_joint, fit_views};
-pub use noise::{KnownNoise, NoiseModel, Sigma, Source};
+pub(crate) use noise::Sigma;
+pub use noise::{KnownNoise, NoiseModel, Source};
 pub use problem::{JointFit, Problem};
 pub use touched::{TouchedBoard, TouchedCorner};

@@ -142,7 +142,7 @@ pub fn tre(
 }
 
 /// As [`tre`], where the covariance of each point (m²) is known.
-pub fn tre_of_points(
+pub(crate) fn tre_of_points(
     volume: &Volume,
     spread: &[Matrix3<f64>],
     offset: impl Fn(&Vector3<f64>) -> Vector3<f64>,

@@ -214,7 +214,7 @@ fn touch_covariance(touches: &[&TouchPairs], x: &Pose<Mount, Camera>) -> Option<
 /// One view's part in the error of touches: where it saw the target, and the covariance of its
 /// misfit (robot and camera together) in the target's axes at the reference point.
 #[derive(Debug, Clone, Copy)]
-pub struct ViewNoise {
+pub(crate) struct ViewNoise {
     /// Rotation of the target in the camera.
     pub camera_from_target: nalgebra::Matrix3<f64>,
     /// 6 x 6, rotation first.
@@ -226,7 +226,7 @@ pub struct ViewNoise {
 ///
 /// With `J_ij` the Jacobian of pair `(i, j)`, `H = Σ JᵀJ` and `B_i = Σ_j J_ijᵀ R_i [-[P_j]ₓ, I]`,
 /// the covariance is `H⁻¹ (Σ_i B_i S_i B_iᵀ) H⁻¹`.
-pub fn view_covariance(touches: &[TouchPairs], views: &[ViewNoise]) -> Option<Matrix6<f64>> {
+pub(crate) fn view_covariance(touches: &[TouchPairs], views: &[ViewNoise]) -> Option<Matrix6<f64>> {
     let mut information = Matrix6::zeros();
     let mut shares = vec![Matrix6::zeros(); views.len()];
     for touch in touches {
@@ -246,7 +246,7 @@ pub fn view_covariance(touches: &[TouchPairs], views: &[ViewNoise]) -> Option<Ma
 
 /// Mean square of a t-distributed error over that of a normal one: the variance was estimated
 /// from few equations.
-pub fn small_sample(degrees_of_freedom: f64) -> f64 {
+pub(crate) fn small_sample(degrees_of_freedom: f64) -> f64 {
     if degrees_of_freedom > 2.5 { degrees_of_freedom / (degrees_of_freedom - 2.0) } else { 5.0 }
 }
 
@@ -256,7 +256,7 @@ fn residual(x: &Pose<Mount, Camera>, pair: &Correspondence) -> Vector3<f64> {
 }
 
 /// Tip minus predicted corner, in the base, averaged over the views that show it (m).
-pub fn touch_error(touch: &TouchPairs, x: &Pose<Mount, Camera>) -> Vector3<f64> {
+pub(crate) fn touch_error(touch: &TouchPairs, x: &Pose<Mount, Camera>) -> Vector3<f64> {
     let each = touch.pairs.iter().zip(&touch.base_from_mount).map(|(p, base_from_mount)| {
         let predicted: Point<Mount> = *x * p.in_camera;
         base_from_mount.rotation() * (p.in_mount.vector() - predicted.vector())
@@ -320,7 +320,7 @@ fn leave_out(
 }
 
 /// The volume around the touched corners, in the camera frame.
-pub fn touched_volume(touches: &[TouchPairs]) -> Option<predict::Volume> {
+pub(crate) fn touched_volume(touches: &[TouchPairs]) -> Option<predict::Volume> {
     let points = touches.iter().flat_map(|t| &t.pairs).map(|p| p.in_camera.vector());
     predict::Volume::around(points, "the box around the touched corners")
 }

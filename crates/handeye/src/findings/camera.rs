@@ -1,5 +1,6 @@
 //! Findings about intrinsics and the depth of scans.
 
+use super::Found;
 use crate::Intrinsics;
 
 /// What is found about the camera.
@@ -111,8 +112,10 @@ impl CameraFinding {
             half_pixel: is_half_a_pixel(&all),
         }
     }
+}
 
-    pub(super) fn code(&self) -> &'static str {
+impl Found for CameraFinding {
+    fn code(&self) -> &'static str {
         match self {
             Self::Refined { .. } => "camera-refined",
             Self::CalibratedFromViews { .. } => "camera-calibrated-from-views",
@@ -122,7 +125,7 @@ impl CameraFinding {
         }
     }
 
-    pub(super) fn message(&self) -> String {
+    fn message(&self) -> String {
         match self {
             Self::Refined { changed, half_pixel } => format!(
                 "the given intrinsics do not fit images and robot poses; refined: {}. The result uses the refined intrinsics (key `camera`); use them for your images too, or recalibrate the camera{}",
@@ -149,7 +152,7 @@ impl CameraFinding {
         }
     }
 
-    pub(super) fn headline(&self) -> Option<String> {
+    fn headline(&self) -> Option<String> {
         match self {
             Self::Refined { changed, .. } => {
                 let first = changed.first()?;
@@ -172,8 +175,7 @@ impl CameraFinding {
         }
     }
 
-    /// Its numbers, by name with unit.
-    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+    fn data(&self) -> Vec<(&'static str, f64)> {
         match self {
             Self::Refined { changed, .. } => {
                 changed.iter().flat_map(|m| m.names().into_iter().zip([m.to, m.sigma])).collect()

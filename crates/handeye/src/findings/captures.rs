@@ -1,5 +1,7 @@
 //! Findings about captures that do not count, and whether those that do are enough.
 
+use super::Found;
+
 /// What is found about captures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CaptureFinding {
@@ -301,27 +303,8 @@ impl CaptureFinding {
         }
     }
 
-    pub(super) fn code(&self) -> &'static str {
-        match self {
-            Self::Rejected { cause, .. } => cause.code(),
-            Self::ManyRejected { .. } => "captures-rejected",
-            Self::Few { .. } => "few-captures",
-            Self::Repeated { .. } => "captures-repeated",
-            Self::OfOnePlace { .. } => "captures-of-one-place",
-            Self::OutOfOrder { .. } => "order-shifted",
-            Self::ImagesExchanged { .. } => "captures-exchanged",
-            Self::RobotStill { .. } => "robot-pose-frozen",
-            Self::CameraStill { .. } => "camera-still",
-            Self::Disagreeing { .. } => "captures-disagree",
-            Self::NoMajority { .. } | Self::TwoAnswers { .. } => "no-clear-majority",
-            Self::MostMissing(MostMissing { shown: Shown::Scene, .. }) => "scans-not-placed",
-            Self::MostMissing(_) => "target-not-found",
-            Self::MethodNotForBalls { .. } => "method-not-for-balls",
-        }
-    }
-
-    /// What was seen, with its numbers.
-    pub fn message(&self) -> String {
+    /// What was seen and where, with its numbers.
+    pub(crate) fn message(&self) -> String {
         match self {
             Self::Rejected { capture, cause } => {
                 format!("capture {capture} rejected: {}", cause.in_words())
@@ -390,9 +373,33 @@ impl CaptureFinding {
             }
         }
     }
+}
 
-    /// Its numbers, by name with unit.
-    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+impl Found for CaptureFinding {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Rejected { cause, .. } => cause.code(),
+            Self::ManyRejected { .. } => "captures-rejected",
+            Self::Few { .. } => "few-captures",
+            Self::Repeated { .. } => "captures-repeated",
+            Self::OfOnePlace { .. } => "captures-of-one-place",
+            Self::OutOfOrder { .. } => "order-shifted",
+            Self::ImagesExchanged { .. } => "captures-exchanged",
+            Self::RobotStill { .. } => "robot-pose-frozen",
+            Self::CameraStill { .. } => "camera-still",
+            Self::Disagreeing { .. } => "captures-disagree",
+            Self::NoMajority { .. } | Self::TwoAnswers { .. } => "no-clear-majority",
+            Self::MostMissing(MostMissing { shown: Shown::Scene, .. }) => "scans-not-placed",
+            Self::MostMissing(_) => "target-not-found",
+            Self::MethodNotForBalls { .. } => "method-not-for-balls",
+        }
+    }
+
+    fn message(&self) -> String {
+        CaptureFinding::message(self)
+    }
+
+    fn data(&self) -> Vec<(&'static str, f64)> {
         let count = |n: &usize| *n as f64;
         match self {
             Self::Rejected { cause: Cause::Disagrees { distance_mm, angle_deg, .. }, .. } => {

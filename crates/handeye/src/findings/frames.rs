@@ -1,5 +1,7 @@
 //! Findings about the frames of images and scans.
 
+use super::Found;
+
 /// A source whose frame an answer can be for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Frame {
@@ -100,20 +102,8 @@ pub enum FramesFinding {
 }
 
 impl FramesFinding {
-    pub(super) fn code(&self) -> &'static str {
-        match self {
-            Self::NotSeparable => "picture-and-scan-differ",
-            Self::Scale { .. } => "picture-and-scan-scale",
-            Self::Tilt(_) => "picture-and-scan-tilt",
-            Self::Shift(_) => "picture-and-scan-shift",
-            Self::Disagree { .. } | Self::Offset { .. } | Self::OffsetNotConfirmed { .. } => {
-                "picture-and-scan-disagree"
-            }
-        }
-    }
-
-    /// What was seen, with its numbers.
-    pub fn message(&self) -> String {
+    /// What was seen and where, with its numbers.
+    pub(crate) fn message(&self) -> String {
         match self {
             Self::NotSeparable => "images and scans put the target at different positions, and these captures do not tell whether the scans are scaled, rotated or shifted: show the target at several \
                                    distances and tilts, and check the calibration between image and scan"
@@ -157,9 +147,26 @@ impl FramesFinding {
             ),
         }
     }
+}
 
-    /// Its numbers, by name with unit.
-    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+impl Found for FramesFinding {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::NotSeparable => "picture-and-scan-differ",
+            Self::Scale { .. } => "picture-and-scan-scale",
+            Self::Tilt(_) => "picture-and-scan-tilt",
+            Self::Shift(_) => "picture-and-scan-shift",
+            Self::Disagree { .. } | Self::Offset { .. } | Self::OffsetNotConfirmed { .. } => {
+                "picture-and-scan-disagree"
+            }
+        }
+    }
+
+    fn message(&self) -> String {
+        FramesFinding::message(self)
+    }
+
+    fn data(&self) -> Vec<(&'static str, f64)> {
         match self {
             Self::NotSeparable => vec![],
             Self::Scale { value, sigma } => vec![("value", *value), ("sigma", *sigma)],

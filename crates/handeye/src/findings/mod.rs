@@ -19,9 +19,9 @@ mod warning;
 pub use camera::CameraFinding;
 pub use captures::CaptureFinding;
 pub use frames::FramesFinding;
-pub use movement::MovementFinding;
+pub(crate) use movement::MovementFinding;
 pub use robot::RobotFinding;
-pub use streams::StreamFinding;
+pub(crate) use streams::StreamFinding;
 pub use target::TargetFinding;
 pub use touches::TouchFinding;
 pub use warning::Warning;
@@ -50,61 +50,58 @@ pub enum Finding {
     Touches(TouchFinding),
 }
 
+/// What the findings of every subject say of themselves.
+trait Found {
+    /// Short fixed name, for programs.
+    fn code(&self) -> &'static str;
+
+    /// What was seen and where, with its numbers.
+    fn message(&self) -> String;
+
+    /// Its numbers, by name with unit.
+    fn data(&self) -> Vec<(&'static str, f64)>;
+
+    /// What it did to the answer, with its numbers, for the first sentence of a page; `None` where the words of its
+    /// code say it all.
+    fn headline(&self) -> Option<String> {
+        None
+    }
+}
+
 impl Finding {
+    fn found(&self) -> &dyn Found {
+        match self {
+            Self::Camera(found) => found,
+            Self::Captures(found) => found,
+            Self::Frames(found) => found,
+            Self::Movement(found) => found,
+            Self::Robot(found) => found,
+            Self::Streams(found) => found,
+            Self::Target(found) => found,
+            Self::Touches(found) => found,
+        }
+    }
+
     /// Short fixed name, for programs.
     pub fn code(&self) -> &'static str {
-        match self {
-            Self::Camera(f) => f.code(),
-            Self::Captures(f) => f.code(),
-            Self::Frames(f) => f.code(),
-            Self::Movement(f) => f.code(),
-            Self::Robot(f) => f.code(),
-            Self::Streams(f) => f.code(),
-            Self::Target(f) => f.code(),
-            Self::Touches(f) => f.code(),
-        }
+        self.found().code()
     }
 
     /// What was seen and where, with its numbers.
     pub fn message(&self) -> String {
-        match self {
-            Self::Camera(f) => f.message(),
-            Self::Captures(f) => f.message(),
-            Self::Frames(f) => f.message(),
-            Self::Movement(f) => f.message(),
-            Self::Robot(f) => f.message(),
-            Self::Streams(f) => f.message(),
-            Self::Target(f) => f.message(),
-            Self::Touches(f) => f.message(),
-        }
+        self.found().message()
     }
 
     /// Its numbers, by name with unit.
     pub fn data(&self) -> BTreeMap<String, f64> {
-        let all = match self {
-            Self::Camera(f) => f.data(),
-            Self::Captures(f) => f.data(),
-            Self::Frames(f) => f.data(),
-            Self::Movement(f) => f.data(),
-            Self::Robot(f) => f.data(),
-            Self::Streams(f) => f.data(),
-            Self::Target(f) => f.data(),
-            Self::Touches(f) => f.data(),
-        };
-        let finite = all.into_iter().filter(|(_, value)| value.is_finite());
+        let finite = self.found().data().into_iter().filter(|(_, value)| value.is_finite());
         finite.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
     /// What it did to the answer, with its numbers, for the first sentence of a page; `None` where the words of its
     /// code say it all.
     pub fn headline(&self) -> Option<String> {
-        match self {
-            Self::Camera(f) => f.headline(),
-            Self::Movement(f) => f.headline(),
-            Self::Target(f) => f.headline(),
-            Self::Touches(f) => f.headline(),
-            _ => None,
-        }
+        self.found().headline()
     }
 }
 

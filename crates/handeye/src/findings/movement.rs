@@ -1,5 +1,6 @@
 //! Findings about something that moved during the session.
 
+use super::Found;
 use serde::{Deserialize, Serialize};
 
 use crate::Setup;
@@ -80,23 +81,8 @@ pub enum MovementFinding {
 }
 
 impl MovementFinding {
-    pub(super) fn code(&self) -> &'static str {
-        match self {
-            Self::Displaced(..) => "captures-displaced",
-            Self::Covered(..) => "moved-during-session",
-            Self::AnswerOfTheEnd { .. } | Self::TooFewSince(..) => "camera-moved",
-            Self::Elsewhere { is_target, .. } => {
-                if *is_target {
-                    "target-moved"
-                } else {
-                    "camera-moved"
-                }
-            }
-        }
-    }
-
-    /// What was seen, with its numbers.
-    pub fn message(&self) -> String {
+    /// What was seen and where, with its numbers.
+    pub(crate) fn message(&self) -> String {
         match self {
             Self::Displaced(movement, setup) | Self::Covered(movement, setup) => {
                 in_words(movement, *setup, movement.widened_mm > 0.0)
@@ -128,8 +114,29 @@ impl MovementFinding {
             ),
         }
     }
+}
 
-    pub(super) fn headline(&self) -> Option<String> {
+impl Found for MovementFinding {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Displaced(..) => "captures-displaced",
+            Self::Covered(..) => "moved-during-session",
+            Self::AnswerOfTheEnd { .. } | Self::TooFewSince(..) => "camera-moved",
+            Self::Elsewhere { is_target, .. } => {
+                if *is_target {
+                    "target-moved"
+                } else {
+                    "camera-moved"
+                }
+            }
+        }
+    }
+
+    fn message(&self) -> String {
+        MovementFinding::message(self)
+    }
+
+    fn headline(&self) -> Option<String> {
         match self {
             Self::Covered(movement, _) if movement.widened_mm > 0.0 => Some(format!(
                 "something moved by {:.2} mm during the session, and the stated error covers it",
@@ -143,8 +150,7 @@ impl MovementFinding {
         }
     }
 
-    /// Its numbers, by name with unit.
-    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+    fn data(&self) -> Vec<(&'static str, f64)> {
         let (Self::Displaced(m, _)
         | Self::Covered(m, _)
         | Self::AnswerOfTheEnd { movement: m, .. }

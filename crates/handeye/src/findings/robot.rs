@@ -1,5 +1,7 @@
 //! Findings about the robot's poses, its arm, and what the user says of the camera's position.
 
+use super::Found;
+
 /// What is found about the robot.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RobotFinding {
@@ -90,23 +92,8 @@ impl Inverted {
 }
 
 impl RobotFinding {
-    pub(super) fn code(&self) -> &'static str {
-        match self {
-            Self::Inverted { which: Inverted::Either, .. } => "poses-inverted",
-            Self::Inverted { which: Inverted::Robot, .. } => "robot-poses-inverted",
-            Self::OtherConvention { .. } => "reading",
-            Self::Scale { .. } => "robot-scale",
-            Self::LengthUnit { .. } => "robot-length-unit",
-            Self::TargetLengthUnit { .. } => "target-length-unit",
-            Self::ArmDeviates { .. } => "arm-deviates",
-            Self::JointsAndPosesDiffer { .. } => "joints-and-poses-differ",
-            Self::DeterminedByKnownPosition { .. } => "determined-by-known-position",
-            Self::KnownPositionDisagrees { .. } => "known-position-disagrees",
-        }
-    }
-
-    /// What was seen, with its numbers.
-    pub fn message(&self) -> String {
+    /// What was seen and where, with its numbers.
+    pub(crate) fn message(&self) -> String {
         match self {
             Self::Inverted { which, before_mm, after_mm } => format!(
                 "{}: with that the median residual falls from {} to {after_mm:.1} mm; check `direction` and `setup`",
@@ -140,9 +127,29 @@ impl RobotFinding {
             ),
         }
     }
+}
 
-    /// Its numbers, by name with unit.
-    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+impl Found for RobotFinding {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Inverted { which: Inverted::Either, .. } => "poses-inverted",
+            Self::Inverted { which: Inverted::Robot, .. } => "robot-poses-inverted",
+            Self::OtherConvention { .. } => "reading",
+            Self::Scale { .. } => "robot-scale",
+            Self::LengthUnit { .. } => "robot-length-unit",
+            Self::TargetLengthUnit { .. } => "target-length-unit",
+            Self::ArmDeviates { .. } => "arm-deviates",
+            Self::JointsAndPosesDiffer { .. } => "joints-and-poses-differ",
+            Self::DeterminedByKnownPosition { .. } => "determined-by-known-position",
+            Self::KnownPositionDisagrees { .. } => "known-position-disagrees",
+        }
+    }
+
+    fn message(&self) -> String {
+        RobotFinding::message(self)
+    }
+
+    fn data(&self) -> Vec<(&'static str, f64)> {
         match self {
             Self::Inverted { before_mm, after_mm, .. } => {
                 let before = before_mm.map(|mm| ("before_mm", mm));

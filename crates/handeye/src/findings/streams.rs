@@ -1,5 +1,7 @@
 //! Findings about streams of poses, their clocks, and errors that change with time.
 
+use super::Found;
+
 /// What is found about streams.
 #[derive(Debug, Clone, PartialEq)]
 pub enum StreamFinding {
@@ -103,8 +105,8 @@ impl Drift {
     }
 }
 
-impl StreamFinding {
-    pub(super) fn code(&self) -> &'static str {
+impl Found for StreamFinding {
+    fn code(&self) -> &'static str {
         match self {
             Self::Unsorted { .. } => "stream-unsorted",
             Self::Repeated { .. } => "stream-repeated",
@@ -119,8 +121,7 @@ impl StreamFinding {
         }
     }
 
-    /// What was seen, with its numbers.
-    pub fn message(&self) -> String {
+    fn message(&self) -> String {
         match self {
             Self::Unsorted { stream, count } => {
                 format!("{count} {stream} samples were out of order and have been sorted")
@@ -162,8 +163,7 @@ impl StreamFinding {
         }
     }
 
-    /// Its numbers, by name with unit.
-    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+    fn data(&self) -> Vec<(&'static str, f64)> {
         match self {
             Self::Unsorted { count, .. }
             | Self::Repeated { count, .. }

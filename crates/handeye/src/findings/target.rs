@@ -1,5 +1,7 @@
 //! Findings about the target's size and shape.
 
+use super::Found;
+
 /// What is found about the target.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TargetFinding {
@@ -66,17 +68,7 @@ pub enum SizeOfAnswer {
 }
 
 impl TargetFinding {
-    pub(super) fn code(&self) -> &'static str {
-        match self {
-            Self::Size(Size { answer: SizeOfAnswer::Measured, .. }) => "target-size-contradicted",
-            Self::Size(_) | Self::Distances { .. } | Self::ExplainsAll(_) => "target-scale",
-            Self::Uneven { .. } => "board-uneven",
-            Self::Bent { .. } => "board-bent",
-            Self::NotFlat { .. } => "board-not-flat",
-        }
-    }
-
-    /// What was seen, with its numbers.
+    /// What was seen and where, with its numbers.
     pub fn message(&self) -> String {
         match self {
             Self::Size(size) => size.message(),
@@ -112,8 +104,24 @@ impl TargetFinding {
             ),
         }
     }
+}
 
-    pub(super) fn headline(&self) -> Option<String> {
+impl Found for TargetFinding {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Size(Size { answer: SizeOfAnswer::Measured, .. }) => "target-size-contradicted",
+            Self::Size(_) | Self::Distances { .. } | Self::ExplainsAll(_) => "target-scale",
+            Self::Uneven { .. } => "board-uneven",
+            Self::Bent { .. } => "board-bent",
+            Self::NotFlat { .. } => "board-not-flat",
+        }
+    }
+
+    fn message(&self) -> String {
+        TargetFinding::message(self)
+    }
+
+    fn headline(&self) -> Option<String> {
         match self {
             Self::Size(size) if size.answer == SizeOfAnswer::Estimated => Some(format!(
                 "the answer uses the estimated size of the target ({:.3} mm), not the declared one ({:.3} mm)",
@@ -138,8 +146,7 @@ impl TargetFinding {
         }
     }
 
-    /// Its numbers, by name with unit.
-    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+    fn data(&self) -> Vec<(&'static str, f64)> {
         match self {
             Self::Size(size) | Self::ExplainsAll(size) => vec![
                 ("value", size.value),

@@ -1,5 +1,7 @@
 //! Findings about touches, point pairs and the tool's tip.
 
+use super::Found;
+
 /// What is found about touches.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TouchFinding {
@@ -101,23 +103,8 @@ pub enum Unseen {
 }
 
 impl TouchFinding {
-    pub(super) fn code(&self) -> &'static str {
-        match self {
-            Self::Outlier { .. } | Self::Misplaced { .. } => "touch-rejected",
-            Self::Misread { .. } => "touches-misread",
-            Self::TipOff { .. } => "tip-off",
-            Self::ViewsDisagree { .. } => "views-and-touches-disagree",
-            Self::NotEnough { .. } => "touches-not-enough",
-            Self::WithoutView { .. } => "touch-without-view",
-            Self::Repeated { .. } => "touch-repeated",
-            Self::OfABall => "touches-without-corners",
-            Self::NearlyCollinear { .. } => "points-nearly-collinear",
-            Self::AloneDetermine { .. } => "determined-by-touches",
-        }
-    }
-
-    /// What was seen, with its numbers.
-    pub fn message(&self) -> String {
+    /// What was seen and where, with its numbers.
+    pub(crate) fn message(&self) -> String {
         match self {
             Self::Outlier { corner, placement, p_value } => format!(
                 "the touch of corner {corner} of {placement:?} is rejected: it is too far from where all other data put that corner (p = {p_value:.0e}): a wrong corner id, or the tip slipped"
@@ -159,14 +146,34 @@ impl TouchFinding {
             ),
         }
     }
+}
 
-    pub(super) fn headline(&self) -> Option<String> {
+impl Found for TouchFinding {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Outlier { .. } | Self::Misplaced { .. } => "touch-rejected",
+            Self::Misread { .. } => "touches-misread",
+            Self::TipOff { .. } => "tip-off",
+            Self::ViewsDisagree { .. } => "views-and-touches-disagree",
+            Self::NotEnough { .. } => "touches-not-enough",
+            Self::WithoutView { .. } => "touch-without-view",
+            Self::Repeated { .. } => "touch-repeated",
+            Self::OfABall => "touches-without-corners",
+            Self::NearlyCollinear { .. } => "points-nearly-collinear",
+            Self::AloneDetermine { .. } => "determined-by-touches",
+        }
+    }
+
+    fn message(&self) -> String {
+        TouchFinding::message(self)
+    }
+
+    fn headline(&self) -> Option<String> {
         let Self::TipOff { offset_mm, .. } = self else { return None };
         Some(format!("the answer corrects the tool's tip by {:.2} mm", length(offset_mm)))
     }
 
-    /// Its numbers, by name with unit.
-    pub(super) fn data(&self) -> Vec<(&'static str, f64)> {
+    fn data(&self) -> Vec<(&'static str, f64)> {
         match self {
             Self::Outlier { corner, p_value, .. } => {
                 vec![("corner", f64::from(*corner)), ("p_value", *p_value)]

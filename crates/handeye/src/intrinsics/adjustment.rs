@@ -159,7 +159,7 @@ impl Adjustment {
     }
 
     /// Schwarz's criterion on the best 95 % of the residuals.
-    pub fn price(&self) -> f64 {
+    pub(crate) fn price(&self) -> f64 {
         let mut squares = self.squares(|_| true);
         squares.sort_by(f64::total_cmp);
         let n = squares.len() as f64;
@@ -169,7 +169,7 @@ impl Adjustment {
     }
 
     /// The distortion does not fold over where the corners are.
-    pub fn is_sound(&self) -> bool {
+    pub(crate) fn is_sound(&self) -> bool {
         let mut corners = self.views.iter().flat_map(|v| &v.corners);
         self.camera.check().is_ok() && corners.all(|c| self.camera.undistort(&c.pixel).is_some())
     }

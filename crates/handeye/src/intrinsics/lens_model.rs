@@ -8,6 +8,7 @@ use crate::{Distortion, Intrinsics, model::camera::LENS_PARAMETERS};
 
 /// The model of a lens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum LensModel {
     /// Brown-Conrady's `k1 k2 p1 p2 k3`, of them what pays.
@@ -35,7 +36,7 @@ pub(super) struct Free {
 }
 
 impl Free {
-    pub const PINHOLE: Self = Self::leading(4);
+    pub(crate) const PINHOLE: Self = Self::leading(4);
 
     const fn leading(leading: usize) -> Self {
         Self { leading, prism: false }

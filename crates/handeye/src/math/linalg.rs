@@ -97,28 +97,14 @@ fn sorted(u: DMatrix<f64>, v: DMatrix<f64>) -> Svd {
 }
 
 /// SVD of a 3 x 3 matrix.
-pub fn svd3(m: &Matrix3<f64>) -> (Matrix3<f64>, Vector3<f64>, Matrix3<f64>) {
+pub(crate) fn svd3(m: &Matrix3<f64>) -> (Matrix3<f64>, Vector3<f64>, Matrix3<f64>) {
     let svd = svd(&DMatrix::from_column_slice(3, 3, m.as_slice()));
     let fixed = |d: &DMatrix<f64>| Matrix3::from_column_slice(d.as_slice());
     (fixed(&svd.u), Vector3::from_column_slice(svd.s.as_slice()), fixed(&svd.v))
 }
 
-/// The rotation nearest to `m` in the Frobenius norm; `None` when `m` has rank below two.
-pub fn nearest_rotation(m: &Matrix3<f64>) -> Option<Matrix3<f64>> {
-    let (mut u, s, v) = svd3(m);
-    if !(s[1] > 1e-12 * s[0]) || !s[0].is_finite() {
-        return None;
-    }
-    // the third column of U is free up to sign (or altogether, at rank two): make it right-handed
-    let third = u.column(0).cross(&u.column(1));
-    u.set_column(2, &third);
-    let v_third = v.column(0).cross(&v.column(1));
-    let v = Matrix3::from_columns(&[v.column(0).into(), v.column(1).into(), v_third]);
-    Some(u * v.transpose())
-}
-
 /// Mean of rotations in the chordal sense: the leading eigenvector of `Σ q qᵀ`.
-pub fn mean_rotation<'a>(
+pub(crate) fn mean_rotation<'a>(
     all: impl Iterator<Item = &'a UnitQuaternion<f64>>,
 ) -> UnitQuaternion<f64> {
     let moment: Matrix4<f64> = all.map(|q| q.coords * q.coords.transpose()).sum();
@@ -242,19 +228,6 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn the_nearest_rotation_of_a_reflection_is_a_rotation() {
-        let reflection = Matrix3::from_diagonal(&Vector3::new(1.0, 0.9, -0.1));
-        let r = nearest_rotation(&reflection).unwrap();
-        assert!((r.determinant() - 1.0).abs() < 1e-12);
-        assert!((r - Matrix3::identity()).norm() < 1e-12);
-    }
-
-    #[test]
-    fn a_matrix_of_rank_one_has_no_nearest_rotation() {
-        assert!(nearest_rotation(&(Vector3::x() * Vector3::y().transpose())).is_none());
     }
 
     #[test]

@@ -53,7 +53,7 @@ pub struct Intrinsics {
 /// Parameters that a calibration fits: `fx fy cx cy k1 k2 p1 p2 k3`.
 pub const PARAMETERS: usize = 9;
 /// All of a camera's parameters: `fx fy cx cy` and up to twelve coefficients of its lens.
-pub const LENS_PARAMETERS: usize = 16;
+pub(crate) const LENS_PARAMETERS: usize = 16;
 
 /// Undistortion stops when the step is below this (normalised units, about 1e-9 px).
 const UNDISTORT_STEP: f64 = 1e-13;
@@ -109,7 +109,7 @@ impl Intrinsics {
     }
 
     /// Pixel and its Jacobian with respect to the point.
-    pub fn project_with_jacobian(
+    pub(crate) fn project_with_jacobian(
         &self,
         p: &Vector3<f64>,
     ) -> Option<(Vector2<f64>, Matrix2x3<f64>)> {
@@ -128,7 +128,7 @@ impl Intrinsics {
     }
 
     /// Distorted normalised coordinates of undistorted ones, with the Jacobian.
-    pub fn distort(&self, n: &Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
+    pub(crate) fn distort(&self, n: &Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
         match &self.distortion {
             Distortion::None => (*n, Matrix2::identity()),
             Distortion::BrownConrady(k) => brown_conrady(k, n),
@@ -138,7 +138,7 @@ impl Intrinsics {
 
     /// Undistorted normalised coordinates `(X/Z, Y/Z)` of a pixel, by Newton's method.
     /// `None` where the distortion model folds over (outside the calibrated field).
-    pub fn undistort(&self, pixel: &Vector2<f64>) -> Option<Vector2<f64>> {
+    pub(crate) fn undistort(&self, pixel: &Vector2<f64>) -> Option<Vector2<f64>> {
         let d = Vector2::new((pixel.x - self.cx) / self.fx, (pixel.y - self.cy) / self.fy);
         let mut n = match &self.distortion {
             Distortion::KannalaBrandt(k) => kannala_brandt_start(k, &d)?,
@@ -163,7 +163,7 @@ impl Intrinsics {
     /// Derivative of a point's pixel by `f a cx cy k1 k2 p1 p2 k3`: `f` changes `fx`, and `fy` in proportion, `a`
     /// changes `fy` beyond that (a focal length is often off, the shape of the pixels hardly ever). Those of the
     /// distortion are Brown-Conrady's, and zero for a lens of another model.
-    pub fn by_parameters(&self, point: &Vector3<f64>) -> SMatrix<f64, 2, PARAMETERS> {
+    pub(crate) fn by_parameters(&self, point: &Vector3<f64>) -> SMatrix<f64, 2, PARAMETERS> {
         let all = self.by_lens(point);
         let mut j = all.fixed_columns::<PARAMETERS>(0).into_owned();
         j.set_column(0, &(all.column(0) + all.column(1) * (self.fy / self.fx)));
@@ -175,7 +175,7 @@ impl Intrinsics {
 
     /// Derivative of a point's pixel by `fx fy cx cy` and the coefficients of the lens in the order
     /// of [`Distortion`]; of a pinhole as if it were of Brown-Conrady's model.
-    pub fn by_lens(&self, point: &Vector3<f64>) -> SMatrix<f64, 2, LENS_PARAMETERS> {
+    pub(crate) fn by_lens(&self, point: &Vector3<f64>) -> SMatrix<f64, 2, LENS_PARAMETERS> {
         let n = Vector2::new(point.x / point.z, point.y / point.z);
         let (d, _) = self.distort(&n);
         let mut j = SMatrix::<f64, 2, LENS_PARAMETERS>::zeros();
@@ -232,7 +232,7 @@ impl Intrinsics {
     }
 
     /// The camera with these differences added to [`Self::by_lens`]' parameters.
-    pub fn moved_lens(&self, d: &SVector<f64, LENS_PARAMETERS>) -> Self {
+    pub(crate) fn moved_lens(&self, d: &SVector<f64, LENS_PARAMETERS>) -> Self {
         fn added<const N: usize>(mut k: [f64; N], d: &SVector<f64, LENS_PARAMETERS>) -> [f64; N] {
             k.iter_mut().zip(d.iter().skip(4)).for_each(|(k, d)| *k += d);
             k

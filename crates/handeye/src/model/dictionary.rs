@@ -86,14 +86,14 @@ impl Dictionary {
     }
 
     /// Whether bit `(column, row)` of a marker is black; `false` for a marker that does not exist.
-    pub fn is_black(&self, id: u32, column: usize, row: usize) -> bool {
+    pub(crate) fn is_black(&self, id: u32, column: usize, row: usize) -> bool {
         let code = self.codes.get(id as usize).copied().unwrap_or(0);
         code >> (row * self.side + column) & 1 == 1
     }
 
     /// Whether a cell of a marker with its black border, `border` bits wide, is black; a `turned`
     /// marker stands on its head.
-    pub fn is_cell_black(
+    pub(crate) fn is_cell_black(
         &self,
         id: u32,
         border: u32,

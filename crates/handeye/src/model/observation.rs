@@ -7,6 +7,7 @@ use crate::{Anchor, Base, Camera, Flange, Mount, Point, Pose, Target};
 
 /// The two ways to hold a camera. Everything behind `anchor_from_mount` sees only one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Setup {
     /// Camera on the flange, target fixed to the base.
@@ -196,7 +197,7 @@ pub struct HandEye {
 
 impl HandEye {
     /// The same two poses, both frames of the target moved: `target_from_new`.
-    pub fn retarget(&self, target_from_new: Pose<Target, Target>) -> Self {
+    pub(crate) fn retarget(&self, target_from_new: Pose<Target, Target>) -> Self {
         Self { anchor_from_target: self.anchor_from_target * target_from_new, ..*self }
     }
 
@@ -209,7 +210,7 @@ impl HandEye {
     }
 
     /// Angle (rad) and distance (m, at the target's origin) by which a capture's loop fails to close.
-    pub fn loop_misfit(&self, pair: &PosePair) -> (f64, f64) {
+    pub(crate) fn loop_misfit(&self, pair: &PosePair) -> (f64, f64) {
         let e = self.loop_error(pair);
         (e.iso().rotation.angle(), e.translation().norm())
     }

@@ -49,11 +49,6 @@ pub struct Art {
     pub target_origin: (f64, f64),
 }
 
-/// Diameter of a circle over the distance between neighbours.
-const DISC_SHARE: f64 = 0.5;
-/// Diameters of the usual and of the larger circle of ROS-Industrial's grid, over the distance
-/// between neighbours: circles of 10 and 20 mm, 25 mm apart.
-pub const MODIFIED_SHARES: (f64, f64) = (0.4, 0.8);
 /// White around a checkerboard, over the side of a square.
 const RIM_SHARE: f64 = 0.25;
 
@@ -64,66 +59,17 @@ const RIM_SHARE: f64 = 0.25;
 /// Dimensions that no board has, an unknown dictionary, a dictionary with too few markers; a ball.
 pub fn art(target: &TargetModel) -> Result<Art, Error> {
     target.check()?;
-    match target {
-        &TargetModel::Checkerboard { columns, rows, square_mm } => {
-            Ok(checkerboard(columns + 1, rows + 1, square_mm, false, (1.0, 1.0)))
-        }
-        TargetModel::Charuco { squares_x, squares_y, square_mm, legacy, .. } => {
-            let white_first = *legacy && squares_y % 2 == 0;
-            let origin = (0.0, 0.0);
-            let mut art = checkerboard(*squares_x, *squares_y, *square_mm, white_first, origin);
-            art.shapes.extend(markers(target, white_first)?);
-            Ok(art)
-        }
-        TargetModel::Tag { dictionary, id, size_mm } => {
-            let dictionary = named(dictionary)?;
-            check_marker(&dictionary, *id)?;
-            Ok(Art {
-                width: *size_mm,
-                height: *size_mm,
-                white_rim: cell(&dictionary, *size_mm),
-                shapes: marker(&dictionary, *id, &Square::upright((0.0, 0.0), *size_mm)),
-                target_origin: (0.5 * size_mm, 0.5 * size_mm),
-            })
-        }
-        TargetModel::CircleGrid { .. }
-        | TargetModel::AsymmetricCircleGrid { .. }
-        | TargetModel::ModifiedCircleGrid { .. } => Ok(circles(target)),
-        TargetModel::Aprilgrid { family, tag_mm, spacing, corner_squares, border_bits, .. } => {
-            let gap = tag_mm * spacing;
-            let mut art = tags(target, &named(family.dictionary())?, *border_bits, gap);
-            if *corner_squares {
-                art.shapes.extend(corner_squares_of(target, *tag_mm, gap));
-            }
-            Ok(art)
-        }
-        TargetModel::TagGrid { dictionary, gap_mm, .. } => {
-            Ok(tags(target, &named(dictionary)?, 1, *gap_mm))
-        }
-        TargetModel::Sphere { .. } => {
-            Err(Error::Invalid("target: a ball is not printed; it is found in 3D scans".into()))
-        }
-    }
-}
-
-/// The diameter (mm) of the circle with this id.
-pub fn disc_diameter_mm(target: &TargetModel, id: u32) -> f64 {
-    match *target {
-        TargetModel::CircleGrid { pitch_mm, .. } => DISC_SHARE * pitch_mm,
-        // the nearest neighbour is in the next row
-        TargetModel::AsymmetricCircleGrid { pitch_mm, .. } => {
-            DISC_SHARE * std::f64::consts::SQRT_2 * pitch_mm
-        }
-        TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm } => {
-            let (usual, larger) = MODIFIED_SHARES;
-            pitch_mm * if id == (rows - 1) * columns { larger } else { usual }
-        }
-        _ => 0.0,
-    }
+    target.art()
 }
 
 /// Squares of a board; `origin` counts squares from the top left of the pattern.
-fn checkerboard(across: u32, down: u32, side: f64, white_first: bool, origin: (f64, f64)) -> Art {
+pub(super) fn checkerboard(
+    across: u32,
+    down: u32,
+    side: f64,
+    white_first: bool,
+    origin: (f64, f64),
+) -> Art {
     let is_black = |i: u32, j: u32| (i + j + u32::from(white_first)).is_multiple_of(2);
     let squares = (0..down).flat_map(|j| (0..across).map(move |i| (i, j)));
     let shapes = squares
@@ -144,38 +90,7 @@ fn checkerboard(across: u32, down: u32, side: f64, white_first: bool, origin: (f
     }
 }
 
-/// The markers in the white squares of a ChArUco board.
-fn markers(target: &TargetModel, white_first: bool) -> Result<Vec<Shape>, Error> {
-    let &TargetModel::Charuco {
-        squares_x,
-        squares_y,
-        square_mm,
-        marker_mm,
-        ref dictionary,
-        first_id,
-        ..
-    } = target
-    else {
-        return Ok(vec![]);
-    };
-    let dictionary = named(dictionary)?;
-    let mut shapes = vec![];
-    let inset = 0.5 * (square_mm - marker_mm);
-    for j in 0..squares_y {
-        for i in 0..squares_x {
-            let (column, row) = (i as usize, j as usize);
-            if let Some(k) = marker_of_square(column, row, squares_x as usize, white_first) {
-                let id = first_id.saturating_add(k);
-                check_marker(&dictionary, id)?;
-                let at = (f64::from(i) * square_mm + inset, f64::from(j) * square_mm + inset);
-                shapes.extend(marker(&dictionary, id, &Square::upright(at, marker_mm)));
-            }
-        }
-    }
-    Ok(shapes)
-}
-
-fn named(name: &str) -> Result<Dictionary, Error> {
+pub(super) fn named(name: &str) -> Result<Dictionary, Error> {
     Dictionary::named(name).ok_or_else(|| {
         Error::Invalid(format!(
             "target: the dictionary {name:?} is not known; write OpenCV's name, such as \
@@ -184,7 +99,7 @@ fn named(name: &str) -> Result<Dictionary, Error> {
     })
 }
 
-fn check_marker(dictionary: &Dictionary, id: u32) -> Result<(), Error> {
+pub(super) fn check_marker(dictionary: &Dictionary, id: u32) -> Result<(), Error> {
     if (id as usize) < dictionary.len() {
         return Ok(());
     }
@@ -194,12 +109,12 @@ fn check_marker(dictionary: &Dictionary, id: u32) -> Result<(), Error> {
     )))
 }
 
-fn cell(dictionary: &Dictionary, size: f64) -> f64 {
+pub(super) fn cell(dictionary: &Dictionary, size: f64) -> f64 {
     size / (dictionary.side() + 2) as f64
 }
 
 /// Where a marker is drawn, and how.
-struct Square {
+pub(super) struct Square {
     left: f64,
     top: f64,
     size: f64,
@@ -210,13 +125,13 @@ struct Square {
 }
 
 impl Square {
-    fn upright((left, top): (f64, f64), size: f64) -> Self {
+    pub(super) fn upright((left, top): (f64, f64), size: f64) -> Self {
         Self { left, top, size, border: 1, turned: false }
     }
 }
 
 /// Runs of black cells, row by row, the border included.
-fn marker(dictionary: &Dictionary, id: u32, square: &Square) -> Vec<Shape> {
+pub(super) fn marker(dictionary: &Dictionary, id: u32, square: &Square) -> Vec<Shape> {
     let n = dictionary.side() + 2 * square.border as usize;
     let cell = square.size / n as f64;
     let is_black = |i, j| dictionary.is_cell_black(id, square.border, square.turned, (i, j));
@@ -240,12 +155,12 @@ fn marker(dictionary: &Dictionary, id: u32, square: &Square) -> Vec<Shape> {
 }
 
 /// The discs of a grid of circles.
-fn circles(target: &TargetModel) -> Art {
+pub(super) fn circles(target: &TargetModel) -> Art {
     let discs: Vec<(f64, f64, f64)> = (0..)
         .zip(target.corners())
         .map(|(id, at)| {
             let at = 1e3 * at.vector();
-            (at.x, at.y, 0.5 * disc_diameter_mm(target, id))
+            (at.x, at.y, 0.5 * target.disc_diameter_mm(id))
         })
         .collect();
     let least = |f: fn(&(f64, f64, f64)) -> f64| discs.iter().map(f).fold(f64::INFINITY, f64::min);
@@ -262,7 +177,7 @@ fn circles(target: &TargetModel) -> Art {
 }
 
 /// A grid of tags that are `gap` apart; around it a gap stays for corner squares or for white.
-fn tags(target: &TargetModel, dictionary: &Dictionary, border: u32, gap: f64) -> Art {
+pub(super) fn tags(target: &TargetModel, dictionary: &Dictionary, border: u32, gap: f64) -> Art {
     let placed = target.tags();
     let corner = |at: Vector2<f64>| at * 1e3;
     let low = placed
@@ -290,16 +205,13 @@ fn tags(target: &TargetModel, dictionary: &Dictionary, border: u32, gap: f64) ->
     }
 }
 
-/// Squares where the gaps cross, those at the rim too.
-fn corner_squares_of(target: &TargetModel, tag: f64, gap: f64) -> Vec<Shape> {
-    let (columns, rows) = target.grid();
-    let at = |k: u32| f64::from(k) * (tag + gap);
-    let square = |(i, j)| Shape::Rectangle { x: at(i), y: at(j), width: gap, height: gap };
-    (0..=rows / 2).flat_map(|j| (0..=columns / 2).map(move |i| (i, j))).map(square).collect()
-}
-
 /// Which marker of a ChArUco board sits in square `(i, j)`; `None` in a black one.
-pub fn marker_of_square(i: usize, j: usize, squares_x: usize, white_first: bool) -> Option<u32> {
+pub(crate) fn marker_of_square(
+    i: usize,
+    j: usize,
+    squares_x: usize,
+    white_first: bool,
+) -> Option<u32> {
     let shift = usize::from(white_first);
     if (i + j + shift).is_multiple_of(2) {
         return None;

@@ -44,7 +44,7 @@ impl Scan {
         self.height
     }
     /// One point per pixel of a picture.
-    pub fn is_organised(&self) -> bool {
+    pub(crate) fn is_organised(&self) -> bool {
         self.height > 1
     }
     /// All points, row by row.

@@ -11,79 +11,56 @@
 
 mod alike;
 mod check;
+mod families;
+mod family;
 pub(crate) mod kinds;
 mod layout;
 
-pub use kinds::{AprilTagFamily, PlacedTag, TargetModel};
+pub(crate) use kinds::PlacedTag;
+pub use kinds::{AprilTagFamily, TargetModel};
 
-use crate::{Point, Target};
+use crate::{Error, Point, Target};
+use family::Turns;
+
+use super::{print::Art, texture::Texture};
 
 impl TargetModel {
     /// Columns and rows of corners; 2 x 2 to a tag, none to a ball.
     pub fn grid(&self) -> (u32, u32) {
-        match *self {
-            Self::Checkerboard { columns, rows, .. }
-            | Self::CircleGrid { columns, rows, .. }
-            | Self::AsymmetricCircleGrid { columns, rows, .. }
-            | Self::ModifiedCircleGrid { columns, rows, .. } => (columns, rows),
-            Self::Charuco { squares_x, squares_y, .. } => {
-                (squares_x.saturating_sub(1), squares_y.saturating_sub(1))
-            }
-            Self::Tag { .. } => (2, 2),
-            Self::Aprilgrid { tags_x, tags_y, .. } | Self::TagGrid { tags_x, tags_y, .. } => {
-                (tags_x.saturating_mul(2), tags_y.saturating_mul(2))
-            }
-            Self::Sphere { .. } => (0, 0),
-        }
-    }
-
-    /// Whether the target is a grid of circles.
-    pub fn has_circles(&self) -> bool {
-        matches!(
-            self,
-            Self::CircleGrid { .. }
-                | Self::AsymmetricCircleGrid { .. }
-                | Self::ModifiedCircleGrid { .. }
-        )
+        self.family(|family| family.grid())
     }
 
     /// The length that tells the target's scale, in metres: between neighbouring corners, circles
     /// or rows of circles, along a tag's side, across a ball (0 where that is not known).
     pub fn pitch_m(&self) -> f64 {
-        1e-3 * match *self {
-            Self::Checkerboard { square_mm, .. } | Self::Charuco { square_mm, .. } => square_mm,
-            Self::Tag { size_mm, .. } => size_mm,
-            Self::CircleGrid { pitch_mm, .. }
-            | Self::AsymmetricCircleGrid { pitch_mm, .. }
-            | Self::ModifiedCircleGrid { pitch_mm, .. } => pitch_mm,
-            Self::Aprilgrid { tag_mm, .. } | Self::TagGrid { tag_mm, .. } => tag_mm,
-            Self::Sphere { diameter_mm } => diameter_mm.unwrap_or(0.0),
-        }
+        1e-3 * self.family(|family| family.lengths_mm().first().map_or(0.0, |(_, mm)| *mm))
     }
 
     /// The same board, all its lengths multiplied by `factor`.
     pub fn resized(&self, factor: f64) -> Self {
         let mut other = self.clone();
-        match &mut other {
-            Self::Checkerboard { square_mm, .. } => *square_mm *= factor,
-            Self::Charuco { square_mm, marker_mm, .. } => {
-                *square_mm *= factor;
-                *marker_mm *= factor;
-            }
-            Self::Tag { size_mm, .. } => *size_mm *= factor,
-            Self::CircleGrid { pitch_mm, .. }
-            | Self::AsymmetricCircleGrid { pitch_mm, .. }
-            | Self::ModifiedCircleGrid { pitch_mm, .. } => *pitch_mm *= factor,
-            Self::Aprilgrid { tag_mm, .. } => *tag_mm *= factor,
-            Self::TagGrid { tag_mm, gap_mm, .. } => {
-                *tag_mm *= factor;
-                *gap_mm *= factor;
-            }
-            Self::Sphere { diameter_mm } => {
-                diameter_mm.iter_mut().for_each(|d| *d *= factor);
-            }
-        }
+        other.lengths_mm_mut().into_iter().for_each(|length| *length *= factor);
         other
+    }
+
+    /// The target in words.
+    pub fn in_words(&self) -> String {
+        self.family(|family| family.in_words())
+    }
+
+    /// What is black on it; [`print::art`](super::print::art) checks it first.
+    pub(super) fn art(&self) -> Result<Art, Error> {
+        self.family(|family| family.art(self))
+    }
+
+    /// The same as a function of the place; `None` where it is not drawn.
+    pub(super) fn texture(&self) -> Option<Texture> {
+        self.family(|family| family.texture(self))
+    }
+
+    /// The diameter of the circle with this id, mm; 0 where there are none.
+    pub(super) fn disc_diameter_mm(&self, id: u32) -> f64 {
+        self.family(|family| family.disc_diameter_mm(id))
     }
 
     /// Number of corners.
@@ -100,7 +77,7 @@ impl TargetModel {
     /// Position of corner `id` on the board, in metres; `None` if the board has no such corner.
     pub fn corner(&self, id: u32) -> Option<Point<Target>> {
         ((id as usize) < self.len()).then(|| {
-            let v = layout::in_plane(self, id);
+            let v = self.family(|family| family.in_plane(id));
             Point::new(v.x, v.y, 0.0)
         })
     }
@@ -126,7 +103,7 @@ impl TargetModel {
     /// The id of the corner in a column and a row, both counted from 0 at the top left.
     pub fn id_at(&self, column: u32, row: u32) -> Option<u32> {
         let (columns, rows) = self.grid();
-        (column < columns && row < rows).then(|| layout::id_at(self, column, row))
+        (column < columns && row < rows).then(|| self.family(|family| family.id_at(column, row)))
     }
 
     /// The outermost corners, once around the board; none of a ball.
@@ -139,42 +116,26 @@ impl TargetModel {
 
     /// The tags of an aprilgrid or tag grid, in the order of their corners' ids; none of others.
     pub fn tags(&self) -> Vec<PlacedTag> {
-        layout::tags(self)
+        self.family(|family| family.tags())
     }
 
     /// Relabelings under which a picture of the board looks the same, the identity first:
     /// `symmetries()[k][id]` is the id that corner `id` has after turning the board.
-    ///
-    /// A checkerboard looks the same after half a turn when its numbers of squares have an even
-    /// sum; a square one with an odd number of squares also after quarter turns. A grid of circles
-    /// looks the same after half a turn, a square one after quarter turns, an asymmetric one after
-    /// half a turn if its number of rows is even.
     pub fn symmetries(&self) -> Vec<Vec<u32>> {
-        let (columns, rows) = self.grid();
+        let (columns, _) = self.grid();
         let all: Vec<u32> = (0..self.len() as u32).collect();
         let half: Vec<u32> = all.iter().rev().copied().collect();
-        let quarters = match self {
-            Self::Checkerboard { .. } => columns == rows && columns % 2 == 0,
-            Self::CircleGrid { .. } => columns == rows,
-            _ => false,
-        };
-        let halves = match self {
-            Self::Checkerboard { .. } => (columns + rows) % 2 == 0,
-            Self::CircleGrid { .. } => true,
-            Self::AsymmetricCircleGrid { .. } => rows % 2 == 0,
-            _ => false,
-        };
-        if quarters {
-            let quarter: Vec<u32> = all
-                .iter()
-                .map(|id| (id % columns) * columns + (columns - 1 - id / columns))
-                .collect();
-            let three: Vec<u32> = quarter.iter().map(|&id| half[id as usize]).collect();
-            vec![all, quarter, half, three]
-        } else if halves {
-            vec![all, half]
-        } else {
-            vec![all]
+        match self.family(|family| family.turns()) {
+            Turns::None => vec![all],
+            Turns::Half => vec![all, half],
+            Turns::Quarter => {
+                let quarter: Vec<u32> = all
+                    .iter()
+                    .map(|id| (id % columns) * columns + (columns - 1 - id / columns))
+                    .collect();
+                let three: Vec<u32> = quarter.iter().map(|&id| half[id as usize]).collect();
+                vec![all, quarter, half, three]
+            }
         }
     }
 }

@@ -4,10 +4,7 @@ use nalgebra::Vector2;
 
 use crate::{
     TargetModel,
-    model::{
-        dictionary::Dictionary,
-        print::{disc_diameter_mm, marker_of_square},
-    },
+    model::{dictionary::Dictionary, print::marker_of_square},
 };
 
 /// The print on a board. Lengths in units of a cell: a square, a bit of a single tag, a tag of a
@@ -33,70 +30,57 @@ enum Print {
 impl Texture {
     /// `None` for targets that are not drawn, and unknown dictionaries.
     pub(crate) fn of(target: &TargetModel) -> Option<Self> {
-        match target {
-            TargetModel::Checkerboard { columns, rows, square_mm } => Some(Self {
-                columns: f64::from(columns + 1),
-                rows: f64::from(rows + 1),
-                margin: 1.0,
-                cell_m: square_mm * 1e-3,
-                origin: Vector2::new(1.0, 1.0),
-                print: Print::Squares,
-            }),
-            TargetModel::Charuco {
-                squares_x,
-                squares_y,
-                square_mm,
-                marker_mm,
-                dictionary,
-                legacy,
-                first_id,
-            } => Some(Self {
-                columns: f64::from(*squares_x),
-                rows: f64::from(*squares_y),
-                margin: 1.0,
-                cell_m: square_mm * 1e-3,
-                origin: Vector2::zeros(),
-                print: Print::Markers {
-                    dictionary: Dictionary::named(dictionary)?,
-                    share: marker_mm / square_mm,
-                    white_first: *legacy && squares_y % 2 == 0,
-                    squares_x: *squares_x as usize,
-                    first: *first_id,
-                },
-            }),
-            TargetModel::Tag { dictionary, id, size_mm } => {
-                let dictionary = Dictionary::named(dictionary)?;
-                let cells = (dictionary.side() + 2) as f64;
-                Some(Self {
-                    columns: cells,
-                    rows: cells,
-                    margin: 2.0,
-                    cell_m: size_mm * 1e-3 / cells,
-                    origin: Vector2::new(0.5 * cells, 0.5 * cells),
-                    print: Print::Tag { dictionary, id: *id },
-                })
-            }
-            TargetModel::CircleGrid { .. }
-            | TargetModel::AsymmetricCircleGrid { .. }
-            | TargetModel::ModifiedCircleGrid { .. } => Some(Self::circles(target)),
-            TargetModel::Aprilgrid { spacing, family, corner_squares, border_bits, .. } => {
-                let dictionary = Dictionary::named(family.dictionary())?;
-                Some(Self::tags(target, dictionary, *spacing, (*border_bits, *corner_squares)))
-            }
-            TargetModel::TagGrid { dictionary, tag_mm, gap_mm, .. } => {
-                let dictionary = Dictionary::named(dictionary)?;
-                Some(Self::tags(target, dictionary, gap_mm / tag_mm, (1, false)))
-            }
-            TargetModel::Sphere { .. } => None,
+        target.texture()
+    }
+
+    /// A checkerboard of so many squares; `origin` counts squares from the print's top left.
+    pub(super) fn squares(
+        (columns, rows): (u32, u32),
+        square_mm: f64,
+        origin: Vector2<f64>,
+    ) -> Self {
+        Self {
+            columns: f64::from(columns),
+            rows: f64::from(rows),
+            margin: 1.0,
+            cell_m: square_mm * 1e-3,
+            origin,
+            print: Print::Squares,
         }
     }
 
-    fn circles(target: &TargetModel) -> Self {
+    /// With markers in its white squares, of this share of a square's side.
+    pub(super) fn with_markers(
+        self,
+        dictionary: Dictionary,
+        share: f64,
+        white_first: bool,
+        first: u32,
+    ) -> Self {
+        let squares_x = self.columns as usize;
+        Self { print: Print::Markers { dictionary, share, white_first, squares_x, first }, ..self }
+    }
+
+    /// A single tag.
+    pub(super) fn tag(dictionary: Dictionary, id: u32, size_mm: f64) -> Self {
+        let cells = (dictionary.side() + 2) as f64;
+        Self {
+            columns: cells,
+            rows: cells,
+            margin: 2.0,
+            cell_m: size_mm * 1e-3 / cells,
+            origin: Vector2::new(0.5 * cells, 0.5 * cells),
+            print: Print::Tag { dictionary, id },
+        }
+    }
+
+    /// A grid of circles.
+    pub(super) fn circles(target: &TargetModel) -> Self {
         let cell_m = target.pitch_m();
         let centres = || target.corners().into_iter().map(|c| c.vector().xy() / cell_m);
         let low = centres().fold(Vector2::repeat(f64::INFINITY), |a, b| a.inf(&b));
         let high = centres().fold(Vector2::repeat(f64::NEG_INFINITY), |a, b| a.sup(&b));
-        let radius = |id| 0.5e-3 * disc_diameter_mm(target, id) / cell_m;
+        let radius = |id| 0.5e-3 * target.disc_diameter_mm(id) / cell_m;
         let discs = (0..).zip(centres()).map(|(id, at)| (at - low, radius(id)));
         let extent = high - low;
         Self {
@@ -109,7 +93,8 @@ impl Texture {
         }
     }
 
-    fn tags(
+    /// A grid of tags, with its border in bits and whether squares fill the crossings of its gaps.
+    pub(super) fn tags(
         target: &TargetModel,
         dictionary: Dictionary,
         spacing: f64,

@@ -11,7 +11,7 @@ const CHUNK: usize = 32;
 /// For each block the plane through its points and those of all blocks within `reach` rows and columns,
 /// about the mean of its own; `None` where there are fewer than `fewest`, or no plane. With the number of
 /// blocks along a row, and of rows.
-pub fn patches(
+pub(crate) fn patches(
     scan: &Scan,
     side: usize,
     reach: usize,

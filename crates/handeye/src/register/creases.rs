@@ -56,7 +56,7 @@ impl Scatter {
     }
 
     /// Mends windows across a crease by those that lie `around` each.
-    pub fn mend<I: IntoIterator<Item = usize>>(
+    pub(crate) fn mend<I: IntoIterator<Item = usize>>(
         &self,
         patches: &mut [Option<Patch>],
         around: impl Fn(usize) -> I,
@@ -80,7 +80,7 @@ impl Scatter {
     }
 
     /// Leaves out windows that are no planes.
-    pub fn leave_out_rough(&self, patches: &mut [Option<Patch>]) {
+    pub(crate) fn leave_out_rough(&self, patches: &mut [Option<Patch>]) {
         let most = if self.from_camera { ROUGH_AT_SLANT } else { ROUGH };
         for patch in patches {
             *patch = patch.filter(|p| !self.is_beyond(p, most));

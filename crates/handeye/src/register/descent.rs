@@ -168,7 +168,12 @@ impl<'a> Descent<'a> {
     ///
     /// # Errors
     /// [`Error::TooFewPoints`], [`Error::NotDetermined`].
-    pub fn coarse(&mut self, reached: &mut Reached, gate: f64, stride: usize) -> Result<(), Error> {
+    pub(crate) fn coarse(
+        &mut self,
+        reached: &mut Reached,
+        gate: f64,
+        stride: usize,
+    ) -> Result<(), Error> {
         // means of windows lie apart along the surface, however near both are to each other
         (self.gate, self.width) = (gate.max(FINE * self.target.spread), gate);
         self.look_at(stride);
@@ -176,12 +181,12 @@ impl<'a> Descent<'a> {
     }
 
     /// Over some windows.
-    pub fn afar(&mut self, reached: &mut Reached, gate: f64) -> Result<(), Error> {
+    pub(crate) fn afar(&mut self, reached: &mut Reached, gate: f64) -> Result<(), Error> {
         self.coarse(reached, gate, self.source.stride(COARSE))
     }
 
     /// Over some windows, from nearby.
-    pub fn nearby(&mut self, reached: &mut Reached) -> Result<(), Error> {
+    pub(crate) fn nearby(&mut self, reached: &mut Reached) -> Result<(), Error> {
         self.afar(reached, NEARBY * self.source.spread)
     }
 
@@ -193,7 +198,7 @@ impl<'a> Descent<'a> {
     }
 
     /// Matches among about so many windows, at a place that is nearly right; they are matched anew.
-    pub fn each_nearby(&mut self, at: &Isometry3<f64>, count: f64, with: impl FnMut(Match)) {
+    pub(crate) fn each_nearby(&mut self, at: &Isometry3<f64>, count: f64, with: impl FnMut(Match)) {
         self.gate = NEARBY * self.source.spread;
         self.look_at(self.source.stride(count));
         self.match_all(at);
@@ -377,7 +382,7 @@ impl<'a> Descent<'a> {
 
     /// All matches among some windows; returns how many windows there are.
     #[inline(always)]
-    pub fn each_match(
+    pub(crate) fn each_match(
         &self,
         at: &Isometry3<f64>,
         range: Range<usize>,

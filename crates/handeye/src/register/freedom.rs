@@ -32,9 +32,9 @@ use crate::{
 };
 
 /// Directions with less than so many times the information of noise alone are not determined.
-pub const DETERMINED: f64 = 1.9;
+pub(crate) const DETERMINED: f64 = 1.9;
 /// Planes and creases feign so many times the information that planes alone would.
-pub const FEIGNED: f64 = 1.2;
+pub(crate) const FEIGNED: f64 = 1.2;
 /// Of a motion that is a shift, the turn moves the rim by less than this share, squared.
 const TURNS: f64 = 0.05;
 /// The narrowest tiles are so many times as wide as the spread of a window.
@@ -50,7 +50,7 @@ const LEFT: f64 = 0.2;
 
 /// Of an answer, in the target frame: a turn about the middle of the source, then a shift.
 #[derive(Debug, Clone)]
-pub struct Freedom {
+pub(crate) struct Freedom {
     information: Matrix6<f64>,
     /// Squares of all pulls.
     pulls: Matrix6<f64>,
@@ -160,13 +160,13 @@ impl Feigned {
 
 /// Variance of a window's normal, in each direction across it.
 #[inline(always)]
-pub fn of_normal(patch: &Patch) -> f64 {
+pub(crate) fn of_normal(patch: &Patch) -> f64 {
     patch.across / (patch.count * patch.along)
 }
 
 /// Squared difference of two normals, over what their scatter promises of it.
 #[inline(always)]
-pub fn leaning(found: &Match) -> f32 {
+pub(crate) fn leaning(found: &Match) -> f32 {
     let promised = 2.0 * (of_normal(found.own) + of_normal(found.other)) + LEAST_LEANING;
     ((found.turned - found.other.normal).norm_squared() / promised) as f32
 }

@@ -9,7 +9,7 @@ use super::patch::Patch;
 
 /// From directions to columns and rows of windows.
 #[derive(Debug, Clone, Copy)]
-pub struct GridView {
+pub(crate) struct GridView {
     linear: Matrix2<f64>,
     offset: Vector2<f64>,
     /// Columns and rows.

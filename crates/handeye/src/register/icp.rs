@@ -66,7 +66,7 @@ pub struct Icp {
 ///
 /// # Errors
 /// As [`rigid_fit`](super::rigid_fit()); also when fewer than three points find a match.
-pub fn point_to_point(
+pub(crate) fn point_to_point(
     source: &[Vector3<f64>],
     target: &[Vector3<f64>],
     target_from_source: &Isometry3<f64>,

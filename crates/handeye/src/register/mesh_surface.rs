@@ -30,7 +30,7 @@ struct Held {
 ///
 /// # Errors
 /// A mesh too large to be covered.
-pub fn patches(mesh: &TriangleMesh, spacing_m: f64) -> Result<Vec<Option<Patch>>, Error> {
+pub(crate) fn patches(mesh: &TriangleMesh, spacing_m: f64) -> Result<Vec<Option<Patch>>, Error> {
     let (points, triangles) = mesh.laid(spacing_m)?;
     let normals = mesh.normals();
     let mut cubes: BTreeMap<[i32; 3], Vec<Held>> = BTreeMap::new();

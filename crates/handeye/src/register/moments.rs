@@ -5,29 +5,26 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::math::gram::place;
 
-/// Weighted sums over pairs `(p, q)` about their centroids.
+/// Sums over pairs `(p, q)` about their centroids.
 #[derive(Debug, Clone, Copy)]
-pub struct Moments {
+pub(crate) struct Moments {
+    /// How many pairs.
     pub weight: f64,
     pub p_mean: Vector3<f64>,
     pub q_mean: Vector3<f64>,
-    /// `Σ w (q - q̄)(p - p̄)ᵀ`.
+    /// `Σ (q - q̄)(p - p̄)ᵀ`.
     pub cross: Matrix3<f64>,
-    /// `Σ w (p - p̄)(p - p̄)ᵀ`.
+    /// `Σ (p - p̄)(p - p̄)ᵀ`.
     pub scatter: Matrix3<f64>,
-    /// `Σ w |q - q̄|²`.
+    /// `Σ |q - q̄|²`.
     pub q_squared: f64,
 }
 
 impl Moments {
-    /// Of pairs with equal weights, or with these. `None` of no pairs; not finite where one is not.
-    pub fn of(
-        source: &[Vector3<f64>],
-        target: &[Vector3<f64>],
-        weights: Option<&[f64]>,
-    ) -> Option<Self> {
+    /// `None` of no pairs; not finite where one is not.
+    pub fn of(source: &[Vector3<f64>], target: &[Vector3<f64>]) -> Option<Self> {
         let (p_first, q_first) = (source.first()?, target.first()?);
-        let sums = sums(source, target, weights, &(*p_first, *q_first));
+        let sums = sums(source, target, &(*p_first, *q_first));
         Some(Self::about(p_first, q_first, &sums))
     }
 
@@ -47,18 +44,8 @@ impl Moments {
         }
     }
 
-    /// With all `p` times a scale.
-    pub fn scaled(&self, scale: f64) -> Self {
-        Self {
-            p_mean: self.p_mean * scale,
-            cross: self.cross * scale,
-            scatter: self.scatter * (scale * scale),
-            ..*self
-        }
-    }
-
-    /// `Σ w |p - p̄|²`.
-    pub fn p_squared(&self) -> f64 {
+    /// `Σ |p - p̄|²`.
+    pub(crate) fn p_squared(&self) -> f64 {
         self.scatter.trace()
     }
 }
@@ -72,7 +59,7 @@ const LANES: usize = 4;
 
 type First = (Vector3<f64>, Vector3<f64>);
 
-/// Coordinates of some pairs, one after the other, and their weights; zero beyond the last pair.
+/// Coordinates of some pairs, one after the other, and one for each pair; zero beyond the last pair.
 struct Block {
     p: [[f64; BLOCK]; 3],
     q: [[f64; BLOCK]; 3],
@@ -90,22 +77,19 @@ impl Block {
     }
 
     #[inline(always)]
-    fn add_to<const WEIGHTED: bool>(&self, sums: &mut [[f64; LANES]; SUMS]) {
+    fn add_to(&self, sums: &mut [[f64; LANES]; SUMS]) {
         let Self { p, q, w } = self;
-        let weighted =
-            |a: &[f64; BLOCK]| if WEIGHTED { std::array::from_fn(|k| w[k] * a[k]) } else { *a };
         let ones = [1.0; BLOCK];
         add(&mut sums[0], w, &ones);
         for i in 0..3 {
-            let (wp, wq) = (weighted(&p[i]), weighted(&q[i]));
-            add(&mut sums[1 + i], &wp, &ones);
-            add(&mut sums[4 + i], &wq, &ones);
-            add(&mut sums[22], &wq, &q[i]);
+            add(&mut sums[1 + i], &p[i], &ones);
+            add(&mut sums[4 + i], &q[i], &ones);
+            add(&mut sums[22], &q[i], &q[i]);
             for j in 0..3 {
-                add(&mut sums[7 + 3 * j + i], &wq, &p[j]);
+                add(&mut sums[7 + 3 * j + i], &q[i], &p[j]);
             }
             for j in i..3 {
-                add(&mut sums[16 + place::<3>(i, j)], &wp, &p[j]);
+                add(&mut sums[16 + place::<3>(i, j)], &p[i], &p[j]);
             }
         }
     }
@@ -142,22 +126,10 @@ fn add(sum: &mut [f64; LANES], a: &[f64; BLOCK], b: &[f64; BLOCK]) {
 }
 
 #[multiversion(targets("x86_64+avx2"))]
-fn sums(
-    source: &[Vector3<f64>],
-    target: &[Vector3<f64>],
-    weights: Option<&[f64]>,
-    first: &First,
-) -> [f64; SUMS] {
+fn sums(source: &[Vector3<f64>], target: &[Vector3<f64>], first: &First) -> [f64; SUMS] {
     let mut sums = [[0.0; LANES]; SUMS];
-    for (k, (p, q)) in source.chunks(BLOCK).zip(target.chunks(BLOCK)).enumerate() {
-        let mut block = Block::new(p, q, first);
-        match weights {
-            None => block.add_to::<false>(&mut sums),
-            Some(weights) => {
-                block.w[..p.len()].copy_from_slice(&weights[BLOCK * k..][..p.len()]);
-                block.add_to::<true>(&mut sums);
-            }
-        }
+    for (p, q) in source.chunks(BLOCK).zip(target.chunks(BLOCK)) {
+        Block::new(p, q, first).add_to(&mut sums);
     }
     sums.map(|lanes| lanes.iter().sum())
 }

@@ -26,7 +26,7 @@ const NOWHERE: u32 = u32::MAX;
 
 /// For each direction the window nearest to the origin.
 #[derive(Debug, Clone)]
-pub struct Outlook {
+pub(crate) struct Outlook {
     cells: Vec<u32>,
     low: Vector2<f64>,
     per_unit: f64,

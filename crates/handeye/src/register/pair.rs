@@ -8,7 +8,7 @@ use super::patch::Patch;
 pub const LEAST: f64 = 1e-12;
 
 /// Two windows that belong together.
-pub struct Match<'a> {
+pub(crate) struct Match<'a> {
     pub own: &'a Patch,
     pub other: &'a Patch,
     /// Half way between both means, from the middle of the source.
@@ -25,7 +25,7 @@ pub struct Match<'a> {
 
 impl Match<'_> {
     /// Three directions which together weigh differences by the inverse of this covariance.
-    pub fn whitened(&self, covariance: &Matrix3<f64>) -> Option<[Vector3<f64>; 3]> {
+    pub(crate) fn whitened(&self, covariance: &Matrix3<f64>) -> Option<[Vector3<f64>; 3]> {
         let root = covariance.cholesky()?.l().try_inverse()?;
         Some([0, 1, 2].map(|k| root.row(k).transpose()))
     }
@@ -47,14 +47,14 @@ impl Match<'_> {
 
     /// By turn and shift.
     #[inline(always)]
-    pub fn jacobian(&self) -> [f64; 6] {
+    pub(crate) fn jacobian(&self) -> [f64; 6] {
         jacobian(&self.arm, &self.m)
     }
 }
 
 /// Of a distance along `m`, by turn and shift.
 #[inline(always)]
-pub fn jacobian(arm: &Vector3<f64>, m: &Vector3<f64>) -> [f64; 6] {
+pub(crate) fn jacobian(arm: &Vector3<f64>, m: &Vector3<f64>) -> [f64; 6] {
     let turn = arm.cross(m);
     [turn.x, turn.y, turn.z, m.x, m.y, m.z]
 }

@@ -36,7 +36,7 @@ impl AddAssign<&Sums> for Sums {
 
 /// A piece of a surface, seen by its window; [`mean`](Self::mean) may be that of its middle alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Patch {
+pub(crate) struct Patch {
     /// Mean of its points, m.
     pub mean: Vector3<f64>,
     /// Across it, of length one, towards the camera where that is known.
@@ -55,7 +55,7 @@ pub struct Patch {
 
 impl Patch {
     /// Square of the cosine between its normal and the ray from the origin: 1 where it is seen from the front.
-    pub fn facing(&self) -> f64 {
+    pub(crate) fn facing(&self) -> f64 {
         self.normal.dot(&self.mean).powi(2) / self.mean.norm_squared().max(f64::MIN_POSITIVE)
     }
 }

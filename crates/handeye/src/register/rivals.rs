@@ -38,7 +38,7 @@ const COSINE: f64 = 0.866;
 
 /// What each window says of an answer: up to 1 for it, -1 against, 0 nothing.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Opinions(Vec<f64>);
+pub(crate) struct Opinions(Vec<f64>);
 
 impl Opinions {
     /// Of about so many windows of each scan, which scatter `sigma` times as much as their points promise.
@@ -59,7 +59,7 @@ impl Opinions {
     }
 
     /// Share of those that say something that speak for it.
-    pub fn agreeing(&self) -> f64 {
+    pub(crate) fn agreeing(&self) -> f64 {
         let said = self.0.iter().filter(|c| **c != 0.0).count();
         let agreed = self.0.iter().filter(|c| **c > 0.0).count();
         agreed as f64 / said.max(1) as f64
@@ -212,7 +212,7 @@ pub fn around(start: &Isometry3<f64>, middle: &Vector3<f64>, reach_m: f64) -> Ve
 const TURN: f64 = 0.14;
 
 /// An answer, and what is said of it.
-pub struct Rival {
+pub(crate) struct Rival {
     pub reached: Reached,
     pub opinions: Opinions,
 }

@@ -18,7 +18,7 @@
 
 use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
 
-use crate::math::linalg;
+use crate::math::jacobi;
 
 /// Most steps to the largest eigenvalue: a simple root takes six.
 const MOST_ROOT_STEPS: usize = 30;
@@ -33,7 +33,7 @@ const CLEAR: f64 = 0.01;
 
 /// `H = R S`, `S` symmetric: the best rotation, and how well `H` determines it.
 #[derive(Debug, Clone, Copy)]
-pub struct Alignment {
+pub(crate) struct Alignment {
     pub rotation: UnitQuaternion<f64>,
     pub stretch: Matrix3<f64>,
 }
@@ -44,19 +44,19 @@ impl Alignment {
     }
 
     /// Singular values of `H`, largest first; the last one has the sign of its determinant.
-    pub fn singular(&self) -> Vector3<f64> {
+    pub(crate) fn singular(&self) -> Vector3<f64> {
         eigenvalues(&self.stretch)
     }
 
     /// Whether all turns but small ones are surely worse, see [`spread_is_clear`].
-    pub fn is_clear(&self) -> bool {
+    pub(crate) fn is_clear(&self) -> bool {
         spread_is_clear(&self.stretch)
     }
 }
 
 /// Whether `σ₂ + σ₃` is surely above 0.5 % of `σ₁`, of the eigenvalues of a symmetric matrix: with
 /// `s = σ₁ + σ₂ + σ₃` it is at least `det(s I - S) / 2 s²`.
-pub fn spread_is_clear(s: &Matrix3<f64>) -> bool {
+pub(crate) fn spread_is_clear(s: &Matrix3<f64>) -> bool {
     let sum = s.trace();
     (Matrix3::identity() * sum - s).determinant() > CLEAR * sum.powi(3)
 }
@@ -94,9 +94,8 @@ fn unit(q: Vector4<f64>) -> UnitQuaternion<f64> {
 }
 
 fn by_columns(h: &Matrix3<f64>) -> Option<Alignment> {
-    let rotation = linalg::nearest_rotation(h).unwrap_or_else(Matrix3::identity);
-    let rotation = nalgebra::Rotation3::from_matrix_unchecked(rotation);
-    Some(Alignment::of(UnitQuaternion::from_rotation_matrix(&rotation), h))
+    let rotation = jacobi::nearest_rotation(h).unwrap_or_else(UnitQuaternion::identity);
+    Some(Alignment::of(rotation, h))
 }
 
 /// `K(H)`, for quaternions written `(w, x, y, z)`.
@@ -224,7 +223,8 @@ mod tests {
                 let h = random_matrix(&mut random, spread);
                 let bound = random.between(1.0, 2.0) * spread.iter().sum::<f64>();
                 let found = align(&h, bound).unwrap();
-                let expected = linalg::nearest_rotation(&h).unwrap();
+                let expected =
+                    jacobi::nearest_rotation(&h).unwrap().to_rotation_matrix().into_inner();
                 let clear = (spread[1] + spread[2]) / spread[0];
                 let off = (found.rotation.to_rotation_matrix().matrix() - expected).norm();
                 assert!(off < 1e-14 / clear, "{spread:?} {off}");

@@ -101,7 +101,7 @@ impl Surface {
     }
 
     /// Of several scans, side by side.
-    pub fn of_all(scans: &[&Scan], threads: usize) -> Vec<Option<Self>> {
+    pub(crate) fn of_all(scans: &[&Scan], threads: usize) -> Vec<Option<Self>> {
         let each = threads.div_ceil(scans.len().max(1));
         parallel::in_order(scans.len(), threads, |k| Self::of(scans[k], each))
     }
@@ -178,7 +178,7 @@ impl Surface {
 
     /// Share of its windows, moved by `other_from_self`, that have one of the other's within a distance (m); of
     /// about so many windows that are asked.
-    pub fn share_near(
+    pub(crate) fn share_near(
         &self,
         other: &Self,
         other_from_self: &Isometry3<f64>,

@@ -102,7 +102,7 @@ impl Lattice {
 
 /// All cubes that hold points, sorted by their keys.
 #[derive(Debug, Clone)]
-pub struct Voxels {
+pub(crate) struct Voxels {
     lattice: Lattice,
     cubes: Vec<Cube>,
 }
@@ -123,7 +123,7 @@ impl Voxels {
 
     /// For each cube the plane through its points and those of its 26 neighbours, about the mean of its own;
     /// `None` where there are fewer than `fewest`, or no plane.
-    pub fn patches(&self, fewest: f64, threads: usize) -> Vec<Option<Patch>> {
+    pub(crate) fn patches(&self, fewest: f64, threads: usize) -> Vec<Option<Patch>> {
         let count = self.cubes.len();
         let parts = parallel::in_order(count.div_ceil(CHUNK), threads, |k| {
             let range = CHUNK * k..count.min(CHUNK * (k + 1));

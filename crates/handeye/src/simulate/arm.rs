@@ -58,7 +58,7 @@ const ROUNDS: usize = 8;
 const STARTS: [f64; 5] = [0.0, 0.6, -0.6, 1.2, -1.2];
 
 /// A usual industrial arm: six joints, 1.4 m of reach, a wrist whose axes meet.
-pub fn usual_arm() -> Arm {
+pub(crate) fn usual_arm() -> Arm {
     let joint = |a, alpha, d, theta_offset| Joint { a, alpha, d, theta_offset, ..Joint::default() };
     let joints = vec![
         joint(0.15, -FRAC_PI_2, 0.45, 0.0),

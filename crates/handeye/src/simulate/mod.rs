@@ -17,9 +17,10 @@ mod tests;
 
 pub use arm::{ArmErrors, BuiltArm};
 pub use cell::{Cell, CellNoise, Truth, Viewing};
-pub use conditions::{Conditions, Glare, Occlusion, PrintErrors, Shape, Slope, TrueCorner};
+pub(crate) use conditions::PrintErrors;
+pub use conditions::{Conditions, Glare, Occlusion, Shape, TrueCorner};
 pub use mistakes::{Mistake, spoil};
 pub use pattern::{Clutter, Pattern};
 pub use recording::Recording;
-pub use render::{BitDepth, DepthSensor, Optics, Scene};
+pub use render::{DepthSensor, Optics, Scene};
 pub use room::{Room, Solid, Thing};

@@ -212,7 +212,12 @@ impl Scene {
     }
 
     /// The scan of a print with errors, with noise from `seed`; light has no say.
-    pub fn scan_under(&self, conditions: &Conditions, sensor: &DepthSensor, seed: u64) -> Scan {
+    pub(crate) fn scan_under(
+        &self,
+        conditions: &Conditions,
+        sensor: &DepthSensor,
+        seed: u64,
+    ) -> Scan {
         let (width, height) = (self.intrinsics.width as usize, self.intrinsics.height as usize);
         let mut random = Random::new(seed);
         let scene =

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_3, PI};
 use nalgebra::{Matrix3, Vector2, Vector3, Vector6};
 
 use super::*;
+use super::{conditions::Slope, render::BitDepth};
 use crate::{
     Camera, Flange, GrayImage, Intrinsics, Pose, Setup, Target, TargetModel, detect::detect,
 };

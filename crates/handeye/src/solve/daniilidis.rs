@@ -136,7 +136,7 @@ impl Products {
     }
 
     /// `Σ SᵀS` of eight rows of each motion, the scalar equations `(a - b)·q = 0` included.
-    pub fn all_rows(&self) -> SMatrix<f64, 8, 8> {
+    pub(crate) fn all_rows(&self) -> SMatrix<f64, 8, 8> {
         let with_scalar = |block: &Block| {
             let mut gram = block.gram();
             let mut view = gram.fixed_view_mut::<3, 3>(1, 1);

@@ -15,7 +15,7 @@
 //!
 //! M. Ulrich and C. Steger, *Hand-eye calibration of SCARA robots using dual quaternions*, 2016.
 
-use nalgebra::{Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
 
 use super::{jacobi, motions, shared::place_target};
 use crate::{
@@ -87,7 +87,10 @@ fn without_rotation(all: &[motions::Motion]) -> Option<Pose<crate::Mount, crate:
     if !(rank[1] > FREE * rank[0]) {
         return None;
     }
-    Some(Pose::from_parts(&linalg::nearest_rotation(&moved)?, Vector3::zeros()))
+    Some(Pose::claim(Isometry3::from_parts(
+        Vector3::zeros().into(),
+        jacobi::nearest_rotation(&moved)?,
+    )))
 }
 
 /// `H⁺ g`: of all solutions the shortest.

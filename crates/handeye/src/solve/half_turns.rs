@@ -12,7 +12,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::{few_axes, motions, motions::Motion, shared::place_target};
 use crate::{
     HandEye, Pose, PosePair,
-    math::{lie, linalg},
+    math::{jacobi, lie},
 };
 
 /// Turns (rad) this near to 180 degrees may be about either sense of their axis.
@@ -31,7 +31,7 @@ pub(super) fn solve(pairs: &[PosePair]) -> Vec<HandEye> {
     let Some((one, other)) = two else { return vec![] };
     let answer = |(first, second): (f64, f64)| {
         let matrix = one.0 * one.1.transpose() * first + other.0 * other.1.transpose() * second;
-        let rotation = linalg::nearest_rotation(&matrix)?;
+        let rotation = jacobi::nearest_rotation(&matrix)?.to_rotation_matrix().into_inner();
         let t = few_axes::position(&all, &rotation);
         Some(place_target(pairs, &Pose::from_parts(&rotation, t)))
     };

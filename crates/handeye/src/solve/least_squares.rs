@@ -52,7 +52,7 @@ impl View {
 }
 
 /// Information and covariance of both unknowns: X first, then Y.
-pub type Matrix12 = SMatrix<f64, 12, 12>;
+pub(crate) type Matrix12 = SMatrix<f64, 12, 12>;
 pub(crate) type Vector12 = SVector<f64, 12>;
 type Matrix6x12 = SMatrix<f64, 6, 12>;
 
@@ -66,7 +66,7 @@ pub fn misfit(hand_eye: &HandEye, pair: &PosePair) -> Vector6<f64> {
 }
 
 /// The misfit and its Jacobian by `(X, Y)`.
-pub fn misfit_with_jacobian(
+pub(crate) fn misfit_with_jacobian(
     hand_eye: &HandEye,
     pair: &PosePair,
 ) -> (Vector6<f64>, SMatrix<f64, 6, 12>) {
@@ -154,7 +154,7 @@ fn damped_step(at: &Normal, damping: f64) -> Option<Vector12> {
 }
 
 /// Fits both unknowns with one weight for all: 1 rad of misfit costs as much as `metres_per_rad`.
-pub fn fit_fixed_weights(views: &[View], start: &HandEye, metres_per_rad: f64) -> HandEye {
+pub(crate) fn fit_fixed_weights(views: &[View], start: &HandEye, metres_per_rad: f64) -> HandEye {
     let rotation = metres_per_rad * metres_per_rad;
     let weight = Matrix6::from_diagonal(&Vector6::new(rotation, rotation, rotation, 1.0, 1.0, 1.0));
     minimise(views, &vec![weight; views.len()], start).0

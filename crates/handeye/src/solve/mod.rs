@@ -10,11 +10,10 @@ mod chou_kamel;
 pub mod consensus;
 mod daniilidis;
 mod dornaika_horaud;
-pub mod few_axes;
+pub(crate) mod few_axes;
 mod graduated;
 mod half_turns;
 mod horaud_dornaika;
-mod jacobi;
 mod kronecker;
 pub mod least_squares;
 mod li;
@@ -31,11 +30,13 @@ mod tsai_lenz;
 mod wu;
 mod zhuang;
 
+use crate::math::jacobi;
 use crate::{Error, HandEye, PosePair};
 pub use least_squares::View;
 pub(crate) use motions::check;
+pub use shared::FEWEST_POSES;
+pub(crate) use shared::place_target;
 pub(crate) use shared::too_few;
-pub use shared::{FEWEST_POSES, place_target};
 
 /// A published closed form.
 ///
@@ -109,7 +110,8 @@ impl Method {
     ];
 
     /// The few that a calibration compares with each other when nothing else is asked for.
-    pub const CANDIDATES: [Method; 3] = [Method::Shah, Method::ParkMartin, Method::Daniilidis];
+    pub(crate) const CANDIDATES: [Method; 3] =
+        [Method::Shah, Method::ParkMartin, Method::Daniilidis];
 
     /// The name in files and on the command line.
     pub fn name(self) -> &'static str {

@@ -224,7 +224,7 @@ impl Translations {
 
     /// Over all motions from `i` to a later `j`. The sum over `i` of everything that belongs to
     /// one `j` comes from running sums of the captures before it.
-    pub fn of_all(all: &[Seen]) -> Self {
+    pub(crate) fn of_all(all: &[Seen]) -> Self {
         let mut sums = Self::zeros();
         let (mut n, mut s, mut m_a, mut m_b) =
             (0.0, Matrix3::zeros(), Vector3::zeros(), Vector3::zeros());

@@ -49,10 +49,10 @@ pub fn motion(i: &PosePair, j: &PosePair) -> Motion {
 /// Middle over largest eigenvalue of the scatter of rotation axes below which all rotations count
 /// as being about one axis. With noise of 0.05 degrees on rotations of 5 degrees the ratio of a
 /// single axis is 1e-4.
-pub const ONE_AXIS: f64 = 1e-6;
+pub(crate) const ONE_AXIS: f64 = 1e-6;
 
 /// Scatter of the robot's rotation vectors (rad²) between captures, in the mount.
-pub fn axis_scatter(pairs: &[PosePair]) -> Matrix3<f64> {
+pub(crate) fn axis_scatter(pairs: &[PosePair]) -> Matrix3<f64> {
     let scatter = |w: Vector3<f64>| w * w.transpose();
     motions(pairs).iter().map(|m| scatter(lie::so3_log(&m.a.rotation))).sum()
 }
@@ -68,13 +68,13 @@ fn principal(pairs: &[PosePair]) -> ([f64; 3], Vector3<f64>) {
 }
 
 /// Whether the robot turns at all between the captures.
-pub fn rotates(pairs: &[PosePair]) -> bool {
+pub(crate) fn rotates(pairs: &[PosePair]) -> bool {
     let count = (pairs.len() * pairs.len().saturating_sub(1) / 2).max(1) as f64;
     principal(pairs).0[0] / count > NO_ROTATION
 }
 
 /// The axis (in the mount) about which all rotations are, if there is only one.
-pub fn single_axis(pairs: &[PosePair]) -> Option<Vector3<f64>> {
+pub(crate) fn single_axis(pairs: &[PosePair]) -> Option<Vector3<f64>> {
     let (values, axis) = principal(pairs);
     (rotates(pairs) && values[1] < ONE_AXIS * values[0]).then_some(axis)
 }

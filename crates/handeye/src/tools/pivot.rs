@@ -26,8 +26,6 @@ use crate::{
 
 /// Fewest poses: with three a wrong one cannot be told from the others.
 pub const FEWEST_POSES: usize = 4;
-/// Spread of the tip (root mean square distance, m) beyond which nobody led it onto one point.
-pub const MOST_SPREAD_M: f64 = 2e-3;
 /// Standard deviation (m) beyond which a direction of the tip counts as not determined.
 const FREE_M: f64 = 20e-3;
 /// Root mean square turn (rad) below which a direction counts as not seen at all: 1 degree, what
@@ -443,6 +441,9 @@ mod tests {
     use crate::math::random::Random;
     use nalgebra::{Isometry3, Translation3, UnitQuaternion};
     use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+
+    /// Spread of the tip (root mean square distance, m) beyond which nobody led it onto one point.
+    const MOST_SPREAD_M: f64 = 2e-3;
 
     const TIP: [f64; 3] = [0.004, -0.007, 0.182];
     const POINT: [f64; 3] = [0.6, -0.2, 0.05];

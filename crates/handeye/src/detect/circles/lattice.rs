@@ -280,7 +280,7 @@ impl Board {
     }
 
     /// Whether one circle is larger.
-    pub fn has_larger(&self) -> bool {
+    pub(crate) fn has_larger(&self) -> bool {
         self.kind == Kind::WithLarger
     }
 

@@ -13,6 +13,7 @@ use crate::{
     Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, TargetModel, TargetPose,
     detect::homography,
     math::{
+        levenberg::Descent,
         lie::{self, hat},
         linalg::median,
     },
@@ -119,7 +120,7 @@ impl<'a> Fit<'a> {
     }
 
     /// Robust fit, then a plain one without the corners that do not belong.
-    pub fn polish(&mut self, start: Isometry3<f64>) -> Option<PosedTarget> {
+    pub(crate) fn polish(&mut self, start: Isometry3<f64>) -> Option<PosedTarget> {
         (self.excess, self.felt_scale) = (0.0, 1.0);
         self.reweight(|_| 1.0);
         let mut pose = self.minimise(start)?;
@@ -212,26 +213,10 @@ impl<'a> Fit<'a> {
     }
 
     fn minimise(&self, start: Isometry3<f64>) -> Option<Isometry3<f64>> {
-        let mut pose = start;
-        let (mut normal, mut gradient, mut cost) = self.linearise(&pose);
-        let mut damping = 1e-6;
-        for _ in 0..MOST_STEPS {
-            let mut damped = normal;
-            (0..6).for_each(|k| damped[(k, k)] *= 1.0 + damping);
-            let step = -damped.cholesky()?.solve(&gradient);
-            let next = pose * lie::exp(&step);
-            let (n, g, c) = self.linearise(&next);
-            if c <= cost {
-                (pose, normal, gradient, cost) = (next, n, g, c);
-                damping = (damping * 0.1).max(1e-12);
-            } else {
-                damping *= 10.0;
-            }
-            if step.norm() < STEP || damping > 1e9 {
-                break;
-            }
-        }
-        cost.is_finite().then_some(pose)
+        let descent = Descent { steps: MOST_STEPS, shortest: STEP, slack: 0.0, floor: 0.0 };
+        let moved = |pose: &Isometry3<f64>, step: &Vector6<f64>| pose * lie::exp(step);
+        let (pose, cost, is_solved) = descent.run(start, |pose| self.linearise(pose), moved);
+        (is_solved && cost.is_finite()).then_some(pose)
     }
 
     /// `τ²` so that the squared residuals sum up to the degrees of freedom; the 3D corners' factor
@@ -303,7 +288,7 @@ impl<'a> Fit<'a> {
     }
 
     /// All corners in front of the camera, which sees the board's face.
-    pub fn is_possible(&self, pose: &Isometry3<f64>) -> bool {
+    pub(crate) fn is_possible(&self, pose: &Isometry3<f64>) -> bool {
         let eye = pose.inverse().translation.vector;
         let in_front = |c: &Seen| (pose * nalgebra::Point3::from(c.in_target)).z > 0.0;
         eye.z < 0.0 && self.seen.iter().all(in_front)

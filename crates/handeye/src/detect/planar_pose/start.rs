@@ -7,7 +7,7 @@ use nalgebra::{Matrix2, Matrix3, Rotation3, Vector2, Vector3};
 /// With `R_v` turning the optical axis onto the ray `v` of the origin, `A` the 2 x 2 derivative seen
 /// along that ray and `γ` its largest singular value, the upper part of `R_vᵀ R` is `A/γ` and its
 /// third row `(b₁, b₂)` follows from unit columns at right angles, up to one common sign.
-pub fn two_rotations(h: &Matrix3<f64>) -> Option<[Matrix3<f64>; 2]> {
+pub(crate) fn two_rotations(h: &Matrix3<f64>) -> Option<[Matrix3<f64>; 2]> {
     if h[(2, 2)].abs() < 1e-12 * h.norm() {
         return None;
     }

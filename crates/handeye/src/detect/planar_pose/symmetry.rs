@@ -20,7 +20,7 @@ pub fn with_symmetries(poses: &[PosedTarget], target: &TargetModel) -> Vec<Targe
 }
 
 /// Corners under another labelling, in the order of their new ids.
-pub fn relabelled(corners: &[ImageCorner], map: &[u32]) -> Vec<ImageCorner> {
+pub(crate) fn relabelled(corners: &[ImageCorner], map: &[u32]) -> Vec<ImageCorner> {
     let one = |c: &ImageCorner| Some(ImageCorner { id: *map.get(c.id as usize)?, ..*c });
     let mut all: Vec<ImageCorner> = corners.iter().filter_map(one).collect();
     all.sort_by_key(|c| c.id);
@@ -28,7 +28,7 @@ pub fn relabelled(corners: &[ImageCorner], map: &[u32]) -> Vec<ImageCorner> {
 }
 
 /// The turn of the board that takes corner `map[id]` to corner `id`.
-pub fn symmetry_turn(target: &TargetModel, map: &[u32]) -> Pose<Target, Target> {
+pub(crate) fn symmetry_turn(target: &TargetModel, map: &[u32]) -> Pose<Target, Target> {
     let here: Vec<Vector3<f64>> = target.corners().iter().map(|c| c.vector()).collect();
     let there: Vec<Vector3<f64>> =
         map.iter().filter_map(|&id| here.get(id as usize).copied()).collect();

@@ -38,7 +38,7 @@ const MOST_DROWNED: f64 = 0.7;
 
 impl Disc {
     /// Until the corner moves less than `step_px`.
-    pub fn descend(&self, start: Parameters, step_px: f64) -> Option<Descent<9>> {
+    pub(crate) fn descend(&self, start: Parameters, step_px: f64) -> Option<Descent<9>> {
         let length = |step: &Parameters| step[0].hypot(step[1]);
         let short = |step: &Parameters| length(step) < step_px;
         let bounded = Bounded::blur(6, BLUR_PX);

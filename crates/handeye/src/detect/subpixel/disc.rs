@@ -39,7 +39,11 @@ pub(super) struct Disc {
 }
 
 impl Disc {
-    pub fn gather(image: &GrayImage, rough: &RoughCorner, radius: f64) -> Result<Self, Unfit> {
+    pub(crate) fn gather(
+        image: &GrayImage,
+        rough: &RoughCorner,
+        radius: f64,
+    ) -> Result<Self, Unfit> {
         let centre = rough.pixel;
         let (low_x, low_y) = ((centre.x - radius).ceil(), (centre.y - radius).ceil());
         let (high_x, high_y) = ((centre.x + radius).floor(), (centre.y + radius).floor());

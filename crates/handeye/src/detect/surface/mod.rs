@@ -27,8 +27,9 @@ mod step;
 #[cfg(test)]
 mod tests;
 
-pub use colours::{Coloured, ColouredCorner};
-pub use step::{OnScan, PooledStep, Step, pool, settle};
+pub(crate) use colours::{Coloured, ColouredCorner};
+pub(crate) use step::OnScan;
+pub use step::{PooledStep, Step, settle};
 
 use crate::{ImageCorner, Intrinsics, Scan, SurfaceCorner, TargetModel};
 pub(crate) use plane::{MAD, TUKEY, TUKEY_COST, inflation, tukey};

@@ -108,7 +108,7 @@ impl Plane {
     }
 
     /// Variance of that depth, m²; `inflation` as in [`super::samples::Window::inflation`].
-    pub fn depth_variance(&self, inflation: f64) -> f64 {
+    pub(crate) fn depth_variance(&self, inflation: f64) -> f64 {
         self.depth().powi(4) * self.variance(inflation)
     }
 
@@ -118,7 +118,7 @@ impl Plane {
     }
 
     /// How the depth at the corner moves with what is taken off the depth of some of the points.
-    pub fn depth_by(&self, samples: &[Sample], chosen: &[bool]) -> f64 {
+    pub(crate) fn depth_by(&self, samples: &[Sample], chosen: &[bool]) -> f64 {
         let moved = samples.iter().zip(&self.weights).zip(chosen).filter(|(_, chosen)| **chosen);
         let sum: Vector3<f64> =
             moved.map(|((s, w), _)| row(&s.at) * (w * s.point.z.powi(-2))).sum();
@@ -151,7 +151,7 @@ impl Plane {
     }
 
     /// Residuals of the points that carry weight, with their places in the grid.
-    pub fn placed_residuals(&self, samples: &[Sample]) -> Vec<((i64, i64), f64)> {
+    pub(crate) fn placed_residuals(&self, samples: &[Sample]) -> Vec<((i64, i64), f64)> {
         let all = self.residuals(samples).into_iter().zip(samples).zip(&self.weights);
         all.filter(|(_, w)| **w > 0.0).map(|((r, s), _)| (s.cell, r)).collect()
     }

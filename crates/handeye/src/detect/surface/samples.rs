@@ -43,7 +43,7 @@ pub(super) struct Window {
 
 impl Window {
     /// By how much fewer independent points there are than points.
-    pub fn inflation(&self, samples: &[Sample], plane: &Plane) -> f64 {
+    pub(crate) fn inflation(&self, samples: &[Sample], plane: &Plane) -> f64 {
         if self.is_grid { inflation(&plane.placed_residuals(samples), PLANE) } else { 1.0 }
     }
 }

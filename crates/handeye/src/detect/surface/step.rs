@@ -56,7 +56,7 @@ impl PooledStep {
 }
 
 /// The mean step and its spread; `None` without captures that tell one.
-pub fn pool(steps: &[Step]) -> Option<PooledStep> {
+pub(crate) fn pool(steps: &[Step]) -> Option<PooledStep> {
     let sound = |s: &&Step| s.sigma_m > 0.0 && s.value_m.is_finite() && s.sigma_m.is_finite();
     let steps: Vec<&Step> = steps.iter().filter(sound).collect();
     let mean = |between: f64| {
@@ -77,7 +77,7 @@ pub fn pool(steps: &[Step]) -> Option<PooledStep> {
 }
 
 /// A capture's corners on its scan, and those that are not on it.
-pub type OnScan = (Vec<SurfaceCorner>, Vec<Missing>);
+pub(crate) type OnScan = (Vec<SurfaceCorner>, Vec<Missing>);
 
 /// The corners of every capture with the step of all taken off, where it is significant; otherwise
 /// as if all points were measured alike.

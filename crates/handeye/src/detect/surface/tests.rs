@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
+use super::step::pool;
 use super::*;
 use crate::{
     Point, Pose, TargetModel,

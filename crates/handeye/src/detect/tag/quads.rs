@@ -6,7 +6,7 @@ use super::patches;
 use crate::GrayImage;
 
 /// A quadrilateral, clockwise in the picture, px.
-pub type Quad = [Vector2<f64>; 4];
+pub(crate) type Quad = [Vector2<f64>; 4];
 
 /// Radii of the means, as shares of the picture's longer side: a small one for tags in shadow or
 /// with little white around them, a large one for blurred ones.

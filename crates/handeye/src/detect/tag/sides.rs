@@ -33,7 +33,7 @@ pub(super) struct Refined {
 
 impl Refined {
     /// The corners' pixels.
-    pub fn quad(&self) -> Quad {
+    pub(crate) fn quad(&self) -> Quad {
         self.corners.each_ref().map(|corner| corner.pixel)
     }
 }

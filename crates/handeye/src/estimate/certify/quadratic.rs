@@ -134,7 +134,7 @@ impl Rotations {
     }
 
     /// The nearest minimum of the cost: damped Newton steps on both rotations.
-    pub fn polished(mut self, cost: &Cost) -> Self {
+    pub(crate) fn polished(mut self, cost: &Cost) -> Self {
         let (mut here, mut damping) = (cost.at(&self), 0.0);
         for _ in 0..MOST_STEPS {
             let (g, h) = self.derivatives(&cost.q);

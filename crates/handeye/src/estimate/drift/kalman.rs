@@ -182,7 +182,7 @@ impl Filtered {
         step.iter().all(|s| s.is_finite()).then_some((step, size))
     }
 
-    pub fn log_likelihood(&self, sequence: &Sequence, values: &DVector<f64>) -> f64 {
+    pub(crate) fn log_likelihood(&self, sequence: &Sequence, values: &DVector<f64>) -> f64 {
         let (h, g) = self.normal(sequence, values);
         let Some((scaled, scale)) = linalg::scaled(&h) else { return f64::NEG_INFINITY };
         let Some(root) = nalgebra::Cholesky::new(scaled) else { return f64::NEG_INFINITY };

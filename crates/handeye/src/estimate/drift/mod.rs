@@ -62,7 +62,7 @@ pub enum Free {
 
 /// What a sequence says.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DriftFit {
+pub(crate) struct DriftFit {
     /// Both poses, extras, their covariance and the noise beside drift.
     pub fit: JointFit,
     /// The drift; all zero where none was looked for.
@@ -81,7 +81,7 @@ const STEP: f64 = 1e-5;
 /// # Errors
 /// [`Error::TooFewPoses`] below three used views, [`Error::Invalid`] where lists differ in length, a
 /// time is negative or no number, or an extra is no parameter of the camera.
-pub fn fit_drift(
+pub(crate) fn fit_drift(
     sequence: &Sequence,
     used: &[bool],
     near: &JointFit,
@@ -250,7 +250,7 @@ impl Climb {
 ///
 /// # Errors
 /// As [`super::fit_joint`].
-pub fn without_drift(
+pub(crate) fn without_drift(
     sequence: &Sequence,
     used: &[bool],
     start: &HandEye,

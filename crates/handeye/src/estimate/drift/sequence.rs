@@ -33,7 +33,7 @@ pub struct Sequence {
 
 /// How the slow part of the error moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drift {
+pub(crate) struct Drift {
     /// Turn in one interval, rad per axis.
     pub rotation: f64,
     /// Shift in one interval, m per axis.
@@ -50,7 +50,7 @@ impl Drift {
 
 /// One view of a sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Slow {
+pub(crate) struct Slow {
     /// The slow part of its misfit, perturbing `camera_from_target` on the right.
     pub drift: Vector6<f64>,
     /// Its misfit where drift is told by the other views alone (rotation, rad; position, m).

@@ -19,7 +19,7 @@ pub(crate) struct Steps {
 impl System {
     /// The step that follows where each group of views is left out in turn: with the information of all views, and
     /// with that of the others.
-    pub fn steps_without(
+    pub(crate) fn steps_without(
         &self,
         problem: &Problem,
         state: &State,

@@ -101,7 +101,7 @@ impl System {
     }
 
     /// The same, believed only as far as it is not the robot's own noise that passes for information.
-    pub fn stated_covariance(&self, noise: &NoiseModel) -> Option<DMatrix<f64>> {
+    pub(crate) fn stated_covariance(&self, noise: &NoiseModel) -> Option<DMatrix<f64>> {
         self.covariance().map(|c| self.believed(c, noise))
     }
 
@@ -152,7 +152,7 @@ impl System {
     }
 
     /// One damped step that lowers the cost; its squared length in units of the information.
-    pub fn advance(&self, problem: &Problem, state: &mut State) -> f64 {
+    pub(crate) fn advance(&self, problem: &Problem, state: &mut State) -> f64 {
         let mut damping = 0.0;
         for _ in 0..20 {
             if let Some(step) = self.step(damping) {
@@ -212,7 +212,7 @@ impl System {
     }
 
     /// The cost without what the corners say about the camera.
-    pub fn cost_of_poses(&self) -> f64 {
+    pub(crate) fn cost_of_poses(&self) -> f64 {
         self.cost - self.cost_of_sights
     }
 

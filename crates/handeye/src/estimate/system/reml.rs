@@ -19,7 +19,7 @@ use crate::{
 impl System {
     /// One step of Fisher's scoring on every component that is not known; the largest relative
     /// change of a standard deviation.
-    pub fn update_noise(
+    pub(crate) fn update_noise(
         &self,
         noise: &mut NoiseModel,
         prior: &NoiseModel,

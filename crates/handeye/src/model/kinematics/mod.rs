@@ -26,6 +26,7 @@ use crate::{
 
 /// Which of a link's transforms comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum DhConvention {
     /// The joint, then the link.
@@ -211,7 +212,7 @@ impl Arm {
     }
 
     /// How the flange moves with the joints' values, as [`Self::by_deviations`].
-    pub fn by_joints(&self, values: &[f64]) -> DMatrix<f64> {
+    pub(crate) fn by_joints(&self, values: &[f64]) -> DMatrix<f64> {
         let motion = |(joint, j): (usize, &Joint)| Deviation {
             joint,
             parameter: if j.prismatic { Parameter::D } else { Parameter::ThetaOffset },
@@ -255,7 +256,7 @@ impl Arm {
     }
 
     /// Zeros of the joints that are not the same as turning the base or the flange.
-    pub fn offsets(&self) -> Vec<Deviation> {
+    pub(crate) fn offsets(&self) -> Vec<Deviation> {
         let of = |joint| Deviation { joint, parameter: Parameter::ThetaOffset };
         let inner = 1..self.joints.len().saturating_sub(1);
         inner.filter(|&j| !self.joints[j].prismatic).map(of).collect()

@@ -5,23 +5,12 @@ use std::{mem::discriminant, ops::Range};
 use crate::model::target::kinds::TargetModel;
 
 impl TargetModel {
-    /// The dictionary of the markers on the board, and which they are.
-    pub(super) fn markers(&self) -> Option<(&str, Range<u64>)> {
-        let product = |a: u32, b: u32| u64::from(a) * u64::from(b);
-        let (dictionary, first, count) = match self {
-            Self::Charuco { squares_x, squares_y, dictionary, first_id, .. } => {
-                (dictionary.as_str(), *first_id, product(*squares_x, *squares_y) / 2)
-            }
-            Self::Tag { dictionary, id, .. } => (dictionary.as_str(), *id, 1),
-            Self::Aprilgrid { tags_x, tags_y, family, first_id, .. } => {
-                (family.dictionary(), *first_id, product(*tags_x, *tags_y))
-            }
-            Self::TagGrid { tags_x, tags_y, dictionary, first_id, .. } => {
-                (dictionary.as_str(), *first_id, product(*tags_x, *tags_y))
-            }
-            _ => return None,
-        };
-        Some((dictionary, u64::from(first)..u64::from(first) + count))
+    /// Which markers of which dictionary are on the board.
+    fn markers(&self) -> Option<(String, Range<u64>)> {
+        self.family(|family| {
+            let (dictionary, first, count) = family.markers()?;
+            Some((dictionary.to_owned(), u64::from(first)..u64::from(first) + count))
+        })
     }
 
     /// Why two targets in one picture cannot be told apart; `None` if they can be. A picture does
@@ -30,7 +19,7 @@ impl TargetModel {
         if let (Some((name, own)), Some((others_name, others))) = (self.markers(), other.markers())
         {
             let (from, to) = (own.start.max(others.start), own.end.min(others.end));
-            let shared = series(name) == series(others_name) && from < to;
+            let shared = series(&name) == series(&others_name) && from < to;
             return shared.then(|| {
                 let which = match to - from {
                     1 => format!("marker {from}"),

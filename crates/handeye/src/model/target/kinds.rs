@@ -13,6 +13,7 @@ fn one_bit() -> u32 {
 
 /// A calibration target and its dimensions. Lengths in millimetres, as people print them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum TargetModel {
     /// Plain checkerboard; `columns` x `rows` INNER corners, id = `row * columns + column`.
@@ -131,8 +132,26 @@ pub enum TargetModel {
     },
 }
 
+impl TargetModel {
+    /// All its lengths.
+    pub(super) fn lengths_mm_mut(&mut self) -> Vec<&mut f64> {
+        match self {
+            Self::Checkerboard { square_mm: length, .. }
+            | Self::Tag { size_mm: length, .. }
+            | Self::CircleGrid { pitch_mm: length, .. }
+            | Self::AsymmetricCircleGrid { pitch_mm: length, .. }
+            | Self::ModifiedCircleGrid { pitch_mm: length, .. }
+            | Self::Aprilgrid { tag_mm: length, .. } => vec![length],
+            Self::Charuco { square_mm, marker_mm, .. } => vec![square_mm, marker_mm],
+            Self::TagGrid { tag_mm, gap_mm, .. } => vec![tag_mm, gap_mm],
+            Self::Sphere { diameter_mm } => diameter_mm.iter_mut().collect(),
+        }
+    }
+}
+
 /// A family of AprilTags.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum AprilTagFamily {
     /// 4 x 4 bits, 30 tags.
     #[serde(rename = "16h5", alias = "t16h5", alias = "tag16h5")]

@@ -31,7 +31,10 @@ const LEAST: f64 = 1e-6;
 
 /// Where each scan lies: `camera_from_scene`, and its covariance (perturbed on the right), of those that hang
 /// together; links that contradict the others are left out.
-pub fn adjust(count: usize, links: &mut [Link]) -> Vec<Option<(Isometry3<f64>, Matrix6<f64>)>> {
+pub(crate) fn adjust(
+    count: usize,
+    links: &mut [Link],
+) -> Vec<Option<(Isometry3<f64>, Matrix6<f64>)>> {
     for link in links.iter_mut().filter(|link| link.left_out.is_none()) {
         if information(link).is_none() {
             link.left_out = Some("its covariance cannot be inverted".into());

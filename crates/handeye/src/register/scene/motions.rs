@@ -10,9 +10,9 @@
 //! F. Park, B. Martin, *Robot sensor calibration: solving AX = XB on the Euclidean group*, IEEE T-RA 10(5),
 //! 1994.
 
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 
-use crate::math::{lie, linalg};
+use crate::math::{jacobi, lie, linalg};
 
 /// A motion of the mount, and as the scans have it.
 #[derive(Debug, Clone, Copy)]
@@ -123,7 +123,8 @@ fn fitted(motions: &[Motion]) -> Option<Isometry3<f64>> {
             h += a.cross(c) * b.cross(d).transpose();
         }
     }
-    let r = linalg::nearest_rotation(&h)?;
+    let rotation = jacobi::nearest_rotation(&h)?;
+    let r = rotation.to_rotation_matrix();
     let (mut information, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for m in motions {
         let left = m.a.rotation.to_rotation_matrix().into_inner() - Matrix3::identity();
@@ -131,7 +132,6 @@ fn fitted(motions: &[Motion]) -> Option<Isometry3<f64>> {
         right += left.transpose() * (r * m.b.translation.vector - m.a.translation.vector);
     }
     let t = linalg::invert_spd(&information)? * right;
-    let rotation = UnitQuaternion::from_matrix(&r);
     Some(Isometry3::from_parts(Translation3::from(t), rotation))
 }
 

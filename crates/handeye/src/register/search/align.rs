@@ -58,7 +58,7 @@ impl Score {
 
 /// Whether a surfel of the scan, moved into the part's frame, lies on the part.
 #[inline(always)]
-pub fn on_part(field: &Field, s: &Surfel, within: f64, aside: f64, oriented: bool) -> bool {
+pub(crate) fn on_part(field: &Field, s: &Surfel, within: f64, aside: f64, oriented: bool) -> bool {
     let Some(found) = field.find(&s.p, &s.n) else { return false };
     let off = s.p - found.p;
     let across = off.dot(&found.n);

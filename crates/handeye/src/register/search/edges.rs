@@ -21,7 +21,7 @@ const GAP: f64 = 2.3;
 const FLUSH: f64 = 0.35;
 
 /// Surfels of walls at the ends of a surface whose surfels are so far apart, m.
-pub fn walls(surfels: &[Surfel], apart: f64) -> Vec<Surfel> {
+pub(crate) fn walls(surfels: &[Surfel], apart: f64) -> Vec<Surfel> {
     let points: Vec<[f32; 3]> = surfels.iter().map(|s| s.p.map(|x| x as f32).into()).collect();
     let tree = KdTree::new(&points);
     let reach = AROUND * apart;

@@ -81,7 +81,7 @@ pub struct Place {
 
 /// What speaks for a place and against it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Evidence {
+pub(crate) struct Evidence {
     /// Share of the scan within the part's box, or flush with it beside the box, that lies on the part.
     pub explained: f64,
     /// Share of the scan that lies on the part, but for what is on planes wider than the part.
@@ -339,7 +339,7 @@ impl Search {
     }
 
     /// Where the scan lies in the part.
-    pub fn part_from_scan(&self, target_from_source: &Isometry3<f64>) -> Isometry3<f64> {
+    pub(crate) fn part_from_scan(&self, target_from_source: &Isometry3<f64>) -> Isometry3<f64> {
         self.target_from_source(target_from_source)
     }
 

@@ -28,7 +28,7 @@ const TRIED: usize = 60;
 type Key = [u8; 4];
 
 /// Two pairs of surfels, by their numbers: of the scan, and of the part.
-pub type Match = ([u16; 2], [u16; 2]);
+pub(crate) type Match = ([u16; 2], [u16; 2]);
 
 /// All pairs of surfels that are no farther apart than this, m, in the order of their keys.
 pub fn pairs(surfels: &[Surfel], longest: f64, oriented: bool) -> Vec<(Key, [u16; 2])> {

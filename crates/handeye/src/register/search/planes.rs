@@ -24,7 +24,7 @@ const BEYOND: f64 = 0.01;
 
 /// `n · p = d`, the normal towards the side that is seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plane {
+pub(crate) struct Plane {
     pub n: Vector3<f64>,
     pub d: f64,
 }

@@ -11,7 +11,7 @@ const CELLS: f64 = 2.5;
 
 /// A surfel: where it lies, and the direction across it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Surfel {
+pub(crate) struct Surfel {
     pub p: Vector3<f64>,
     pub n: Vector3<f64>,
 }
@@ -30,7 +30,7 @@ pub fn parts(pose: &Isometry3<f64>) -> (Matrix3<f64>, Vector3<f64>) {
 }
 
 /// All surfels of a surface.
-pub fn surfels(surface: &Surface) -> Vec<Surfel> {
+pub(crate) fn surfels(surface: &Surface) -> Vec<Surfel> {
     let camera = surface.has_camera();
     let toward = |p: &Vector3<f64>, n: Vector3<f64>| if camera && n.dot(p) > 0.0 { -n } else { n };
     let of = |patch: &crate::register::patch::Patch| Surfel {
@@ -56,7 +56,7 @@ pub fn thinned(surfels: &[Surfel], edge: f64) -> Vec<Surfel> {
 }
 
 /// About so many surfels, of every direction of normals as many, as far as there are.
-pub fn balanced(surfels: &[Surfel], count: usize, oriented: bool) -> Vec<Surfel> {
+pub(crate) fn balanced(surfels: &[Surfel], count: usize, oriented: bool) -> Vec<Surfel> {
     let mut groups: BTreeMap<[i8; 3], Vec<Surfel>> = BTreeMap::new();
     for surfel in surfels {
         let n = surfel.n;

@@ -11,7 +11,7 @@ const MOST: usize = 60;
 
 /// What a camera says of a place on the part's surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sight {
+pub(crate) enum Sight {
     /// The scan shows a surface there.
     Seen,
     /// The scan shows only what is behind it: it would have hidden that.
@@ -23,7 +23,7 @@ pub enum Sight {
 }
 
 /// Depths along rays.
-pub struct RangeImage {
+pub(crate) struct RangeImage {
     low: Vector2<f64>,
     per_unit: f64,
     size: [usize; 2],

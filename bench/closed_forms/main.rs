@@ -1,6 +1,6 @@
 //! Every closed form on pose sets from files, with the time of a call.
 //!
-//! `cargo run --release -p handeye --example closed_forms -- [--untimed] FILE...`
+//! `cargo run --release -p handeye-bench --bin closed_forms -- [--untimed] FILE...`
 //!
 //! A line of a file is one capture: rotation by rows and translation (m) of `anchor_from_mount`,
 //! then of `camera_from_target`, 24 numbers. Printed per file and method, tab-separated: file,

@@ -1,19 +1,18 @@
 //! The whole calibration on sessions that are spoilt in known ways, against the answer of the
 //! captures that were left as they are.
 //!
-//! `cargo run --release -p handeye --example robustness -- [SESSIONS] [FILE] [FIRST SEED]`
+//! `cargo run --release -p handeye-bench --bin robustness -- [SESSIONS] [FILE] [FIRST SEED]`
 //!
 //! Prints a table; with a FILE, writes it between the markers `robustness` there. Seeds of failures
 //! go to the standard error output.
 
-#[path = "../../../bench/section.rs"]
+#[path = "../section.rs"]
 mod section;
 
 use std::env;
 
 use handeye::{Verdict, simulate::Mistake};
 
-#[path = "../../../bench/robustness/trial.rs"]
 mod trial;
 use trial::{AS_GOOD, Outcome, trial, whole_file};
 

@@ -1,10 +1,10 @@
 //! The whole task, robot included, on arms that were not built as their model says.
 //!
-//! `cargo run --release -p handeye --example arm -- [TRIALS] [FILE]`
+//! `cargo run --release -p handeye-bench --bin arm -- [TRIALS] [FILE]`
 //!
 //! Prints a table; with a FILE, writes it between the markers `arm` there.
 
-#[path = "../../../bench/section.rs"]
+#[path = "../section.rs"]
 mod section;
 
 use std::{collections::BTreeMap, env};

@@ -1,13 +1,12 @@
 //! The whole calibration on simulated cells, against the truth.
 //!
-//! `cargo run --release -p handeye --example monte_carlo -- [TRIALS] [TRIALS OF THE FIRST] [FILE] [PART]`
+//! `cargo run --release -p handeye-bench --bin monte_carlo -- [TRIALS] [TRIALS OF THE FIRST] [FILE] [PART]`
 //!
 //! Prints a table; with a FILE other than -, writes it between the markers `monte_carlo` there. PART keeps the
 //! rows whose names contain it.
 
-#[path = "../../../bench/monte_carlo/scenario.rs"]
 mod scenario;
-#[path = "../../../bench/section.rs"]
+#[path = "../section.rs"]
 mod section;
 
 use std::{collections::BTreeMap, env};

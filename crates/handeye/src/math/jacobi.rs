@@ -15,7 +15,7 @@ const MOST_SWEEPS: usize = 40;
 const ZERO: f64 = 1e-17;
 
 /// Eigenvalues, largest first, and the eigenvectors as columns in the same order.
-pub(super) fn eigen<const N: usize>(
+pub(crate) fn eigen<const N: usize>(
     m: &SMatrix<f64, N, N>,
 ) -> (SVector<f64, N>, SMatrix<f64, N, N>) {
     let (mut m, mut v) = (*m, SMatrix::<f64, N, N>::identity());
@@ -73,17 +73,17 @@ fn sorted<const N: usize>(
 
 /// Gap between two eigenvalues, as a share of the largest of all, below which they count as equal
 /// and their eigenvectors as free.
-pub(super) const NO_GAP: f64 = 1e-13;
+pub(crate) const NO_GAP: f64 = 1e-13;
 
 /// The leading eigenvector; `None` when two are as good.
-pub(super) fn leading<const N: usize>(m: &SMatrix<f64, N, N>) -> Option<SVector<f64, N>> {
+pub(crate) fn leading<const N: usize>(m: &SMatrix<f64, N, N>) -> Option<SVector<f64, N>> {
     let (values, vectors) = eigen(m);
     (values[0] - values[1] > NO_GAP * values[0].abs()).then(|| vectors.column(0).into_owned())
 }
 
 /// The rotation nearest to `m` in the Frobenius norm, also where `m` mirrors; `None` when several
 /// are as near.
-pub(super) fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
+pub fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
     let (xx, yy, zz) = (m[(0, 0)], m[(1, 1)], m[(2, 2)]);
     let turn = (m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)]);
     let both = (m[(0, 1)] + m[(1, 0)], m[(0, 2)] + m[(2, 0)], m[(1, 2)] + m[(2, 1)]);
@@ -102,7 +102,7 @@ pub(super) fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> 
 }
 
 /// The rotation of a quaternion written scalar first, of any length.
-pub(super) fn rotation_of(q: &Vector4<f64>) -> UnitQuaternion<f64> {
+pub(crate) fn rotation_of(q: &Vector4<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(q[0], q[1], q[2], q[3]))
 }
 

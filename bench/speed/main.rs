@@ -1,12 +1,12 @@
 //! Processor time of the estimator, one thread, in process: medians of batches.
 //!
-//! `cargo run --release -p handeye --example speed -- [FILE]`; with a FILE, writes it between the
+//! `cargo run --release -p handeye-bench --bin speed -- [FILE]`; with a FILE, writes it between the
 //! markers `speed` there as well.
 
 #[allow(clippy::unwrap_used, reason = "shared with tests")]
-#[path = "../tests/problem/mod.rs"]
+#[path = "../../crates/handeye/tests/problem/mod.rs"]
 mod problem;
-#[path = "../../../bench/section.rs"]
+#[path = "../section.rs"]
 mod section;
 
 use std::{env, fs, hint::black_box};
