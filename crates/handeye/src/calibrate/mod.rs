@@ -1,13 +1,16 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
-//! `repeated`, `places` (of captures of one place one counts) → `agreement` (which captures agree, and on
-//! which reading: `gate`, and `masked` for those that hide one another; why the others do not:
-//! `rejected`; whether that is a clear majority: `doubt`) →
-//! `candidates` (touches of other corners taken out: `wrong_touches`; closed forms, least squares,
-//! maximum likelihood, registration of touches, each judged on what it has not seen; the choice by
-//! predicted error; methods by name: `named`; what rests on a given position: `known_position`) →
-//! `captures` (misfit of every capture and touch) → `verdict` → `scans` (what they say of board and
-//! frames). Point pairs alone take the short way
+//! [`calibrate`] is the only way in. `streams` (where the robot moved: its pose at the moment of each capture) and
+//! `unscaled` (the unit of distances) make sessions like any other; then `repeated` and `places` (of captures of one place
+//! one counts) → `agreement` (which captures agree, and on which pose candidate: `gate`, and `masked` for those that hide
+//! one another; the others: `rejected`; whether that is a clear majority: `doubt`) → `optics` (camera, size and depth) →
+//! `candidates` (touches of other corners taken out: `wrong_touches`; closed forms, least squares, maximum likelihood,
+//! registration of touches, each judged on what it has not seen; the choice by predicted error; methods by name: `named`;
+//! `size`, `arm`, `known_position`) → `captures` (residual of every capture) → `movement` → `verdict`.
+//!
+//! Every stage returns its value and its `notes`; `evidence` gathers them, and [`verdict`] alone makes a [`Calibration`] of
+//! it. What looks at the result as a whole makes a new one: `sequence` (do errors drift?), `sources` (images and scans
+//! apart), `moved`, `scans`, and `beside` (what was noticed while files were read). Point pairs alone take the short way
 //! through `points`, captures of a ball through `balls`.
 
 mod agreement;
