@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if result.verdict == Verdict::Accepted
         && let Some(found) = result.hand_eye.mount_from_camera
     {
-        println!("{}: {:.4} m", result.name, found.translation().transpose());
+        println!("{}: {:.4?} m", result.name, found.translation().as_slice());
     }
     // calibration.json for programs, report.html for people
     let out = folder.join("result");

@@ -45,7 +45,7 @@ fn main() -> Result<(), Error> {
     println!("{:?}: {}", result.verdict, result.reasons.join("; "));
     assert_eq!(result.verdict, Verdict::Accepted);
     if let Some(found) = result.hand_eye.mount_from_camera {
-        println!("flange_from_camera: {:.4} m", found.translation());
+        println!("flange_from_camera: {:.4?} m", found.translation().as_slice());
     }
     if let Some(predicted) = &result.predicted_tre_mm {
         println!("95 % of the points in the workspace within {:.2} mm", predicted.p95);

@@ -35,9 +35,9 @@ fn main() -> Result<(), Error> {
         };
         let number = choice.candidate;
         println!(
-            "{:2}. pose {number:2} at {:.3} m: {error}",
+            "{:2}. pose {number:2} at {:.3?} m: {error}",
             k + 1,
-            pose.translation().transpose()
+            pose.translation().as_slice()
         );
     }
     assert!(plan.undetermined.is_empty(), "{:?}", plan.undetermined);

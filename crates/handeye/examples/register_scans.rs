@@ -27,8 +27,8 @@ fn main() -> Result<(), Error> {
 
     println!("{:?}: {}", found.verdict, found.reasons.join("; "));
     println!(
-        "target_from_source: {:.4} m",
-        found.target_from_source.translation.vector.transpose()
+        "target_from_source: {:.4?} m",
+        found.target_from_source.translation.vector.as_slice()
     );
     println!("agreement {:.0} %, residual {:.2} mm", 100.0 * found.agreement, 1e3 * found.rms_m);
     let truth = room_from_target.inv_mul(&room_from_source);
