@@ -24,7 +24,7 @@ use crate::{
         answers::{as_fitted, blocks, excess, stated_covariance, stored},
         candidates::judge::{Judge, Judged},
         config::Config,
-        evidence::{Choice, Evidence, HeldOut},
+        evidence::{Choice, Evidence},
         notes::Notes,
         result::{Candidate, Determined, TouchResult, WITH_ARM},
         unknown::{self, Task},
@@ -32,7 +32,7 @@ use crate::{
     },
     estimate::{
         JointFit, Problem,
-        evaluate::{self, Estimator},
+        evaluate::{self, Estimator, HeldOut},
         predict::Volume,
         touches::{self, TouchPairs},
     },

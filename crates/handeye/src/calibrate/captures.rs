@@ -1,10 +1,12 @@
 //! Misfit of every capture and touch, and which way round the target lies.
 
+use crate::estimate::evaluate::HeldOut;
+use crate::model::residual::Residual;
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
     TargetPose, Touch,
     calibrate::{
-        evidence::{Choice, Evidence, HeldOut},
+        evidence::{Choice, Evidence},
         notes::Notes,
         result::CaptureResult,
         views::{Views, own_pose},
@@ -180,8 +182,8 @@ pub(super) fn held_out(
     mut captures: Vec<CaptureResult>,
 ) -> Vec<CaptureResult> {
     for (&i, left_out) in views.indices.iter().zip(left_out) {
-        captures[i].held_out_deg = left_out.map(|h| h.0.to_degrees());
-        captures[i].held_out_mm = left_out.map(|h| h.1 * 1e3);
+        captures[i].held_out_deg = left_out.map(|h| h.angle.to_degrees());
+        captures[i].held_out_mm = left_out.map(|h| h.distance * 1e3);
     }
     captures
 }
@@ -191,7 +193,7 @@ pub(super) fn with_residuals(views: &Views, mut found: Evidence) -> Evidence {
     let Some(choice) = &mut found.choice else { return found };
     let Some(answer) = answer(choice, views) else { return found };
     for (v, &i) in views.views.iter().zip(&views.indices) {
-        let (angle, distance) = answer.loop_misfit(&v.pair);
+        let Residual { angle, distance } = answer.loop_residual(&v.pair);
         let capture = &mut found.captures[i];
         capture.camera_from_target = Some(own_pose(v, views));
         capture.residual_deg = Some(angle.to_degrees());

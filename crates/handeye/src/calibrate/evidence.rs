@@ -65,9 +65,6 @@ pub(super) struct Evidence {
     pub arm: Option<ArmResult>,
 }
 
-/// Leave-one-out residual (rad, m) of every view.
-pub(super) type HeldOut = Vec<Option<(f64, f64)>>;
-
 /// The answer that was chosen among the candidates.
 #[derive(Clone, Default)]
 pub(super) struct Choice {

@@ -1,6 +1,7 @@
 //! The joint candidate: views and touches in one fit, wrong touches left out, and a systematic
 //! difference between the two where the data show one.
 
+use crate::estimate::evaluate::HeldOut;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::{
@@ -357,12 +358,8 @@ pub(super) struct WrongTip {
     pub p_value: f64,
 }
 
-/// Misfit (rad, m) of every view under a fit made without it.
-pub(super) fn held_out_views(
-    problem: &Problem,
-    fit: &JointFit,
-    known: &KnownNoise,
-) -> Vec<Option<(f64, f64)>> {
+/// Leave-one-out residual of every view.
+pub(super) fn held_out_views(problem: &Problem, fit: &JointFit, known: &KnownNoise) -> HeldOut {
     let views = &problem.views;
     let mut found = vec![None; views.len()];
     if views.len() <= crate::solve::FEWEST_POSES {
@@ -374,7 +371,7 @@ pub(super) fn held_out_views(
         let refitted = joint::refit(&Problem { views: rest, ..problem.clone() }, fit, known);
         for i in fold {
             let pair = views[i].with(&refitted.extras, &refitted.values);
-            found[i] = Some(refitted.hand_eye.loop_misfit(&pair));
+            found[i] = Some(refitted.hand_eye.loop_residual(&pair));
         }
     }
     found

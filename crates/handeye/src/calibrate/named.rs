@@ -2,11 +2,12 @@
 //! data, whatever numbers a closed form makes of them.
 
 use super::{joint, verdict};
+use crate::estimate::evaluate::HeldOut;
 use crate::{
     calibrate::{
         answers,
         config::Config,
-        evidence::{Choice, Evidence, HeldOut, UnitAndClock},
+        evidence::{Choice, Evidence, UnitAndClock},
         notes::Notes,
         unknown::Task,
         views::{self, Views, camera_in_words},

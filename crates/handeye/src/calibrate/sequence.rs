@@ -8,6 +8,7 @@
 //! answer, covariance and predicted error are those of the fit with drift. A camera that walks away in
 //! its holder has no one place, and its result is rejected.
 
+use crate::model::residual::Residual;
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
@@ -261,7 +262,10 @@ fn neighbours_alike(sequence: &Sequence, used: &[bool], near: &JointFit) -> bool
 
 fn held_out(found: &DriftFit, used: &[bool]) -> Misfit {
     let one = |(v, used): (&drift::sequence::Slow, &bool)| {
-        used.then(|| (lie::omega(&v.left_out).norm(), lie::nu(&v.left_out).norm()))
+        used.then(|| Residual {
+            angle: lie::omega(&v.left_out).norm(),
+            distance: lie::nu(&v.left_out).norm(),
+        })
     };
     evaluate::rms(&found.views.iter().zip(used).map(one).collect::<Vec<_>>())
 }

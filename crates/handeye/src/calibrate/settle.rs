@@ -1,5 +1,6 @@
 //! The unknowns beside both poses, by fits that are linearised anew until they stay.
 
+use crate::model::residual::Residual;
 use nalgebra::Vector6;
 
 use super::unknown::{self, Unknown};
@@ -40,8 +41,8 @@ pub(crate) struct Settled {
 const ROUNDS: usize = 12;
 /// A move below this part of its standard deviation needs no further look.
 const STILL: f64 = 0.03;
-/// Units of the robust misfit (rad, m).
-const UNIT: (f64, f64) = (0.3 / 180.0 * std::f64::consts::PI, 2e-3);
+/// Unit of the robust residual.
+const UNIT: Residual = Residual::of(0.3, 2.0);
 
 /// Fits the unknowns from `start`; `at` gives the captures for a stand.
 ///
@@ -103,10 +104,7 @@ fn readings(pair: &PosePair) -> Readings {
 
 /// Mean of `ln(1 + d²)` over all captures, `d` their misfit in units of 0.3 degrees and 2 mm.
 pub(crate) fn misfit(hand_eye: &HandEye, pairs: &[PosePair]) -> f64 {
-    let one = |pair: &PosePair| {
-        let (angle, distance) = hand_eye.loop_misfit(pair);
-        ((angle / UNIT.0).powi(2) + (distance / UNIT.1).powi(2)).ln_1p()
-    };
+    let one = |pair: &PosePair| hand_eye.loop_residual(pair).over(UNIT).powi(2).ln_1p();
     pairs.iter().map(one).sum::<f64>() / pairs.len().max(1) as f64
 }
 

@@ -1,5 +1,6 @@
 //! How good an answer is: on the captures it was made from, and on captures it has not seen.
 
+use crate::model::residual::Residual;
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -72,9 +73,12 @@ pub fn folds(count: usize) -> Vec<Vec<usize>> {
     (0..10).map(|k| (k..count).step_by(10).collect()).collect()
 }
 
-/// The misfit (rad, m) of every capture under an answer that was made without it; `None` where the
+/// Leave-one-out residual of every capture.
+pub type HeldOut = Vec<Option<Residual>>;
+
+/// The residual of every capture under an answer that was made without it; `None` where the
 /// captures that remain do not determine one.
-pub fn held_out(estimator: &Estimator, views: &[View], start: &HandEye) -> Vec<Option<(f64, f64)>> {
+pub fn held_out(estimator: &Estimator, views: &[View], start: &HandEye) -> HeldOut {
     let mut found = vec![None; views.len()];
     if views.len() <= solve::FEWEST_POSES {
         return found;
@@ -84,7 +88,7 @@ pub fn held_out(estimator: &Estimator, views: &[View], start: &HandEye) -> Vec<O
             (0..views.len()).filter(|i| !fold.contains(i)).map(|i| views[i].clone()).collect();
         let Ok(answer) = estimator.estimate(&rest, start) else { continue };
         for i in fold {
-            found[i] = Some(answer.loop_misfit(&views[i].pair));
+            found[i] = Some(answer.loop_residual(&views[i].pair));
         }
     }
     found
@@ -95,33 +99,33 @@ pub fn held_out(estimator: &Estimator, views: &[View], start: &HandEye) -> Vec<O
 pub(crate) fn placed_without(
     views: &[View],
     mount_from_camera: &crate::Pose<crate::Mount, crate::Camera>,
-) -> Vec<Option<(f64, f64)>> {
+) -> HeldOut {
     let without = |i: usize| {
         let rest: Vec<PosePair> =
             (0..views.len()).filter(|j| *j != i).map(|j| views[j].pair).collect();
         let answer = solve::place_target(&rest, mount_from_camera);
-        (!rest.is_empty()).then(|| answer.loop_misfit(&views[i].pair))
+        (!rest.is_empty()).then(|| answer.loop_residual(&views[i].pair))
     };
     (0..views.len()).map(without).collect()
 }
 
 /// Root mean squares of misfits; those that are missing are left out.
-pub fn rms(misfits: &[Option<(f64, f64)>]) -> Misfit {
-    let all: Vec<(f64, f64)> = misfits.iter().flatten().copied().collect();
-    let mean = |part: fn(&(f64, f64)) -> f64| {
+pub fn rms(misfits: &[Option<Residual>]) -> Misfit {
+    let all: Vec<Residual> = misfits.iter().flatten().copied().collect();
+    let mean = |part: fn(&Residual) -> f64| {
         let sum: f64 = all.iter().map(|m| part(m).powi(2)).sum();
         (!all.is_empty()).then(|| (sum / all.len() as f64).sqrt())
     };
     Misfit {
-        rotation_rms_deg: mean(|m| m.0).map(f64::to_degrees),
-        translation_rms_mm: mean(|m| m.1).map(|t| t * 1e3),
+        rotation_rms_deg: mean(|m| m.angle).map(f64::to_degrees),
+        translation_rms_mm: mean(|m| m.distance).map(|t| t * 1e3),
         reprojection_rms_px: None,
     }
 }
 
 /// Misfit of all captures under one answer.
 pub fn in_sample(answer: &HandEye, views: &[View]) -> Misfit {
-    let all: Vec<_> = views.iter().map(|v| Some(answer.loop_misfit(&v.pair))).collect();
+    let all: Vec<_> = views.iter().map(|v| Some(answer.loop_residual(&v.pair))).collect();
     rms(&all)
 }
 

@@ -314,12 +314,7 @@ impl CaptureFinding {
                 captures.len(),
                 captures.join(", ")
             ),
-            Self::Few { used, of_a_ball: false } => format!(
-                "only {used} captures: too few to notice a wrong one or to estimate the noise well; take 10 to 15"
-            ),
-            Self::Few { used, of_a_ball: true } => {
-                format!("only {used} captures agree: too few to estimate the noise well")
-            }
+            Self::Few { used, of_a_ball } => few(*used, *of_a_ball),
             Self::Repeated { captures } => format!(
                 "captures {} repeat others (same robot pose, same view): the robot's error is the same in all of them, so one capture of each pose counts",
                 first_of(captures)
@@ -329,17 +324,13 @@ impl CaptureFinding {
                  in all of them: one capture of each position counts. Spread the captures over the workspace",
                 first_of(captures)
             ),
-            Self::OutOfOrder { order, example, agreeing, of, within_mm } => format!(
-                "{}{}; correct the order of the files",
-                order.in_words(example),
-                if 2 * agreeing > *of {
-                    format!(
-                        ": paired so, {agreeing} of {of} captures agree, within {within_mm:.1} mm"
-                    )
-                } else {
-                    String::new()
-                }
-            ),
+            Self::OutOfOrder { order, example, agreeing, of, within_mm } => {
+                let paired = format!(
+                    ": paired so, {agreeing} of {of} captures agree, within {within_mm:.1} mm"
+                );
+                let paired = if 2 * agreeing > *of { paired } else { String::new() };
+                format!("{}{paired}; correct the order of the files", order.in_words(example))
+            }
             Self::ImagesExchanged { captures } => format!(
                 "the images of these captures are exchanged: {}; exchange the files, or leave them out",
                 captures.join(", ")
@@ -373,6 +364,15 @@ impl CaptureFinding {
             }
         }
     }
+}
+
+fn few(used: usize, of_a_ball: bool) -> String {
+    if of_a_ball {
+        return format!("only {used} captures agree: too few to estimate the noise well");
+    }
+    format!(
+        "only {used} captures: too few to notice a wrong one or to estimate the noise well; take 10 to 15"
+    )
 }
 
 impl Found for CaptureFinding {

@@ -10,7 +10,6 @@
 
 use super::{
     evidence::{Convention, Evidence, Explanation},
-    residual::Residual,
     score::{combined, pair, scored},
     thresholds::SIFTED,
 };
@@ -60,7 +59,7 @@ fn quick_score(captures: &[Readings]) -> f64 {
         captures.iter().filter(|c| !c.camera_from_target.is_empty()).map(|c| pair(c, 0)).collect();
     let found = solve::solve(&pairs, Method::Shah).ok().or_else(|| few_axes::solve(&pairs));
     found.map_or(f64::INFINITY, |found| {
-        combined(&pairs.iter().map(|p| Residual::new(&found, p)).collect::<Vec<_>>())
+        combined(&pairs.iter().map(|p| found.loop_residual(p)).collect::<Vec<_>>())
     })
 }
 

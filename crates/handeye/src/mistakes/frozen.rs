@@ -2,9 +2,9 @@
 
 use super::{
     evidence::{Evidence, Explanation},
-    residual::Residual,
     thresholds::{MOTION, SAME_ROBOT, SAME_VIEW},
 };
+use crate::model::residual::Residual;
 use crate::{findings::CaptureFinding, solve::consensus::Readings};
 
 /// Captures with one robot pose during which the target moved in the images.

@@ -52,11 +52,9 @@ fn the_other_way(captures: &[Readings]) -> Vec<Readings> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::residual::Residual;
     use crate::{
-        mistakes::{
-            residual::Residual,
-            tests::{agreed, in_order, shift, with_robot},
-        },
+        mistakes::tests::{agreed, in_order, shift, with_robot},
         solve::consensus,
     };
 

@@ -28,7 +28,6 @@ mod moved;
 mod order;
 mod other_pose;
 pub(crate) mod outliers;
-mod residual;
 pub mod score;
 mod size;
 mod size_cause;

@@ -6,7 +6,6 @@
 use super::{
     evidence::{Evidence, Explanation},
     outliers::Outliers,
-    residual::Residual,
     thresholds::{FEWEST, ONE_FOR_ALL},
 };
 use crate::{HandEye, PosePair, findings::MovementFinding};
@@ -65,7 +64,7 @@ fn worst(outliers: &Outliers, run: &[usize], answer: &HandEye) -> f64 {
     let best = |&i: &usize| {
         let all = outliers.candidates[i]
             .iter()
-            .map(|view| Residual::new(answer, &view.pair).over(outliers.typical));
+            .map(|view| answer.loop_residual(&view.pair).over(outliers.typical));
         all.fold(f64::INFINITY, f64::min)
     };
     run.iter().map(best).fold(0.0, f64::max)

@@ -5,10 +5,10 @@
 
 use super::{
     frozen::is_same_robot,
-    residual::Residual,
     score::{agreeing, pair},
     thresholds::{AS_GOOD, LEAST_TYPICAL, NEARLY, RESTORABLE, RESTORED},
 };
+use crate::model::residual::Residual;
 use crate::{
     Setup,
     estimate::JointFit,
@@ -40,7 +40,7 @@ impl<'a> Outliers<'a> {
         fit: Option<(&'a JointFit, Setup)>,
     ) -> Self {
         let inside = agreeing(found).into_iter().filter(|&i| !candidates[i].is_empty());
-        let of = |i: usize| Residual::new(&found.hand_eye, &candidates[i][found.reading[i]].pair);
+        let of = |i: usize| found.hand_eye.loop_residual(&candidates[i][found.reading[i]].pair);
         let inside: Vec<Residual> = inside.map(of).collect();
         let typical = Residual::median(&inside).at_least(LEAST_TYPICAL).times(AS_GOOD);
         Self { captures, candidates, found, fit, typical }
@@ -73,7 +73,7 @@ impl<'a> Outliers<'a> {
 
     /// Residual of a view under what most captures agree on.
     pub fn residual(&self, view: &View) -> Residual {
-        Residual::new(&self.found.hand_eye, &view.pair)
+        self.found.hand_eye.loop_residual(&view.pair)
     }
 
     /// Whether a view fits as well as noise lets it.

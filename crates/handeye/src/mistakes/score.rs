@@ -9,10 +9,8 @@
 //! The mean of the logarithm takes in every capture and lets none dominate: a few outliers cost little, a convention that
 //! fits three captures alone costs much (the Cauchy loss; F. Hampel et al., *Robust Statistics*, 1986).
 
-use super::{
-    residual::Residual,
-    thresholds::{BELIEVABLE, UNIT},
-};
+use super::thresholds::{BELIEVABLE, UNIT};
+use crate::model::residual::Residual;
 use crate::{
     PosePair,
     solve::consensus::{self, Consensus, Readings},
@@ -36,7 +34,7 @@ impl Score {
     pub(crate) fn new(captures: &[Readings], found: &Consensus) -> Self {
         let all: Vec<Residual> = (0..captures.len())
             .filter(|&i| !captures[i].camera_from_target.is_empty())
-            .map(|i| Residual::new(&found.hand_eye, &pair(&captures[i], found.reading[i])))
+            .map(|i| found.hand_eye.loop_residual(&pair(&captures[i], found.reading[i])))
             .collect();
         let median = Residual::median(&all);
         // the consensus compares captures with one another: bad ones that are alike would agree

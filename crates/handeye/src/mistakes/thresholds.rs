@@ -3,7 +3,7 @@
 //! Residuals are compared as angle and distance, each with a limit of its own; scores are in units of [`UNIT`], the error
 //! of an industrial robot. Factors and shares have no unit. How much is searched stands beside each search.
 
-use super::residual::Residual;
+use crate::model::residual::Residual;
 
 /// The residual that counts as one: what an industrial robot with a calibrated camera shows.
 pub(crate) const UNIT: Residual = Residual::of(0.05, 0.7);

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector2, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
+use super::residual::Residual;
 use crate::{Anchor, Base, Camera, Flange, Mount, Point, Pose, Target};
 
 /// The two ways to hold a camera. Everything behind `anchor_from_mount` sees only one.
@@ -209,10 +210,10 @@ impl HandEye {
             * pair.camera_from_target
     }
 
-    /// Angle (rad) and distance (m, at the target's origin) by which a capture's loop fails to close.
-    pub(crate) fn loop_misfit(&self, pair: &PosePair) -> (f64, f64) {
+    /// By how much a capture's loop fails to close, at the target's origin.
+    pub fn loop_residual(&self, pair: &PosePair) -> Residual {
         let e = self.loop_error(pair);
-        (e.iso().rotation.angle(), e.translation().norm())
+        Residual { angle: e.iso().rotation.angle(), distance: e.translation().norm() }
     }
 }
 

@@ -16,6 +16,7 @@
 //!
 //! M. Fischler and R. Bolles, *Random sample consensus*, CACM 24(6), 1981.
 
+use crate::model::residual::Residual;
 use crate::{
     Anchor, Camera, Error, HandEye, Mount, Pose, PosePair, Target,
     math::linalg::median,
@@ -244,40 +245,37 @@ fn agreeing(captures: &[Readings], hand_eye: &HandEye) -> Vec<(usize, usize)> {
 /// Real robots and lenses have heavier tails than Gaussian noise, and a capture that is only
 /// somewhat worse than the rest still informs: wrong ones are usually tens of these away.
 const GATE: f64 = 7.0;
-/// Least standard deviations that the gate assumes: rounding in stored poses. rad and m per axis.
-const LEAST: (f64, f64) = (2e-4, 1e-4);
+/// Least standard deviations that the gate assumes: rounding in stored poses. Per axis.
+const LEAST: Residual = Residual { angle: 2e-4, distance: 1e-4 };
 
 /// Chooses readings for a given answer and gates captures by the median misfit; also the standard
-/// deviations (rad, m per axis) that this tells.
-fn settle(captures: &[Readings], hand_eye: HandEye) -> (Consensus, (f64, f64)) {
+/// deviations (per axis) that this tells.
+fn settle(captures: &[Readings], hand_eye: HandEye) -> (Consensus, Residual) {
     let best: Vec<Option<(usize, f64)>> =
         captures.iter().map(|c| best_reading(c, &hand_eye)).collect();
-    let parts: Vec<Option<(f64, f64)>> = captures
+    let parts: Vec<Option<Residual>> = captures
         .iter()
         .zip(&best)
-        .map(|(c, b)| {
-            b.map(|(k, _)| {
-                let e = hand_eye.loop_error(&pair(c, k));
-                (e.iso().rotation.angle(), e.translation().norm())
-            })
-        })
+        .map(|(c, b)| b.map(|(k, _)| hand_eye.loop_residual(&pair(c, k))))
         .collect();
-    let sigma = |part: fn(&(f64, f64)) -> f64, least: f64| {
+    let sigma = |part: fn(&Residual) -> f64, least: f64| {
         // the median of a chi-distributed length with three degrees of freedom is 1.538 sigma;
         // few captures are fitted closer than they are (Rousseeuw and Leroy 1987, section 5.1)
         let lengths: Vec<f64> = parts.iter().flatten().map(part).collect();
         let few = 1.0 + 5.0 / (lengths.len() as f64 - 2.0).max(1.0);
         (few * median(lengths) / 1.538).max(least)
     };
-    let (sigma_r, sigma_t) = (sigma(|p| p.0, LEAST.0), sigma(|p| p.1, LEAST.1));
-    let agrees =
-        |p: &Option<(f64, f64)>| p.is_some_and(|(r, t)| (r / sigma_r).hypot(t / sigma_t) < GATE);
+    let sigma = Residual {
+        angle: sigma(|r| r.angle, LEAST.angle),
+        distance: sigma(|r| r.distance, LEAST.distance),
+    };
+    let agrees = |r: &Option<Residual>| r.is_some_and(|r| r.over(sigma) < GATE);
     let found = Consensus {
         hand_eye,
         reading: best.iter().map(|b| b.map_or(0, |(k, _)| k)).collect(),
         agrees: parts.iter().map(agrees).collect(),
     };
-    (found, (sigma_r, sigma_t))
+    (found, sigma)
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@
 //! H. Yang, P. Antonante, V. Tzoumas, L. Carlone, *Graduated non-convexity for robust spatial
 //! perception: from non-minimal solvers to global outlier rejection*, IEEE RA-L 5(2), 2020.
 
+use crate::model::residual::Residual;
 use nalgebra::{Matrix6, Vector6};
 
 use crate::{
@@ -27,14 +28,14 @@ const MOST_STEPS: usize = 100;
 /// Factor on `μ` in each step, of the paper.
 const GROWTH: f64 = 1.4;
 
-/// The answer from a start; `sigma` in rad and m, `gate` is `c`.
-pub(super) fn graduated(views: &[View], start: &HandEye, sigma: (f64, f64), gate: f64) -> HandEye {
-    let (r, t) = (sigma.0.powi(-2), sigma.1.powi(-2));
+/// The answer from a start; `sigma` per axis, `gate` is `c`.
+pub(super) fn graduated(views: &[View], start: &HandEye, sigma: Residual, gate: f64) -> HandEye {
+    let (r, t) = (sigma.angle.powi(-2), sigma.distance.powi(-2));
     let unit = Matrix6::from_diagonal(&Vector6::new(r, r, r, t, t, t));
     let squares = |at: &HandEye| -> Vec<f64> {
         let one = |v: &View| {
-            let (angle, distance) = at.loop_misfit(&v.pair);
-            (angle / sigma.0).powi(2) + (distance / sigma.1).powi(2)
+            let residual = at.loop_residual(&v.pair);
+            (residual.angle / sigma.angle).powi(2) + (residual.distance / sigma.distance).powi(2)
         };
         views.iter().map(one).collect()
     };
@@ -86,7 +87,7 @@ mod tests {
         let views: Vec<View> = pairs.into_iter().map(View::bare).collect();
         let pulled = fit_fixed_weights(&views, &truth, 0.3);
         assert!(pulled.mount_from_camera.local(&truth.mount_from_camera).norm() > 1e-3);
-        let found = graduated(&views, &pulled, (1e-3, 1e-3), 7.0);
+        let found = graduated(&views, &pulled, Residual { angle: 1e-3, distance: 1e-3 }, 7.0);
         assert_same(found.mount_from_camera, truth.mount_from_camera, "X");
     }
 

@@ -4,8 +4,8 @@ use nalgebra::Matrix6;
 
 use crate::{
     Camera, Mount, Pose,
-    calibrate::{evidence::HeldOut, result::Candidate, views::Views, workpiece::Workpiece},
-    estimate::{self, predict, touches::TouchPairs},
+    calibrate::{result::Candidate, views::Views, workpiece::Workpiece},
+    estimate::{self, evaluate::HeldOut, predict, touches::TouchPairs},
 };
 
 /// What every candidate is judged by.

@@ -42,7 +42,7 @@ pub(super) fn still(both: &Both, settled: Option<&Settled>) -> Option<Error> {
     let (turn, shift) = scatter(&both.robot);
     let within = |limit: (f64, f64)| turn < limit.0 && shift < limit.1;
     let noise = settled.is_some_and(|s| {
-        let pair = |v: &View| Some(s.fit.hand_eye.loop_misfit(&v.pair));
+        let pair = |v: &View| Some(s.fit.hand_eye.loop_residual(&v.pair));
         let all: Vec<_> = s.views.iter().map(pair).collect();
         let found = evaluate::rms(&all);
         let (deg, mm) = (found.rotation_rms_deg, found.translation_rms_mm);

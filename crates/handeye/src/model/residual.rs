@@ -1,13 +1,13 @@
-//! By how much two poses differ, as angle and distance: the one residual of this room.
+//! By how much two poses differ, as angle and distance.
 //!
 //! Of a capture it is that of its loop `E = Y⁻¹ A X C`, which is the identity where the capture fits: `angle(E)`, and
 //! `|t(E)|` at the target's origin.
 
-use crate::{HandEye, Pose, PosePair, math::linalg::median};
+use crate::{Pose, math::linalg::median};
 
 /// By how much two poses differ, or the loop of a capture fails to close at the target's origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Residual {
+pub struct Residual {
     /// rad.
     pub angle: f64,
     /// m.
@@ -16,23 +16,17 @@ pub(crate) struct Residual {
 
 impl Residual {
     /// From degrees and millimetres.
-    pub const fn of(degrees: f64, millimetres: f64) -> Self {
+    pub(crate) const fn of(degrees: f64, millimetres: f64) -> Self {
         Self { angle: degrees.to_radians(), distance: millimetres * 1e-3 }
     }
 
-    /// Of a capture under an answer.
-    pub fn new(hand_eye: &HandEye, pair: &PosePair) -> Self {
-        let (angle, distance) = hand_eye.loop_misfit(pair);
-        Self { angle, distance }
-    }
-
     /// Between two poses.
-    pub fn between<A, B>(a: &Pose<A, B>, b: &Pose<A, B>) -> Self {
+    pub(crate) fn between<A, B>(a: &Pose<A, B>, b: &Pose<A, B>) -> Self {
         Self { angle: a.angle_to(b), distance: a.distance_to(b) }
     }
 
     /// Medians of both, each by itself.
-    pub fn median(all: &[Self]) -> Self {
+    pub(crate) fn median(all: &[Self]) -> Self {
         Self {
             angle: median(all.iter().map(|r| r.angle)),
             distance: median(all.iter().map(|r| r.distance)),
@@ -40,22 +34,22 @@ impl Residual {
     }
 
     /// Whether both are below a limit.
-    pub fn is_within(self, limit: Self) -> bool {
+    pub(crate) fn is_within(self, limit: Self) -> bool {
         self.angle < limit.angle && self.distance < limit.distance
     }
 
     /// Both as one number, in units of another residual.
-    pub fn over(self, unit: Self) -> f64 {
+    pub(crate) fn over(self, unit: Self) -> f64 {
         (self.angle / unit.angle).hypot(self.distance / unit.distance)
     }
 
     /// So many times as large.
-    pub fn times(self, factor: f64) -> Self {
+    pub(crate) fn times(self, factor: f64) -> Self {
         Self { angle: factor * self.angle, distance: factor * self.distance }
     }
 
     /// Both at least as large as those of another one.
-    pub fn at_least(self, least: Self) -> Self {
+    pub(crate) fn at_least(self, least: Self) -> Self {
         Self { angle: self.angle.max(least.angle), distance: self.distance.max(least.distance) }
     }
 }
