@@ -7,6 +7,7 @@ use crate::{
     Error, Observation, Pose, PosePair, Target,
     calibrate::{
         evidence::Evidence,
+        limits::FEW,
         notes::Notes,
         rejected::Rejected,
         unknown::Task,
@@ -119,9 +120,6 @@ fn some_agree(
     let notes = mistake.then(units).then(notes).then(few(used.len()));
     Evidence { captures: reported, rejected: names, target_scale, notes, ..all }
 }
-
-/// Fewer captures than this are answered with a warning.
-const FEW: usize = 8;
 
 fn few(used: usize) -> Notes {
     Notes::of((used < FEW).then_some(CaptureFinding::Few { used, of_a_ball: false }))

@@ -13,6 +13,7 @@ use crate::{
     Camera, Mount, Observation, Pose, PosePair,
     calibrate::{
         evidence::{Choice, Evidence},
+        limits::FEW,
         notes::Notes,
         result::{Answer, BudgetEntry, Candidate, CaptureResult, PoseCovariance, rows},
         unknown::Task,
@@ -164,9 +165,6 @@ fn conclude(
         ..Evidence::default()
     }
 }
-
-/// Fewer captures are answered with a warning.
-const FEW: usize = 8;
 
 /// The answer, which is the only candidate.
 fn chosen(

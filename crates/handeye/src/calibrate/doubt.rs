@@ -1,21 +1,14 @@
 //! Whether the captures that agree are the right ones: no clear majority is no answer.
 
+use super::limits::{FEWEST_CONFIRMED, NEARLY_AS_MANY, SAME_ANSWER};
 use crate::{
     HandEye,
     calibrate::{notes::Notes, result::Scale, views::Captures},
     findings::{CaptureFinding, Finding, TargetFinding, target::Size},
     mistakes::{self, Evidence, score::Score},
-    model::session::Session,
+    model::{residual::Residual, session::Session},
     solve::consensus::{self, Consensus, Readings},
 };
-
-/// Fewest captures of which a part may be left out: three determine an answer and confirm nothing.
-const FEWEST_CONFIRMED: usize = 4;
-/// A second agreement with this share of the captures of the first leaves the question open.
-const NEARLY_AS_MANY: f64 = 0.75;
-/// Answers this close are the same: rad and m. A second group in which only the target lay
-/// elsewhere, or was read turned, says the same of the camera.
-const SAME_ANSWER: (f64, f64) = (0.035, 0.02);
 
 /// Rejects an answer that too few captures confirm, or against which nearly as many stand.
 pub(super) fn doubt(captures: &Captures, found: &Consensus, wrong: &[usize]) -> Notes {
@@ -50,7 +43,7 @@ fn second_agreement(
 
 fn same_answer(a: &HandEye, b: &HandEye) -> bool {
     let (a, b) = (&a.mount_from_camera, &b.mount_from_camera);
-    a.angle_to(b) < SAME_ANSWER.0 && a.distance_to(b) < SAME_ANSWER.1
+    Residual::between(a, b).is_within(SAME_ANSWER)
 }
 
 /// One order of all robot poses, or one size of the target (and that size), that explains why most captures do not agree

@@ -33,6 +33,7 @@ pub mod findings;
 mod gate;
 mod joint;
 mod known_position;
+mod limits;
 mod masked;
 mod moved;
 mod movement;

@@ -19,12 +19,12 @@ use super::repeated::Uncounted;
 use crate::{
     Calibration, HandEye, Observation, PosePair,
     math::{lie, statistics},
-    model::session::Session,
+    model::{residual::Residual, session::Session},
     solve::least_squares,
 };
 
-/// Robot poses this close are one place: rad and m.
-const NEAR: (f64, f64) = (1e-2, 6e-3);
+/// Robot poses this close are one place.
+const NEAR: Residual = Residual { angle: 1e-2, distance: 6e-3 };
 /// Part of the captures that must lie near others: below it, places make no difference.
 const LEAST_SHARE: f64 = 0.25;
 /// Scatter below this within a place, rad and m alike, is as good as none: no robot errs by less, and rounding does.
@@ -65,7 +65,7 @@ fn answer(found: &Calibration) -> Option<HandEye> {
 fn places(all: &[Observation]) -> Vec<Vec<usize>> {
     let near = |a: usize, b: usize| {
         let (a, b) = (&all[a].base_from_flange, &all[b].base_from_flange);
-        a.angle_to(b) < NEAR.0 && a.distance_to(b) < NEAR.1
+        Residual::between(a, b).is_within(NEAR)
     };
     let mut places: Vec<Vec<usize>> = vec![];
     for i in (0..all.len()).filter(|i| !all[*i].candidates.is_empty()) {

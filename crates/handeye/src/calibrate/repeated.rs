@@ -2,16 +2,15 @@
 //! counts; as independent captures they would promise an accuracy that nobody has measured.
 
 use crate::{
-    Observation,
-    calibrate::{result::Calibration, views},
+    Observation, TargetPose,
+    calibrate::{limits::SAME_VIEW, result::Calibration, views},
     findings::CaptureFinding,
-    model::{names::natural, session::Session},
+    model::{names::natural, residual::Residual, session::Session},
 };
 
-/// Robot poses this close are one place: rad and m. Nobody moves by less; what a robot reads of itself varies by less.
-const SAME_PLACE: (f64, f64) = (3e-4, 1e-4);
-/// Target poses this close show the same.
-const SAME_VIEW: (f64, f64) = (3e-3, 1e-3);
+/// Robot poses this close are one place. Nobody moves by less; what a robot reads of itself varies by less.
+const SAME_PLACE: Residual = Residual { angle: 3e-4, distance: 1e-4 };
+
 /// Captures that do not count, each with the name of the one that does.
 pub(crate) struct Uncounted {
     captures: Vec<(Observation, String)>,
@@ -38,15 +37,16 @@ pub(crate) fn take_out(session: &mut Session) -> Uncounted {
 }
 
 fn repeats(first: &Observation, other: &Observation) -> bool {
-    let (a, b) = (&first.base_from_flange, &other.base_from_flange);
-    a.distance_to(b) < SAME_PLACE.1
-        && a.angle_to(b) < SAME_PLACE.0
-        && first.candidates.iter().any(|seen| {
-            other.candidates.iter().any(|again| {
-                let (a, b) = (&seen.camera_from_target, &again.camera_from_target);
-                a.distance_to(b) < SAME_VIEW.1 && a.angle_to(b) < SAME_VIEW.0
-            })
-        })
+    let robot = Residual::between(&first.base_from_flange, &other.base_from_flange);
+    let alike = |seen: &TargetPose, again: &TargetPose| {
+        let (seen, again) = (&seen.camera_from_target, &again.camera_from_target);
+        Residual::between(seen, again).is_within(SAME_VIEW)
+    };
+    robot.is_within(SAME_PLACE)
+        && first
+            .candidates
+            .iter()
+            .any(|seen| other.candidates.iter().any(|again| alike(seen, again)))
 }
 
 impl Uncounted {

@@ -16,8 +16,10 @@ use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 use crate::{
     Calibration, Config, Error, HandEye, Observation, PosePair, Session, Verdict, Warning,
     calibrate::{
+        limits::MOST_PREDICTED_MM,
         result::{Answer, Candidate, CaptureResult, PoseCovariance, rows},
         unknown::Task,
+        verdict,
     },
     detect::sight::{CLOCK, TARGET_SCALE},
     estimate::{
@@ -58,13 +60,6 @@ const ROUNDS: usize = 6;
 /// Surprise (squared, in units of standard deviations, of six axes) that one capture in a hundred
 /// thousand exceeds.
 const SURPRISING: f64 = 34.0;
-
-/// Misfit of captures left out beyond which drift explains nothing, as in any calibration: mm and
-/// degrees.
-const MOST_HELD_OUT: (f64, f64) = (15.0, 2.5);
-
-/// Predicted error (95 %) beyond which an answer is rejected when the user named no limit, mm.
-const MOST_PREDICTED_MM: f64 = 10.0;
 
 /// Names of the candidate.
 const NAME: &str = "drift";
@@ -115,10 +110,7 @@ pub(super) fn with_drift(
     let Some(found) = fit(&mut sequence, &mut used, task, &start)? else { return Ok(None) };
     let free = mistakes::free_directions(&found.fit);
     let held_out = held_out(&found, &used);
-    let too_far = |m: Option<f64>, most: f64| m.is_none_or(|m| m > most);
-    if too_far(held_out.translation_rms_mm, MOST_HELD_OUT.0)
-        || too_far(held_out.rotation_rms_deg, MOST_HELD_OUT.1)
-    {
+    if held_out.translation_rms_mm.is_none() || !verdict::is_believable(&held_out) {
         return Ok(None);
     }
     if !free.is_empty() {

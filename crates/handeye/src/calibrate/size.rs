@@ -3,7 +3,13 @@
 use super::prior::SIZE;
 use crate::{
     TargetSize,
-    calibrate::{notes::Notes, result::Scale, unknown::Task, views::Views},
+    calibrate::{
+        limits::{IMPROBABLE_SIZE, LEAST_SIZE_ERROR, MOST_SIZE_ERROR},
+        notes::Notes,
+        result::Scale,
+        unknown::Task,
+        views::Views,
+    },
     estimate::{JointFit, noise::Source},
     findings::{
         TargetFinding,
@@ -13,16 +19,6 @@ use crate::{
     mistakes,
     model::session::Session,
 };
-
-/// Wrong size of the target that is beyond any printer: the declared size or the focal length is
-/// wrong, and so is every distance.
-const MOST_SCALE_ERROR: f64 = 0.03;
-
-/// Scale errors of measured distances below this part are within what cameras and their targets do.
-const LEAST_SCALE_ERROR: f64 = 0.005;
-
-/// Chance of a scale as far from one as it is below which it is called wrong.
-const IMPROBABLE_SCALE: f64 = 1e-3;
 
 /// The robot moved farther than this many standard deviations of its own position.
 const TRAVELS: f64 = 10.0;
@@ -62,13 +58,13 @@ pub(super) fn judge(
     let dof = (by_views.degrees_of_freedom - 1.0).max(1.0);
     let p_value = statistics::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
     let off = (value - 1.0).abs();
-    let improbable = p_value < IMPROBABLE_SCALE;
+    let improbable = p_value < IMPROBABLE_SIZE;
     let told = match (&views.session.target, views.session.target_size) {
         _ if used => SizeOfAnswer::Estimated,
         // distances that came from elsewhere are taken as they are: small errors of scale are left to the user
-        (None, _) if off > LEAST_SCALE_ERROR && improbable => SizeOfAnswer::Declared,
+        (None, _) if off > LEAST_SIZE_ERROR && improbable => SizeOfAnswer::Declared,
         // beyond what the prior of a printed target reaches
-        (Some(_), TargetSize::Printed) if off > MOST_SCALE_ERROR && improbable => {
+        (Some(_), TargetSize::Printed) if off > MOST_SIZE_ERROR && improbable => {
             SizeOfAnswer::Declared
         }
         (Some(_), TargetSize::Measured(_)) if improbable => SizeOfAnswer::Measured,
@@ -76,7 +72,7 @@ pub(super) fn judge(
     };
     let (value, sigma) = if used { answer } else { (value, sigma) };
     let finding = size_finding(views.session, declared, (value, sigma), told);
-    let is_beyond = (value - 1.0).abs() > MOST_SCALE_ERROR;
+    let is_beyond = (value - 1.0).abs() > MOST_SIZE_ERROR;
     let notes = if is_beyond { Notes::against(finding) } else { Notes::of([finding]) };
     Some((Scale { value, sigma, used }, notes))
 }
@@ -94,7 +90,7 @@ fn size_finding(
         sigma,
         declared_mm: target.pitch_m() * 1e3 / resized,
         cause: mistakes::cause_of_size(value, target),
-        beyond_printing: (value - 1.0).abs() > MOST_SCALE_ERROR,
+        beyond_printing: (value - 1.0).abs() > MOST_SIZE_ERROR,
         answer,
     })
 }

@@ -5,6 +5,7 @@ use crate::{
     calibrate::{
         config::Config,
         evidence::{Choice, Evidence},
+        limits::{BELIEVABLE, FEWEST_HELD_OUT, LEAST_AGREEING, MOST_PREDICTED_MM},
         result::{Answer, Calibration, Determined},
     },
     estimate::{evaluate::Misfit, predict::PredictedTre},
@@ -12,19 +13,6 @@ use crate::{
     model::verdict::Verdict,
     quaternion_xyzw,
 };
-
-/// Predicted error (95 %) beyond which an answer is rejected when the user named no limit, mm.
-const MOST_PREDICTED_MM: f64 = 10.0;
-
-/// Misfit of captures that were left out beyond which an answer is rejected: no robot and camera
-/// in working order are that far apart. mm and degrees.
-const MOST_HELD_OUT: (f64, f64) = (15.0, 2.5);
-
-/// Captures from which on those left out say something of the others.
-const FEWEST_HELD_OUT: usize = 5;
-
-/// Share of the captures that must agree.
-const LEAST_AGREEING: f64 = 0.5;
 
 /// The result with its verdict: reasons against the answer first.
 pub(super) fn judge(setup: Setup, config: &Config, mut found: Evidence) -> Calibration {
@@ -117,7 +105,7 @@ pub(super) fn contradictions_of(used: usize, rejected: usize, held_out: &Misfit)
     if used < FEWEST_HELD_OUT {
         return against;
     }
-    if mm.is_some_and(|mm| mm > MOST_HELD_OUT.0) || deg.is_some_and(|deg| deg > MOST_HELD_OUT.1) {
+    if !is_believable(held_out) {
         against.push(format!(
             "the leave-one-out residual is {:.1} mm and {:.2} degrees (RMS), far beyond a robot and a camera in order: check order, notation, direction and setup of the poses",
             mm.unwrap_or(f64::NAN),
@@ -127,7 +115,14 @@ pub(super) fn contradictions_of(used: usize, rejected: usize, held_out: &Misfit)
     against
 }
 
-/// Why the answer is not sure enough.
+/// Whether a robot and a camera in working order may be that far apart.
+pub(super) fn is_believable(residual: &Misfit) -> bool {
+    let (deg, mm) = (residual.rotation_rms_deg, residual.translation_rms_mm);
+    let within = |value: Option<f64>, most: f64| value.is_none_or(|value| value <= most);
+    within(deg, BELIEVABLE.degrees()) && within(mm, BELIEVABLE.millimetres())
+}
+
+/// Why the answer is not certain enough.
 fn imprecision(config: &Config, found: &Evidence) -> Vec<String> {
     let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
     let Some(choice) = &found.choice else { return vec![] };

@@ -20,6 +20,16 @@ impl Residual {
         Self { angle: degrees.to_radians(), distance: millimetres * 1e-3 }
     }
 
+    /// The angle in degrees.
+    pub(crate) fn degrees(self) -> f64 {
+        self.angle.to_degrees()
+    }
+
+    /// The distance in millimetres.
+    pub(crate) fn millimetres(self) -> f64 {
+        self.distance * 1e3
+    }
+
     /// Between two poses.
     pub(crate) fn between<A, B>(a: &Pose<A, B>, b: &Pose<A, B>) -> Self {
         Self { angle: a.angle_to(b), distance: a.distance_to(b) }
