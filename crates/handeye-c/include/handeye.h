@@ -47,7 +47,7 @@ typedef struct {
 
 /* Where `source` lies in `target`. `target_from_source` is a start that is right to some centimetres and 10 degrees,
  * or NULL where both lie as they are. `options_json` is NULL or any of
- * {"method": "auto", "max_distance_mm": 50, "max_iterations": 60, "global": false, "threads": 1}. */
+ * {"method": "symmetric", "max_distance_mm": 50, "max_iterations": 60, "global": false, "threads": 1}. */
 handeye_status handeye_register(const handeye_scan *source, const handeye_scan *target,
                                 const double *target_from_source, const char *options_json, char **answer);
 

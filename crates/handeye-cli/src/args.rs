@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use handeye_io::units::LengthUnit;
 
-/// Hand-eye calibration: where the camera sits on the robot, and how sure that is.
+/// Hand-eye calibration: the pose of the camera on the robot flange or in the robot base, with its uncertainty.
 ///
 /// A folder of captures goes in; a transform comes out, with its uncertainty, a verdict, and the
 /// evidence. Exit codes: 0 accepted, 1 the input cannot be used, 2 wrong command line, 3 rejected
@@ -40,13 +40,13 @@ pub enum Command {
     Calibrate(CalibrateArgs),
     /// Solve for the transform from pairs of robot and target poses in a JSON file.
     Solve(SolveArgs),
-    /// Say what is wrong with a dataset: notation, units, direction, order, size, strays.
+    /// Find mistakes in a dataset: notation, units, direction, order, target size, outliers.
     Check(CheckArgs),
     /// Write a result as a robot, ROS, OpenCV or another program reads it.
     Export(ExportArgs),
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
     Init(InitArgs),
-    /// Take over what another program recorded, and write a file of ours beside it.
+    /// Import a dataset or result of another program (easy_handeye2, MoveIt, Zivid, HALCON, ...).
     Import(crate::import::ImportArgs),
     /// Show what a ROS bag holds, or make a folder of captures of it.
     Bag(Box<crate::bag::BagArgs>),
@@ -55,19 +55,19 @@ pub enum Command {
     /// Compare several results of one cell: do they agree?
     #[command(visible_alias = "repeat")]
     Compare(CompareArgs),
-    /// Find a tool's tip from flange poses with the tip on one fixed point.
+    /// Calibrate a tool tip (TCP position) from flange poses with the tip on one fixed point (pivot calibration).
     Tcp(TcpArgs),
-    /// Test a calibration on touched points: does the robot find what the camera measures?
+    /// Verify a calibration with touched points: distance between the tool tip and the camera's prediction.
     Verify(VerifyArgs),
     /// Register one scan to another: ICP with a covariance and a verdict.
     Register(RegisterArgs),
     /// Write a page that shows scans, meshes, calibrations and registrations in 3D.
     View(ViewArgs),
-    /// Find the target's corners in pictures.
+    /// Detect the target's corners in images.
     Detect(DetectArgs),
     /// Write a simulated dataset whose truth is known.
     Simulate(Box<crate::simulate::SimulateArgs>),
-    /// Calibrate a small dataset inside the program, and show the report's place.
+    /// Calibrate a small built-in dataset and print the path of the report.
     Demo(crate::demo::DemoArgs),
     /// Write completions for a shell.
     #[command(
@@ -97,7 +97,7 @@ pub struct SolveArgs {
     /// andreff-scaled, lu-chou, wu.
     #[arg(long)]
     pub method: Option<String>,
-    /// Try to prove that no other pair of poses fits better in the sense of least squares.
+    /// Try to prove that the least-squares solution is the global optimum.
     #[arg(long)]
     pub certify: bool,
 }
@@ -110,25 +110,25 @@ pub struct SolveArgs {
 pub struct CalibrateArgs {
     /// Folder with `handeye.toml`, or a manifest.
     pub dataset: PathBuf,
-    /// Where the manifest's names are relative to, if not to its own folder.
+    /// Folder that the file names in the manifest are relative to [default: the folder of the manifest].
     #[arg(long)]
     pub root: Option<PathBuf>,
-    /// Folder for calibration.json, report.html and exports; it is made if need be.
+    /// Folder for calibration.json, report.html and exports; created if it does not exist.
     #[arg(long, short)]
     pub out: Option<PathBuf>,
     /// Also export the transform in these formats (see `handeye export --format list`).
     #[arg(long, value_delimiter = ',', requires = "out")]
     pub format: Vec<String>,
-    /// Run one published method as published (see `handeye solve --help`).
+    /// Use one published method by name instead of the joint fit (names: `handeye solve --help`).
     #[arg(long)]
     pub method: Option<String>,
-    /// Nearest-neighbour candidate of the two-step refinement: most iterations.
+    /// Candidate `two-step-icp` (needs touches): maximum number of ICP iterations.
     #[arg(long, default_value_t = 50)]
     pub icp_max_iterations: usize,
-    /// The same: matches farther apart are dropped, mm.
+    /// Candidate `two-step-icp`: maximum correspondence distance, mm.
     #[arg(long, default_value_t = 10.0)]
     pub icp_max_distance_mm: f64,
-    /// The same: it stops when a round changes less than this (rad, m).
+    /// Candidate `two-step-icp`: stop when an iteration changes the transform by less than this (rad, m).
     #[arg(long, default_value_t = 1e-9)]
     pub icp_epsilon: f64,
 }
@@ -254,9 +254,9 @@ pub struct TargetArgs {
 #[command(
     after_help = "Example:\n  handeye compare monday/calibration.json tuesday/calibration.json\n\n\
 Distances are from the combined result: `rms` is the root of their mean square, `max` the largest,\n\
-`one alone` the standard deviation of a single result (the sum of squares over n - 1): how far one\n\
-calibration of this cell scatters. In JSON: rms, max, axes, standard_deviation.\n\n\
-Exit code 0: they agree within what they say of their errors (p >= 0.01); 3: they do not, or cannot\n\
+`std dev` the standard deviation of a single result (n - 1 in the denominator): the repeatability of\n\
+one calibration of this cell. In JSON: rms, max, axes, standard_deviation.\n\n\
+Exit code 0: the results agree within their covariances (p >= 0.01); 3: they do not, or cannot\n\
 be tested because one states no covariance."
 )]
 pub struct CompareArgs {
@@ -271,7 +271,7 @@ pub struct CompareArgs {
     after_help = "Examples:\n  handeye detect images/*.png --target handeye.toml\n  handeye detect 01.png --target board.toml --draw found --json\n  handeye detect *.png --target circles.toml --camera camera.yaml"
 )]
 pub struct DetectArgs {
-    /// PNG, JPEG, TIFF or BMP pictures.
+    /// PNG, JPEG, TIFF or BMP images.
     #[arg(required = true)]
     pub images: Vec<PathBuf>,
     /// A manifest or another TOML file with a `[target]`, or with several `[[target]]`, each with a
@@ -282,7 +282,7 @@ pub struct DetectArgs {
     #[arg(long)]
     pub draw: Option<PathBuf>,
     /// The camera's intrinsics, in any file that a manifest may name: circles are found where their
-    /// centres are, and residuals know the lens.
+    /// centres are, and residuals include the distortion.
     #[arg(long)]
     pub camera: Option<PathBuf>,
     /// Which camera, in a file of several.
@@ -307,17 +307,17 @@ pub struct RegisterArgs {
     /// symmetric, point-to-point, point-to-plane or gicp.
     #[arg(long, default_value = "symmetric")]
     pub method: String,
-    /// JSON file with the start [default: both scans lie as they are; see --global].
+    /// JSON file with the initial guess of target_from_source [default: identity; without a guess use --global].
     #[arg(long)]
     pub initial: Option<PathBuf>,
-    /// Search for the source everywhere in the target, without an initial guess. A symmetric part is answered with all
-    /// of its places.
+    /// Search for the source everywhere in the target, without an initial guess. Of a symmetric part
+    /// all equivalent poses are listed.
     #[arg(long, conflicts_with = "initial")]
     pub global: bool,
-    /// Surfaces farther apart are not compared; about how far the start may be off [default: 50].
+    /// Maximum correspondence distance; about the largest error of the initial guess [default: 50].
     #[arg(long)]
     pub max_distance_mm: Option<f64>,
-    /// Most rounds over all points, and over some from each start.
+    /// Maximum number of iterations, with all points, and with a subset from each initial guess.
     #[arg(long, default_value_t = 60)]
     pub max_iterations: usize,
     /// A page with the verdict, both scans in 3D before and after, and their distances.
@@ -425,7 +425,7 @@ pub struct TcpArgs {
     /// Lines before the table.
     #[arg(long, default_value_t = 0)]
     pub skip_header: u32,
-    /// Spread of the tip (root mean square) beyond which the answer is rejected.
+    /// Maximum RMS distance of the tip from the fixed point; above it the result is rejected.
     #[arg(long, default_value_t = 2.0)]
     pub limit_mm: f64,
 }
@@ -446,13 +446,13 @@ pub struct VerifyArgs {
     /// Largest distance between tip and prediction that the job allows.
     #[arg(long)]
     pub tolerance_mm: Option<f64>,
-    /// How well the tip was led onto the points: standard deviation, each axis.
+    /// Standard deviation of touching a point with the tip, per axis.
     #[arg(long, default_value_t = 0.2)]
     pub touch_noise_mm: f64,
-    /// How well the camera measured the points of the file: standard deviation, each axis.
+    /// Standard deviation of the camera's points in the file, per axis.
     #[arg(long, default_value_t = 0.2)]
     pub camera_noise_mm: f64,
-    /// Folder for verify.html; it is made if need be.
+    /// Folder for verify.html; created if it does not exist.
     #[arg(long, short)]
     pub out: Option<PathBuf>,
 }
@@ -470,10 +470,10 @@ Exit code 0: nothing is wrong; 3: something is."
 pub struct CheckArgs {
     /// Folder with `handeye.toml`, or a manifest.
     pub dataset: PathBuf,
-    /// Where the manifest's names are relative to, if not to its own folder.
+    /// Folder that the file names in the manifest are relative to [default: the folder of the manifest].
     #[arg(long)]
     pub root: Option<PathBuf>,
-    /// Write the corrected manifest; a number chooses among explanations that fit alike.
+    /// Write the corrected manifest; a number chooses one of several explanations that fit equally well.
     #[arg(long, value_name = "NUMBER", num_args = 0..=1, require_equals = true, default_missing_value = "0")]
     pub apply: Option<usize>,
 }

@@ -90,9 +90,9 @@ const MANY_TIMES: f64 = 1e6;
 
 fn closer(times: f64) -> String {
     match times {
-        t if t > MANY_TIMES => "more than a million times closer".into(),
-        t if t >= 100.0 => format!("{t:.0} times closer"),
-        t => format!("{t:.1} times closer"),
+        t if t > MANY_TIMES => "score more than a million times smaller".into(),
+        t if t >= 100.0 => format!("score {t:.0} times smaller"),
+        t => format!("score {t:.1} times smaller"),
     }
 }
 
@@ -101,7 +101,9 @@ fn evidence(declared: Option<&Score>, e: &Explanation) -> String {
     let Some(after) = &e.after else { return String::new() };
     let mut text = format!("    median residual  {}\n", residual(Some(after)));
     text += &match (e.p_value, declared) {
-        (Some(p), _) => format!("    evidence         chance of it in a right dataset: {p:.1e}\n"),
+        (Some(p), _) => format!(
+            "    evidence         p = {p:.1e} (probability in a dataset without this mistake)\n"
+        ),
         (None, Some(d)) => {
             format!("    evidence         {}\n", closer(d.score / after.score))
         }
@@ -115,7 +117,7 @@ fn text(answer: &Answer, apply: Option<usize>) -> String {
     let a = &answer.found;
     let mut text = String::from("\n");
     text += &match (a.ok, a.explanations.is_empty()) {
-        (true, _) => output::wrapped("", "Nothing is wrong that captures can tell."),
+        (true, _) => output::wrapped("", "No mistake found in the captures."),
         (false, true) => output::wrapped(
             "",
             "The captures do not agree, and none of the usual mistakes explains it: check the \
@@ -145,7 +147,7 @@ fn text(answer: &Answer, apply: Option<usize>) -> String {
         }
     }
     if let Some(r) = &a.runner_up {
-        let what = format!("next best of {} readings: {}", a.readings_tried, r.message);
+        let what = format!("next best of {} alternatives tried: {}", a.readings_tried, r.message);
         text += "\n";
         text += &output::wrapped("   ", &what);
         text += &format!("    median residual  {}\n", residual(Some(&r.after)));
@@ -192,9 +194,9 @@ mod tests {
 
     #[test]
     fn large_factors_are_said_in_words() {
-        assert_eq!(closer(388_105_634.0), "more than a million times closer");
-        assert_eq!(closer(f64::INFINITY), "more than a million times closer");
-        assert_eq!(closer(4321.9), "4322 times closer");
-        assert_eq!(closer(3.16), "3.2 times closer");
+        assert_eq!(closer(388_105_634.0), "score more than a million times smaller");
+        assert_eq!(closer(f64::INFINITY), "score more than a million times smaller");
+        assert_eq!(closer(4321.9), "score 4322 times smaller");
+        assert_eq!(closer(3.16), "score 3.2 times smaller");
     }
 }

@@ -196,7 +196,7 @@ fn table(a: &Answer, count: usize) -> String {
     text += &format!("  quaternion   {i:11.7} {j:11.7} {k:11.7} {w:11.7}   x y z w\n");
     text += &format!(
         "\n  {:<27}{:>8}{:>8}{:>9}{:>8}{:>8}{:>10}\n",
-        "distance from the combined", "rms", "max", "rms x", "rms y", "rms z", "one alone"
+        "distance from the combined", "rms", "max", "rms x", "rms y", "rms z", "std dev"
     );
     text += &line("camera origin, mm", &a.spread.camera_origin_mm, 3);
     text += &line("0.5 m before the camera, mm", &a.spread.half_a_metre_before_camera_mm, 3);
@@ -221,8 +221,8 @@ fn sentence(a: &Answer) -> String {
             .into();
     };
     let verdict = match a.agree {
-        Some(true) => "AGREE  they differ no more than they say",
-        _ => "DISAGREE  they differ by more than they say",
+        Some(true) => "AGREE  the results differ no more than their covariances allow",
+        _ => "DISAGREE  the results differ by more than their covariances allow",
     };
     format!(
         "{verdict}\n       chi-square {:.1} at {} degrees of freedom, {}",

@@ -97,7 +97,7 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     let prepared = began.elapsed();
     let found = register_surfaces(&surfaces[0], &surfaces[1], &start, &config);
     if found.verdict == Verdict::Rejected && args.initial.is_none() && !args.global {
-        let what = "no start was given, so both scans were taken to lie as they are: --global looks for one";
+        let what = "no initial guess was given, so the identity was used: give --initial FILE, or search with --global";
         warnings.push(Warning::new("no-start", what));
     }
     let seconds = Seconds {

@@ -96,7 +96,7 @@ pub struct SimulateArgs {
     /// Error of every touch (3-D RMS).
     #[arg(long, default_value_t = 0.3)]
     pub touch_mm: f64,
-    /// Distance between the tool's tip and where the robot believes it.
+    /// Error of the declared tool tip: distance from the true tip.
     #[arg(long, default_value_t = 0.0)]
     pub tip_mm: f64,
     /// Noise of corners, with --no-images.
@@ -141,7 +141,7 @@ pub struct SimulateArgs {
     /// Pixels of a scan per pixel of an image: 1, 0.5, ...
     #[arg(long, default_value_t = 1.0)]
     pub scan_scale: f64,
-    /// Lists of corners instead of pictures.
+    /// Lists of corners instead of images.
     #[arg(long)]
     pub no_images: bool,
     /// Write into a folder that holds other files, or files of it that were edited.

@@ -175,7 +175,7 @@ fn warnings(robot: &RobotPoses, found: &Pivot) -> Vec<Warning> {
     for &k in &found.rejected {
         let (name, mm) = (&robot.names[k], found.residuals[k].norm() * 1e3);
         let message = format!(
-            "pose {name} is left out: its tip lies {mm:.1} mm from the point of the others; was \
+            "pose {name} is rejected as an outlier: its tip lies {mm:.1} mm from the point of the others; was \
              the tip on the point?"
         );
         all.push(Warning::new("pose-left-out", message));
@@ -212,7 +212,7 @@ fn text(a: &Answer) -> String {
     if a.poses.is_empty() {
         return text;
     }
-    text += &format!("\n  {:<20}{:>14}{:>14}\n", "pose", "off by", "left out");
+    text += &format!("\n  {:<20}{:>14}{:>14}\n", "pose", "residual", "held out");
     for pose in &a.poses {
         let left_out = pose.held_out_mm.map_or("-".into(), |mm| format!("{mm:.3} mm"));
         let mark = if pose.used { "" } else { "  not used" };

@@ -200,7 +200,7 @@ fn tell_diameter(dataset: &Dataset, seen: &[Seen], warnings: &mut Vec<Warning>) 
         "ball-diameter-found",
         format!(
             "no diameter_mm given: {} scans find {:.2} mm (median, from {least:.2} to {most:.2}); \
-             declared, it makes the centres surer",
+             set `target.diameter_mm` to the measured value for more accurate centres",
             all.len(),
             median(all.iter().copied())
         ),

@@ -154,16 +154,16 @@ impl Scans<'_> {
         let own = self.placed.links.iter().filter(|l| l.source == scan || l.target == scan);
         let Some(best) = own.max_by(|a, b| common(a).total_cmp(&common(b))) else {
             return match self.kind {
-                SceneKind::Scene => "no other scan shows enough of what it shows".into(),
+                SceneKind::Scene => "it overlaps too little with every other scan".into(),
                 SceneKind::Object => "the object was not looked for in it".into(),
             };
         };
         let may_slide = best.found.undetermined.is_empty() && self.kind == SceneKind::Scene;
         if let Some(free) = may_slide.then(|| self.slides(scan)).flatten() {
-            return format!("what it shows slides on itself, which leaves free: {free}");
+            return format!("its surface does not constrain {free}");
         }
         let why = self.why_not(best);
-        let why = why.as_deref().unwrap_or("the scans that fit hang together nowhere");
+        let why = why.as_deref().unwrap_or("the scans that fit pairwise form no connected group");
         match self.kind {
             SceneKind::Object => format!("the object was not found in it: {why}"),
             SceneKind::Scene => {

@@ -146,7 +146,7 @@ fn conclude(
             let counted = format!("{} of {all} touches lie within {tolerance} mm", w.count);
             let bound = format!(
                 "with 95 % confidence at least {:.0} % of all points lie within {tolerance} mm; \
-                 59 touches, all within, would show 95 %",
+                 to show 95 %, 59 touches are needed, all within",
                 100.0 * w.at_least
             );
             let wanted = "95 % are wanted".to_owned();
@@ -232,7 +232,7 @@ fn warnings(c: &Calibration, found: &Verification) -> Vec<Warning> {
         all.push(Warning::new("common-offset", message));
     } else if let Some(a) = found.agreement.filter(|a| a.p_value < LEAST_CHANCE) {
         let message = format!(
-            "the touches are off by more than calibration and touches say of themselves \
+            "the distances at the touches are larger than the stated uncertainty of calibration and touches \
              (chi-square {:.1} where {} is expected): the stated uncertainty is too small",
             a.chi_square, a.degrees_of_freedom
         );

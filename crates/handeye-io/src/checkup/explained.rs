@@ -145,7 +145,7 @@ fn on_flange(setup: Setup, distance: f64) -> String {
         Setup::EyeInHand => "camera",
         Setup::EyeToHand => "target",
     };
-    format!("(the {what} then sits {distance:.2} m from the flange)")
+    format!("(the {what} is then {distance:.2} m from the flange)")
 }
 
 /// What else is wrong beside the direction.
@@ -174,7 +174,7 @@ fn by_hand(finding: &Finding, captures: &[String], left: usize) -> String {
             format!("take these captures again, or leave them out with {leaving_out}")
         }
         Finding::Captures(CaptureFinding::Repeated { .. }) => {
-            "nothing needs correcting: a calibration counts one of each place".into()
+            "nothing needs correcting: a calibration uses one capture of each robot pose".into()
         }
         Finding::Captures(CaptureFinding::RobotStill { .. }) | Finding::Movement(_) => {
             format!("only {left} captures would be left: take them again")

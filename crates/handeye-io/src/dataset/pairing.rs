@@ -49,7 +49,7 @@ fn by_number(series: &[Series], warnings: &mut Vec<Warning>) -> Result<Vec<Vec<u
             map.keys().filter(|n| !everywhere(n)).map(u64::to_string).collect();
         if !alone.is_empty() {
             let message = format!(
-                "{}: {} with number {} have no partner and are left out",
+                "{}: {} with number {} have no partner and are not used",
                 one.place,
                 one.what,
                 alone.join(", ")

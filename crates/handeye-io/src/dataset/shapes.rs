@@ -230,7 +230,7 @@ fn guess(path: &Path, setup: Setup) -> Result<Pose<Mount, Camera>, Error> {
         return Err(refuse(None, what, "name one of this camera on the flange (eye-in-hand)"));
     }
     earlier.hand_eye.mount_from_camera.ok_or_else(|| {
-        let what = "does not say where the camera sits: its calibration has no answer".to_owned();
+        let what = "holds no camera pose: its calibration has no answer".to_owned();
         refuse(None, what, "name one that was accepted, or leave `initial` out")
     })
 }

@@ -70,7 +70,7 @@ fn resolved(found: Found, source: &Path, declared: &Declared) -> Result<Imported
     let wanted = if setup == Setup::EyeToHand { IN_BASE } else { ON_FLANGE };
     let is_cameras = is_cameras.ok_or_else(|| {
         let question = format!(
-            "is the pose {} (where the camera sits), or {} (as HALCON's calibrate_hand_eye has it)?",
+            "is the pose {} (pose of the camera), or {} (as HALCON's calibrate_hand_eye has it)?",
             wanted.name(),
             wanted.inverse().name()
         );

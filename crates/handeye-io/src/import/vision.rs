@@ -49,7 +49,7 @@ pub(super) fn zivid_or_opencv(source: &Path, declared: &Declared) -> Result<Opti
     if ZIVID.contains(&key.as_str()) {
         let unit = declared.length_unit.unwrap_or(LengthUnit::Millimetre);
         let note = format!(
-            "{key} is taken as Zivid's hand-eye transform: where the camera sits, in {}",
+            "{key} is taken as Zivid's hand-eye transform: the pose of the camera, in {}",
             unit.name()
         );
         return found("result of Zivid", unit, Some(true), vec![note]);
@@ -128,7 +128,7 @@ pub(super) fn mech_mind(source: &Path, declared: &Declared) -> Result<Option<Fou
         pose: pose(&numbers, notation, unit, source)?,
         setup: None,
         is_cameras: Some(true),
-        notes: vec![format!("read as where the camera sits: {notation}, {}", unit.name())],
+        notes: vec![format!("read as the pose of the camera: {notation}, {}", unit.name())],
     }))
 }
 

@@ -57,7 +57,7 @@ fn row(d: &ArmDeviation) -> String {
         Parameter::Beta => "beta, turn of the link about y",
     };
     let unit = if d.parameter.is_angle() { "&deg;" } else { " mm" };
-    let known = if d.observed { "" } else { "not told by the data" };
+    let known = if d.observed { "" } else { "not observable" };
     format!(
         "<tr><td>{}</td><td class=\"words\">{name}</td><td>{:+.3}{unit}</td><td>{:.3}</td>\
          <td class=\"words\">{known}</td></tr>",

@@ -66,7 +66,7 @@ fn sliding(pairs: &[ScenePair]) -> String {
         more => format!("<li>and {more} more</li>"),
     };
     format!(
-        "<h3>What is not determined</h3><p>In {} of {} pairs the surface in common slides on itself; they do not \
+        "<h3>What is not determined</h3><p>In {} of {} pairs the overlap does not constrain all directions; they do not \
          count. Free are</p><ul>{items}{more}</ul>",
         all.len(),
         pairs.len()

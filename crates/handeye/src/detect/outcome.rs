@@ -42,8 +42,8 @@ pub enum NotFound {
     },
     /// A part of a checkerboard that may be any.
     #[error(
-        "{found} of {needed} corners found; a part of a checkerboard has ids only where the sides of \
-         the board that are in sight tell which part it is"
+        "only {found} of {needed} corners are visible, and a partial checkerboard is ambiguous unless its border is \
+         visible; show the whole board, or use ChArUco"
     )]
     PartOfBoard {
         /// Corners of the largest grid.

@@ -128,8 +128,8 @@ impl MostMissing {
                 "the target was not found in {missing} images of {of} captures ({capture}: {reason}): check [target]"
             ),
             Shown::Scene => format!(
-                "{missing} of {of} scans have no place in the scene ({capture}: {reason}): scan a scene with shape on \
-                 all sides, from places that see much in common"
+                "{missing} of {of} scans could not be registered to the scene ({capture}: {reason}): scan a scene with shape on \
+                 all sides, from poses with large overlap"
             ),
             Shown::Object => format!(
                 "{missing} of {of} scans do not show the object ({capture}: {reason}): check [object]"

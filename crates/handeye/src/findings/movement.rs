@@ -95,7 +95,7 @@ impl MovementFinding {
                 if *touches { "; the touches may be older, and are not used" } else { "" }
             ),
             Self::TooFewSince(movement, setup) => format!(
-                "{}, and these do not determine an answer alone: take more captures as the camera sits now",
+                "{}, and these do not determine an answer alone: take more captures with the camera at its current pose",
                 in_words(movement, *setup, false)
             ),
             Self::Elsewhere { is_target: true, first, last, .. } => format!(
@@ -108,7 +108,7 @@ impl MovementFinding {
                 setup.mount()
             ),
             Self::Elsewhere { setup, first, last, .. } => format!(
-                "the camera sat elsewhere on the {} during captures {first} to {last}: it was moved in the session; \
+                "the camera had another pose on the {} during captures {first} to {last}: it was moved in the session; \
                  leave them out",
                 setup.mount()
             ),

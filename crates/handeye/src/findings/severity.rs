@@ -118,7 +118,7 @@ const TABLE: &[Row] = &[
     ),
     changes(
         "views-and-touches-disagree",
-        "views and touches disagree, and the answer holds near the touched places only",
+        "views and touches disagree, and the result is valid near the touched positions only",
         "calibrate the robot where it works, or touch corners there",
     ),
     changes(

@@ -353,7 +353,7 @@ fn warnings(views: &[ViewFit]) -> Vec<Warning> {
     let one = |(index, view): (usize, &ViewFit)| {
         let number = index + 1;
         if view.camera_from_target.is_none() {
-            let text = format!("view {number} does not fit the others and was left out");
+            let text = format!("view {number} does not fit the others and was rejected");
             return Some(Warning::new("view-left-out", text));
         }
         (view.rms_px > CONSPICUOUS * typical).then(|| {

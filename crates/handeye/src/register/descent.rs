@@ -261,8 +261,9 @@ impl<'a> Descent<'a> {
     }
 
     fn step(&self, sums: &Totals) -> Result<Vector6<f64>, Error> {
-        let free =
-            || Error::NotDetermined { what: "the common surface can slide on itself".into() };
+        let free = || Error::NotDetermined {
+            what: "the overlap does not constrain all directions".into(),
+        };
         match &self.along {
             None => {
                 let inverse = linalg::invert_spd(&held(&sums.information)).ok_or_else(free)?;

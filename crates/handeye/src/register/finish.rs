@@ -130,30 +130,30 @@ pub(crate) fn add_reasons(found: &mut Dense, source: &Surface, rivals: &[Rival])
         };
         let nearest = others.iter().map(away).fold(f64::INFINITY, f64::min);
         found.reasons.push(format!(
-            "the scans fit about as well in {} other {}, the nearest {:.0} mm away: give a better start, or \
-             scans with more shape in common",
+            "the scans fit equally well in {} other {}, the nearest {:.0} mm away: give a better `--initial`, or \
+             scans whose overlap has more 3D shape",
             others.len(),
-            if others.len() == 1 { "place" } else { "places" },
+            if others.len() == 1 { "pose" } else { "poses" },
             1e3 * nearest
         ));
     }
     if found.stop == Stop::MaxIterations {
         found.reasons.push(format!(
-            "the rounds were used up, and it still moved ({} in all)",
+            "no convergence after {} iterations: increase `--max-iterations`, or give a better `--initial`",
             found.iterations
         ));
     }
     if found.agreement < AGREEING {
         found.reasons.push(format!(
-            "of the places where both scans show something, it differs at {:.0} %: the start may be too far \
-             off, or things were moved between the scans",
+            "the aligned scans contradict each other in {:.0} % of their overlap (occlusion test): the initial guess is too far \
+             off, or the scene changed between the scans",
             100.0 * (1.0 - found.agreement)
         ));
     }
     if let Some(size) = found.size.filter(Size::differs) {
         found.reasons.push(format!(
-            "the target shows things {:.2} % {} than the source (+/- {:.2} %): see to the scale of the depth, to the \
-             unit, and that both show the same thing in the same version",
+            "the target is {:.2} % {} than the source (+/- {:.2} %): check the depth scale and the \
+             unit, and that both show the same version of the part",
             100.0 * (size.ratio - 1.0).abs(),
             if size.ratio > 1.0 { "larger" } else { "smaller" },
             100.0 * size.sigma
@@ -178,7 +178,7 @@ impl Dense {
         };
         if !self.undetermined.is_empty() {
             let free = self.undetermined.join("; ");
-            self.reasons.push(format!("the common surface leaves free: {free}"));
+            self.reasons.push(format!("the overlap does not constrain: {free}"));
         }
     }
 }

@@ -106,7 +106,7 @@ fn harden(captures: &[Readings], hand_eye: &HandEye) -> HandEye {
 
 fn no_agreement() -> Error {
     Error::NotDetermined {
-        what: "no three captures agree on where the camera sits: the robot's motions and the \
+        what: "no three captures agree on a camera pose: the robot's motions and the \
                camera's have different rotation angles. Are the images and the robot poses of \
                the same captures, in the same order, and the poses read in the right notation?"
             .into(),

@@ -406,7 +406,7 @@ fn conclude(found: &mut Pivot, most_spread: f64) {
     if spread > most_spread {
         found.verdict = Verdict::Rejected;
         found.reasons.push(format!(
-            "the tip strays by {:.2} mm (root mean square) from one point, more than {:.2} mm",
+            "the RMS distance of the tip from the fixed point is {:.2} mm, more than {:.2} mm",
             spread * 1e3,
             most_spread * 1e3
         ));

@@ -284,7 +284,7 @@ fn settle_streams(
         }
     }
     Err(first_error.unwrap_or(Error::NotDetermined {
-        what: "at no time offset do robot and camera turn alike for long enough: either does not \
+        what: "no time offset makes the rotations of robot and camera agree for long enough: one of them does not \
                move, moves at a constant speed, or they were not recorded together"
             .into(),
     }))

@@ -332,7 +332,7 @@ fn too_few_samples_end_with_a_verdict() {
     for (streams, said) in [
         (short, "of the camera stream 2 samples at different times can be used, at least 3 are"),
         (same_time, "of the robot stream 0 samples at different times"),
-        (instant, "at no time offset do robot and camera turn alike"),
+        (instant, "no time offset makes the rotations of robot and camera agree"),
     ] {
         let found = solved(&streams);
         assert_eq!(found.verdict, Verdict::Undetermined);
