@@ -1,7 +1,6 @@
 //! The ways to write a rotation in numbers, and back.
 
-use handeye::math::jacobi::nearest_rotation;
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use super::euler::{self, Axes, Sense};
 
@@ -100,8 +99,19 @@ pub fn rotation_near(m: &Matrix3<f64>) -> Result<UnitQuaternion<f64>, String> {
     if m.determinant() < 0.0 {
         return Err("the matrix mirrors (its determinant is -1): an axis is turned round".into());
     }
-    let nearest = nearest_rotation(m).ok_or("the matrix is no rotation")?;
-    Ok(UnitQuaternion::from_rotation_matrix(&nearest.to_rotation_matrix()))
+    Ok(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(nearest_rotation(
+        *m,
+    ))))
+}
+
+/// The orthonormal factor of `m`: Newton's iteration for the polar decomposition (Higham 1986).
+fn nearest_rotation(mut m: Matrix3<f64>) -> Matrix3<f64> {
+    for _ in 0..4 {
+        if let Some(inverse) = m.transpose().try_inverse() {
+            m = 0.5 * (m + inverse);
+        }
+    }
+    m
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ pub(crate) const TARGET_SCALE: usize = 0;
 pub const DEPTH_SCALE: usize = 1;
 /// Depths in scans are too large by this (m).
 pub(crate) const DEPTH_BIAS: usize = 2;
-/// The first of the lens' parameters, [`Intrinsics::by_parameters`].
+/// The first of the lens' parameters, `Intrinsics::by_parameters`.
 pub const LENS: usize = 3;
 /// The camera's clock is farther ahead of the robot's by this (s).
 pub(crate) const CLOCK: usize = 12;

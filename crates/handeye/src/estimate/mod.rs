@@ -1,12 +1,12 @@
 //! Refinement of both unknowns from a start, with covariance.
 //!
 //! [`joint`] is the estimator: one maximum-likelihood fit of everything that was measured, the
-//! noise of every source estimated alongside, `system` its equations. [`drift`] is the same for views
+//! noise of every source estimated alongside, `system` its equations. `drift` is the same for views
 //! taken one after the other, whose errors may change slowly. Plain least squares, for starts and for
 //! comparison, are in [`crate::solve::least_squares`].
 
 pub mod certify;
-pub(crate) mod drift;
+pub mod drift;
 pub mod evaluate;
 pub mod extra;
 pub mod joint;

@@ -168,7 +168,7 @@ fn moments(s: &Matrix3<f64>, b: &Vector3<f64>) -> (f64, f64) {
 /// Cells along each edge of a slice.
 const CELLS: usize = 16;
 
-/// The error in slices through the middle of a volume; `spread` and `offset` as in [`tre_of_points`],
+/// The error in slices through the middle of a volume; `spread` and `offset` as in `tre_of_points`,
 /// `None` where the camera does not see.
 pub fn map(
     volume: &Volume,

@@ -1,8 +1,7 @@
 //! Numbers: motions, matrices, chance, threads. Nothing here knows of robots or cameras.
 
 pub(crate) mod gram;
-pub mod jacobi;
-pub(crate) mod levenberg;
+pub(crate) mod jacobi;
 pub mod lie;
 pub mod linalg;
 pub mod parallel;

@@ -213,14 +213,14 @@ impl Intrinsics {
         j
     }
 
-    /// The values of [`Self::by_lens`]' parameters; zeros where the lens has none.
+    /// The values of `Self::by_lens`' parameters; zeros where the lens has none.
     pub fn values(&self) -> SVector<f64, LENS_PARAMETERS> {
         let plain = [self.fx, self.fy, self.cx, self.cy];
         let mut all = plain.iter().chain(self.coefficients());
         SVector::from_fn(|_, _| all.next().copied().unwrap_or(0.0))
     }
 
-    /// The camera with these differences added to [`Self::by_parameters`]' parameters.
+    /// The camera with these differences added to `Self::by_parameters`' parameters.
     pub fn moved(&self, d: &SVector<f64, PARAMETERS>) -> Self {
         let mut all = SVector::<f64, LENS_PARAMETERS>::zeros();
         all.rows_mut(0, PARAMETERS).copy_from(d);

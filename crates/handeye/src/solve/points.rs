@@ -20,7 +20,7 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, SVector, Vector3, Vector6};
 
 use crate::{
     Anchor, Camera, Error, Mount, Point, Pose,
-    math::{levenberg::Descent, lie, linalg::median, random::Random},
+    math::{lie, linalg::median, random::Random},
 };
 
 /// One capture.
@@ -269,9 +269,30 @@ fn equations(views: &[PointView], s: &State, robot: Option<f64>) -> (Nine, SVect
     (h, g, cost)
 }
 
+/// Levenberg-Marquardt.
 fn descend(views: &[PointView], start: State, robot: Option<f64>, steps: usize) -> State {
-    let descent = Descent { steps, shortest: 1e-12, slack: 1e-12, floor: 1e-12 };
-    descent.run(start, |state| equations(views, state, robot), |state, step| state.moved(step)).0
+    let mut state = start;
+    let (mut h, mut g, mut cost) = equations(views, &state, robot);
+    let mut damping = 1e-6;
+    for _ in 0..steps {
+        let mut damped = h;
+        let floor = 1e-12 * h.trace();
+        (0..9).for_each(|k| damped[(k, k)] += damping * h[(k, k)] + floor);
+        let Some(factor) = damped.cholesky() else { break };
+        let step = -factor.solve(&g);
+        let next = state.moved(&step);
+        let (h2, g2, c2) = equations(views, &next, robot);
+        if c2 <= cost * (1.0 + 1e-12) {
+            (state, h, g, cost) = (next, h2, g2, c2);
+            damping = (0.1 * damping).max(1e-12);
+        } else {
+            damping *= 10.0;
+        }
+        if step.norm() < 1e-12 || damping > 1e9 {
+            break;
+        }
+    }
+    state
 }
 
 /// The variance (m²) that makes the misfits as large as expected.

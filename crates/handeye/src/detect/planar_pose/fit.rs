@@ -13,7 +13,6 @@ use crate::{
     Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, TargetModel, TargetPose,
     detect::homography,
     math::{
-        levenberg::Descent,
         lie::{self, hat},
         linalg::median,
     },
@@ -213,10 +212,26 @@ impl<'a> Fit<'a> {
     }
 
     fn minimise(&self, start: Isometry3<f64>) -> Option<Isometry3<f64>> {
-        let descent = Descent { steps: MOST_STEPS, shortest: STEP, slack: 0.0, floor: 0.0 };
-        let moved = |pose: &Isometry3<f64>, step: &Vector6<f64>| pose * lie::exp(step);
-        let (pose, cost, is_solved) = descent.run(start, |pose| self.linearise(pose), moved);
-        (is_solved && cost.is_finite()).then_some(pose)
+        let mut pose = start;
+        let (mut normal, mut gradient, mut cost) = self.linearise(&pose);
+        let mut damping = 1e-6;
+        for _ in 0..MOST_STEPS {
+            let mut damped = normal;
+            (0..6).for_each(|k| damped[(k, k)] *= 1.0 + damping);
+            let step = -damped.cholesky()?.solve(&gradient);
+            let next = pose * lie::exp(&step);
+            let (n, g, c) = self.linearise(&next);
+            if c <= cost {
+                (pose, normal, gradient, cost) = (next, n, g, c);
+                damping = (damping * 0.1).max(1e-12);
+            } else {
+                damping *= 10.0;
+            }
+            if step.norm() < STEP || damping > 1e9 {
+                break;
+            }
+        }
+        cost.is_finite().then_some(pose)
     }
 
     /// `τ²` so that the squared residuals sum up to the degrees of freedom; the 3D corners' factor
