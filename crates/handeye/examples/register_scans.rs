@@ -15,14 +15,16 @@ fn main() -> Result<(), Error> {
     let mut random = Random::new(4);
     let room = Room::of_a_cell(&mut random);
     let camera = Intrinsics::pinhole(320, 240, 300.0, 300.0, 159.5, 119.5);
-    let room_from_target = Isometry3::identity();
-    let room_from_source =
-        Isometry3::new(Vector3::new(0.06, -0.03, 0.02), Vector3::new(0.02, 0.05, -0.03));
+    // 0.8 m above the table and looking down; then moved by 7 cm and turned by 3.5 degrees
+    let half_turn = Vector3::new(std::f64::consts::PI, 0.0, 0.0);
+    let room_from_target = Isometry3::new(Vector3::new(0.0, 0.0, 0.8), half_turn);
+    let motion = Isometry3::new(Vector3::new(0.06, -0.03, 0.02), Vector3::new(0.02, 0.05, -0.03));
+    let room_from_source = room_from_target * motion;
     let target = room.scan(&room_from_target, &camera, 0.5e-3, &mut random);
     let source = room.scan(&room_from_source, &camera, 0.5e-3, &mut random);
 
     // about where the source is: some centimetres and degrees off will do
-    let start = Isometry3::identity();
+    let start = Isometry3::new(Vector3::new(0.04, -0.02, 0.01), Vector3::new(0.0, 0.03, -0.01));
     let found = register(&source, &target, &start, &DenseConfig::default())?;
 
     println!("{:?}: {}", found.verdict, found.reasons.join("; "));
