@@ -279,7 +279,7 @@ mod tests {
         let error = detect(&picture, &checkerboard(7, 5)).unwrap_err();
         assert!(error.to_string().contains("9 x 6"), "{error}");
         let error = detect(&picture, &checkerboard(11, 8)).unwrap_err();
-        assert!(error.to_string().starts_with("54 of 88 corners found"), "{error}");
+        assert!(error.to_string().starts_with("only 54 of 88 corners are visible"), "{error}");
     }
 
     #[test]

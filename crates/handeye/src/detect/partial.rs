@@ -229,7 +229,7 @@ mod tests {
             let seen = move |x: f64, y: f64| (low..high).contains(&x) && (0.6..4.5).contains(&y);
             let picture = covered(&scene, |x, y| !seen(x, y));
             let error = board::detect(&picture, &scene.target).unwrap_err().to_string();
-            assert!(error.contains("a part of a checkerboard"), "{error}");
+            assert!(error.contains("a partial checkerboard is ambiguous"), "{error}");
         }
     }
 
