@@ -427,7 +427,11 @@ fn scans_that_differ_at_many_places_are_refused() {
     assert_eq!(few.verdict, Verdict::Accepted, "{:?}", few.reasons);
     assert!(few.agreement < 0.995, "{}", few.agreement);
     assert_eq!(many.verdict, Verdict::Rejected);
-    assert!(many.reasons[0].contains("the aligned scans contradict each other"), "{:?}", many.reasons);
+    assert!(
+        many.reasons[0].contains("the aligned scans contradict each other"),
+        "{:?}",
+        many.reasons
+    );
 }
 
 /// Three planes are the same in every size, and noise of their normals tells nothing.
