@@ -176,6 +176,7 @@ fn a_touch_that_is_listed_several_times_counts_once() {
     let once = calibrate(&session, &Config::default()).unwrap();
     let mut found = calibrate(&copied, &Config::default()).unwrap();
     let repeated: Vec<_> = found.warnings.extract_if(.., |w| w.code == "touch-repeated").collect();
+    found.findings.retain(|f| f.code != "touch-repeated");
     assert_eq!(repeated.len(), 1);
     assert!(repeated[0].message.contains("listed 4 times"), "{}", repeated[0].message);
     assert_eq!(once, found);

@@ -161,7 +161,11 @@ fn compare(
     let mut chosen = choose(&candidates, volume, config);
     if config.method.is_some() {
         evidence.unit_and_clock = named::unit(views, task, &evidence);
-        chosen = chosen.map(|c| named::by_likeliest(views, fit, config, &evidence, c));
+        let is_open = !evidence.notes.undetermined.is_empty() && !evidence.notes.rejects;
+        if is_open {
+            let own = chosen.unwrap_or_default();
+            chosen = Some(named::by_likeliest(views, fit, config, &evidence, own));
+        }
     }
     if let Some((choice, held_out)) = &mut chosen {
         evidence.captures = captures::held_out(views, held_out, evidence.captures);

@@ -23,11 +23,8 @@ pub(super) fn by_likeliest(
     fit: &JointFit,
     config: &Config,
     found: &Evidence,
-    (own, own_held_out): (Choice, HeldOut),
+    (own, _): (Choice, HeldOut),
 ) -> (Choice, HeldOut) {
-    if found.notes.undetermined.is_empty() || found.notes.rejects {
-        return (own, own_held_out);
-    }
     let problem = views::views_problem(views.session, &views.views, &fit.extras);
     let left_out = joint::held_out_views(&problem, fit, &config.known);
     let held_out = evaluate::rms(&left_out);
