@@ -34,9 +34,8 @@ use crate::math::jacobi;
 use crate::{Error, HandEye, PosePair};
 pub use least_squares::View;
 pub(crate) use motions::check;
-pub use shared::FEWEST_POSES;
-pub(crate) use shared::place_target;
 pub(crate) use shared::too_few;
+pub use shared::{FEWEST_POSES, place_target};
 
 /// A published closed form.
 ///

@@ -27,7 +27,7 @@ pub(crate) fn too_few(found: usize) -> Error {
 }
 
 /// The target's place that fits best once the camera's is known: the mean of `A X B⁻¹`.
-pub(crate) fn place_target(pairs: &[PosePair], mount_from_camera: &Pose<Mount, Camera>) -> HandEye {
+pub fn place_target(pairs: &[PosePair], mount_from_camera: &Pose<Mount, Camera>) -> HandEye {
     let seen: Vec<_> = pairs
         .iter()
         .map(|p| p.anchor_from_mount * *mount_from_camera * p.camera_from_target)
