@@ -1,6 +1,6 @@
 //! Dimensions that no target has.
 
-use super::{family::Markers, kinds::TargetModel};
+use super::kinds::TargetModel;
 use crate::{Error, model::dictionary::Dictionary};
 
 /// Most corners a board may declare; larger counts are mistakes or attacks.
@@ -44,7 +44,7 @@ pub(super) fn tag_counts(tags_x: u32, tags_y: u32, grid: (u32, u32)) -> Result<(
 }
 
 /// Every tag of the board must be in the dictionary.
-pub(super) fn markers((name, first, count): Markers) -> Result<(), Error> {
+pub(super) fn markers((name, first, count): (&str, u32, u64)) -> Result<(), Error> {
     let Some(dictionary) = Dictionary::named(name) else {
         return invalid(format!(
             "the dictionary {name:?} is not known; write OpenCV's name, such as DICT_4X4_50, \
