@@ -1,7 +1,5 @@
 //! Misfit of every capture and touch, and which way round the target lies.
 
-use crate::estimate::evaluate::HeldOut;
-use crate::model::residual::Residual;
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
     TargetPose, Touch,
@@ -17,11 +15,12 @@ use crate::{
     },
     estimate::{
         JointFit, evaluate,
+        evaluate::HeldOut,
         touches::{self, TouchPairs},
     },
     findings::{TouchFinding, touches::Unseen},
     math::lie,
-    model::session::Session,
+    model::{residual::Residual, session::Session},
     solve::View,
 };
 

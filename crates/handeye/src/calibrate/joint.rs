@@ -1,7 +1,6 @@
 //! The joint candidate: views and touches in one fit, wrong touches left out, and a systematic
 //! difference between the two where the data show one.
 
-use crate::estimate::evaluate::HeldOut;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::{
@@ -18,6 +17,7 @@ use crate::{
     },
     estimate::{
         Extra, ExtraKind, JointFit, KnownNoise, Problem, TouchedBoard, evaluate,
+        evaluate::HeldOut,
         extra::{SYSTEMATIC, TIP_PRIOR, systematic, tip},
         joint,
     },

@@ -2,7 +2,6 @@
 //! data, whatever numbers a closed form makes of them.
 
 use super::{joint, verdict};
-use crate::estimate::evaluate::HeldOut;
 use crate::{
     calibrate::{
         answers,
@@ -12,7 +11,7 @@ use crate::{
         unknown::Task,
         views::{self, Views, camera_in_words},
     },
-    estimate::{JointFit, evaluate},
+    estimate::{JointFit, evaluate, evaluate::HeldOut},
     solve,
 };
 

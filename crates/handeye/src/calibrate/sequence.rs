@@ -8,7 +8,6 @@
 //! answer, covariance and predicted error are those of the fit with drift. A camera that walks away in
 //! its holder has no one place, and its result is rejected.
 
-use crate::model::residual::Residual;
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
@@ -35,6 +34,7 @@ use crate::{
     findings::{Finding, RobotFinding, StreamFinding, streams::Drift},
     math::lie,
     mistakes,
+    model::residual::Residual,
     register::rigid_fit::point_jacobian,
     solve::{View, least_squares},
 };

@@ -1,12 +1,12 @@
 //! The unknowns beside both poses, by fits that are linearised anew until they stay.
 
-use crate::model::residual::Residual;
 use nalgebra::Vector6;
 
 use super::unknown::{self, Unknown};
 use crate::{
     Error, HandEye, PosePair, Setup,
     estimate::{self, JointFit, KnownNoise, Problem},
+    model::residual::Residual,
     solve::{
         View,
         consensus::{self, Consensus, Readings},

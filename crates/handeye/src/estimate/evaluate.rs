@@ -1,11 +1,11 @@
 //! How good an answer is: on the captures it was made from, and on captures it has not seen.
 
-use crate::model::residual::Residual;
 use serde::{Deserialize, Serialize};
 
 use crate::{
     Error, HandEye, Intrinsics, Observation, PosePair, Setup, TargetModel,
     estimate::predict::Volume,
+    model::residual::Residual,
     solve::{self, Method, View, least_squares, motions},
 };
 

@@ -4,8 +4,7 @@ use super::{
     evidence::{Evidence, Explanation},
     thresholds::{MOTION, SAME_ROBOT, SAME_VIEW},
 };
-use crate::model::residual::Residual;
-use crate::{findings::CaptureFinding, solve::consensus::Readings};
+use crate::{findings::CaptureFinding, model::residual::Residual, solve::consensus::Readings};
 
 /// Captures with one robot pose during which the target moved in the images.
 pub(super) fn robot(evidence: &Evidence) -> Option<Explanation> {

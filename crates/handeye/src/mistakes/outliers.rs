@@ -8,10 +8,10 @@ use super::{
     score::{agreeing, pair},
     thresholds::{AS_GOOD, LEAST_TYPICAL, NEARLY, RESTORABLE, RESTORED},
 };
-use crate::model::residual::Residual;
 use crate::{
     Setup,
     estimate::JointFit,
+    model::residual::Residual,
     solve::{
         View,
         consensus::{Consensus, Readings},

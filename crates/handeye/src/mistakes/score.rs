@@ -10,9 +10,9 @@
 //! fits three captures alone costs much (the Cauchy loss; F. Hampel et al., *Robust Statistics*, 1986).
 
 use super::thresholds::{BELIEVABLE, UNIT};
-use crate::model::residual::Residual;
 use crate::{
     PosePair,
+    model::residual::Residual,
     solve::consensus::{self, Consensus, Readings},
 };
 

@@ -22,12 +22,12 @@
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, Vector4};
 
 use super::{
-    jacobi, kronecker, moments,
+    kronecker, moments,
     moments::Translations,
     motions::check,
     shared::{open, place},
 };
-use crate::{Error, HandEye, PosePair};
+use crate::{Error, HandEye, PosePair, math::jacobi};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let all = moments::seen(pairs)?;

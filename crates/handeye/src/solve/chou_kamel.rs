@@ -20,11 +20,11 @@
 use nalgebra::Matrix4;
 
 use super::{
-    jacobi, moments,
+    moments,
     moments::Translations,
     shared::{open, place},
 };
-use crate::{Error, HandEye, PosePair};
+use crate::{Error, HandEye, PosePair, math::jacobi};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let all = moments::seen(pairs)?;

@@ -16,10 +16,10 @@
 //!
 //! M. Fischler and R. Bolles, *Random sample consensus*, CACM 24(6), 1981.
 
-use crate::model::residual::Residual;
 use crate::{
     Anchor, Camera, Error, HandEye, Mount, Pose, PosePair, Target,
     math::linalg::median,
+    model::residual::Residual,
     solve::{
         self, FEWEST_POSES, Method, View, few_axes, graduated::graduated, half_turns,
         least_squares::fit_fixed_weights, motions,

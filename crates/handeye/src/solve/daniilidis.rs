@@ -22,11 +22,11 @@
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, SVector, Vector3, Vector4};
 
 use super::{
-    jacobi, moments,
+    moments,
     moments::{Seen, product},
     shared::{open, place},
 };
-use crate::{Error, HandEye, PosePair};
+use crate::{Error, HandEye, PosePair, math::jacobi};
 
 /// Sixth over largest eigenvalue of the rows' moments below which a third null vector is there.
 const NO_ROW: f64 = 1e-14;

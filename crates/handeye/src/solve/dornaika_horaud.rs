@@ -14,8 +14,8 @@
 //! F. Dornaika and R. Horaud, *Simultaneous robot-world and hand-eye calibration*, IEEE T-RA
 //! 14(4), 1998.
 
-use super::{jacobi, moments, shared::open, zhuang::with_positions};
-use crate::{Error, HandEye, PosePair};
+use super::{moments, shared::open, zhuang::with_positions};
+use crate::{Error, HandEye, PosePair, math::jacobi};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let s = moments::loops(&moments::seen(pairs)?);

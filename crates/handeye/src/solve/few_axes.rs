@@ -17,10 +17,10 @@
 
 use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, UnitQuaternion, Vector3};
 
-use super::{jacobi, motions, shared::place_target};
+use super::{motions, shared::place_target};
 use crate::{
     HandEye, Pose, PosePair,
-    math::{lie, linalg},
+    math::{jacobi, lie, linalg},
 };
 
 /// Eigenvalues below this part of the largest belong to directions that are free.

@@ -15,11 +15,11 @@
 //! H. Yang, P. Antonante, V. Tzoumas, L. Carlone, *Graduated non-convexity for robust spatial
 //! perception: from non-minimal solvers to global outlier rejection*, IEEE RA-L 5(2), 2020.
 
-use crate::model::residual::Residual;
 use nalgebra::{Matrix6, Vector6};
 
 use crate::{
     HandEye,
+    model::residual::Residual,
     solve::{View, least_squares::fit_weighted},
 };
 

@@ -19,11 +19,14 @@
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, UnitQuaternion, Vector3, Vector6};
 
 use super::{
-    jacobi, moments,
+    moments,
     moments::{Seen, Translations},
     shared::{open, place},
 };
-use crate::{Error, HandEye, PosePair, math::lie};
+use crate::{
+    Error, HandEye, PosePair,
+    math::{jacobi, lie},
+};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let all = moments::seen(pairs)?;

@@ -4,8 +4,8 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::{jacobi, moments, shared::open};
-use crate::{Error, PosePair};
+use super::{moments, shared::open};
+use crate::{Error, PosePair, math::jacobi};
 
 /// Adds `b ⊗ a`.
 #[inline]

@@ -17,8 +17,8 @@
 
 use nalgebra::{Isometry3, Matrix3, SMatrix};
 
-use super::{jacobi, kronecker, kronecker::Centred, moments, shared::open};
-use crate::{Error, HandEye, Pose, PosePair};
+use super::{kronecker, kronecker::Centred, moments, shared::open};
+use crate::{Error, HandEye, Pose, PosePair, math::jacobi};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let n = pairs.len() as f64;

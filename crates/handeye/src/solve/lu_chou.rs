@@ -21,10 +21,10 @@ use nalgebra::Matrix4;
 
 use super::{
     daniilidis::{Products, from_dual},
-    jacobi, moments,
+    moments,
     shared::{open, place},
 };
-use crate::{Error, HandEye, PosePair};
+use crate::{Error, HandEye, PosePair, math::jacobi};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let all = moments::seen(pairs)?;

@@ -30,7 +30,6 @@ mod tsai_lenz;
 mod wu;
 mod zhuang;
 
-use crate::math::jacobi;
 use crate::{Error, HandEye, PosePair};
 pub use least_squares::View;
 pub(crate) use motions::check;

@@ -17,8 +17,8 @@
 
 use nalgebra::{Isometry3, Matrix3, Matrix4, SMatrix, UnitQuaternion, Vector3, Vector4};
 
-use super::{jacobi, shared::open};
-use crate::{Error, PosePair};
+use super::shared::open;
+use crate::{Error, PosePair, math::jacobi};
 
 /// A capture seen from the first one.
 #[derive(Debug, Clone, Copy)]

@@ -5,10 +5,13 @@
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
 use super::{
-    jacobi, moments,
+    moments,
     shared::{FEWEST_POSES, too_few},
 };
-use crate::{Error, PosePair, math::lie};
+use crate::{
+    Error, PosePair,
+    math::{jacobi, lie},
+};
 
 /// One relative motion, seen by the robot and by the camera.
 #[derive(Debug, Clone, Copy)]

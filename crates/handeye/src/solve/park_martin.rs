@@ -17,11 +17,11 @@
 use nalgebra::Matrix3;
 
 use super::{
-    jacobi, moments,
+    moments,
     moments::{Seen, Translations},
     shared::{open, place},
 };
-use crate::{Error, HandEye, PosePair};
+use crate::{Error, HandEye, PosePair, math::jacobi};
 
 /// Up to this many captures all motions are used.
 const ALL_UP_TO: usize = 256;

@@ -20,8 +20,8 @@
 
 use nalgebra::{Isometry3, Matrix3, SMatrix, UnitQuaternion};
 
-use super::{jacobi, kronecker, kronecker::Centred, shared::open};
-use crate::{Error, HandEye, Pose, PosePair};
+use super::{kronecker, kronecker::Centred, shared::open};
+use crate::{Error, HandEye, Pose, PosePair, math::jacobi};
 
 pub(super) fn solve(pairs: &[PosePair]) -> Result<HandEye, Error> {
     let (r_x, r_y) = rotations(&kronecker::sum(pairs))?;

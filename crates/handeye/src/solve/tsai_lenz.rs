@@ -19,11 +19,11 @@
 use nalgebra::{Matrix3, Matrix4, UnitQuaternion, Vector3, Vector4};
 
 use super::{
-    jacobi, moments,
+    moments,
     moments::{Seen, Translations},
     shared::{open, place},
 };
-use crate::{Error, HandEye, PosePair};
+use crate::{Error, HandEye, PosePair, math::jacobi};
 
 /// Lengths of `P`, of robot and camera, between which a motion is used.
 const LENGTHS: [f64; 2] = [0.3, 1.7];

@@ -30,11 +30,10 @@ use nalgebra::{Matrix4, Vector3, Vector4};
 
 use super::{
     daniilidis::from_dual,
-    jacobi,
     moments::{self, Seen},
     shared::{open, place},
 };
-use crate::{Error, HandEye, PosePair};
+use crate::{Error, HandEye, PosePair, math::jacobi};
 
 /// Motions from each of many captures.
 const PARTNERS: usize = 16;

@@ -20,12 +20,11 @@
 use nalgebra::{Isometry3, Matrix3, SMatrix, UnitQuaternion, Vector4, Vector6};
 
 use super::{
-    jacobi,
     kronecker::Centred,
     moments::{self, between, product, vector},
     shared::open,
 };
-use crate::{Error, HandEye, Pose, PosePair};
+use crate::{Error, HandEye, Pose, PosePair, math::jacobi};
 
 /// Least scalar part of a pose that is used.
 const LEAST_SCALAR: f64 = 0.05;
