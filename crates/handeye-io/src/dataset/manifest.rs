@@ -32,11 +32,11 @@ pub(crate) struct Manifest {
     /// captures.target says which of them the calibration uses. Without a board: "scene", a still scene (eye-in-hand),
     /// or "object", an object of known shape, in scans.
     pub(crate) target: Option<TargetSpec>,
-    /// Belongs to target = "scene"; may be left out.
+    /// Belongs to target = "scene"; optional.
     pub(crate) scene: Option<SceneSpec>,
     /// Belongs to target = "object".
     pub(crate) object: Option<ObjectSpec>,
-    /// Intrinsics; left out, they are calibrated from the views.
+    /// Intrinsics; without them they are calibrated from the views.
     pub(crate) camera: Option<CameraSpec>,
     /// What the robot reported at every capture.
     pub(crate) robot: Option<RobotSpec>,
@@ -64,7 +64,7 @@ pub(crate) struct Manifest {
     pub(crate) workspace: Option<WorkspaceSpec>,
     /// The camera's position along one direction of the base (eye-to-hand) or flange (eye-in-hand).
     pub(crate) known_position: Option<KnownPositionSpec>,
-    /// Standard deviations; what is left out is estimated.
+    /// Standard deviations; those not given are estimated.
     #[serde(default, skip_serializing_if = "is_default")]
     pub(crate) noise: NoiseSpec,
     /// What the job tolerates.
@@ -75,7 +75,7 @@ pub(crate) struct Manifest {
     pub(crate) answer: AnswerSpec,
 }
 
-/// Whether a key has the value that it has when it is left out.
+/// Whether a key has its default value.
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
@@ -260,7 +260,7 @@ impl RobotSpec {
     }
 }
 
-/// Where the tool sits on the flange.
+/// Pose of the tool on the flange.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -302,7 +302,7 @@ pub(crate) struct ScansSpec {
     pub(crate) depth_scale: Option<f64>,
     /// Width and height of the grid that the points of a file are in.
     pub(crate) organised: Option<(usize, usize)>,
-    /// Intrinsics of the depth images; left out, those of the images.
+    /// Intrinsics of the depth images; by default those of the images.
     pub(crate) camera: Option<CameraSpec>,
 }
 

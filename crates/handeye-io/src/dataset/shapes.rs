@@ -26,7 +26,7 @@ use crate::{
 pub enum Shape {
     /// A scene that stands still: scans are brought together by what they have in common.
     Scene {
-        /// About where the camera sits, by an earlier calibration.
+        /// A first estimate of the camera pose, by an earlier calibration.
         guess: Option<Pose<Mount, Camera>>,
     },
     /// A rigid object whose shape is known.
@@ -119,7 +119,7 @@ impl<'de> Visitor<'de> for TargetVisitor {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneSpec {
-    /// calibration.json of an earlier calibration: about where the camera sits on the flange.
+    /// calibration.json of an earlier calibration: a first estimate of the camera pose on the flange.
     initial: Option<String>,
 }
 

@@ -38,10 +38,10 @@ pub(crate) struct DhSpec {
     /// The joints, from the base outwards.
     #[cfg_attr(test, schemars(length(min = 1)))]
     joints: Vec<DhJoint>,
-    /// Where the first joint's frame is in the base; left out, there.
+    /// Pose of the first joint's frame in the base; by default the base itself.
     #[serde(default = "Pose::<Base, FirstJoint>::identity", skip_serializing_if = "is_identity")]
     base_from_first_joint: Pose<Base, FirstJoint>,
-    /// Where the flange is in the last link's frame; left out, there.
+    /// Pose of the flange in the last link's frame; by default that frame itself.
     #[serde(default = "Pose::<LastLink, Flange>::identity", skip_serializing_if = "is_identity")]
     last_link_from_flange: Pose<LastLink, Flange>,
     #[serde(default, rename = "robot_name", skip_serializing)]
@@ -81,7 +81,7 @@ struct DhJoint {
     /// Rotation about y, of Hayati's parameters for parallel axes.
     #[serde(default)]
     beta: f64,
-    /// Whether the joint slides.
+    /// Whether the joint is prismatic.
     #[serde(default)]
     prismatic: bool,
     #[serde(default, rename = "joint_id", alias = "name", skip_serializing)]

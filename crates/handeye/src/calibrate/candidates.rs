@@ -101,7 +101,8 @@ fn fuse(
         && let Some((scale, said)) =
             size::judge(views, (fit, best), (1.0 + optics.size, as_declared.size), task)
     {
-        (evidence.target_scale, _) = (Some(scale), notes.add(said));
+        evidence.target_scale = Some(scale);
+        notes.add(said);
     }
     let (arm, inconsistent) = match arm::look(views, whole, best, used, config) {
         Ok(arm) => (arm, None),
@@ -163,7 +164,7 @@ fn compare(
         evidence.unit_and_clock = named::unit(views, task, &evidence);
         let is_open = !evidence.notes.undetermined.is_empty() && !evidence.notes.rejects;
         if is_open {
-            let own = chosen.unwrap_or_default();
+            let own = chosen.map(|(own, _)| own).unwrap_or_default();
             chosen = Some(named::by_likeliest(views, fit, config, &evidence, own));
         }
     }

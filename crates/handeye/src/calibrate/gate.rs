@@ -2,14 +2,14 @@
 //!
 //! The consensus gates by the median misfit, which is rough. Here every capture is judged by a fit
 //! that has not seen it: its squared Mahalanobis distance, against noise estimated by restricted
-//! likelihood from those that agree. Captures that are no surprise come back in; then the worst of
+//! likelihood from those that agree. Captures that are no outliers come back in; then the worst of
 //! those inside goes out if it is one.
 
 use super::masked::masked;
 use crate::{
     calibrate::{
         config::Config,
-        masked::{IMPROBABLE, surprise_limit},
+        masked::{IMPROBABLE, outlier_limit},
         views::Captures,
     },
     estimate::{self, JointFit},
@@ -58,13 +58,15 @@ fn fit_of(
     estimate::fit_views(&views, &found.hand_eye, &config.known, captures.session.setup).ok()
 }
 
-/// Lets captures in, in their best reading, that are no surprise.
+/// Lets captures in, in their best reading, that are no outliers.
 fn readmit(captures: &Captures, found: &mut Consensus, fit: &JointFit) -> bool {
-    let limit = surprise_limit(IMPROBABLE, 1, fit.degrees_of_freedom);
+    let limit = outlier_limit(IMPROBABLE, 1, fit.degrees_of_freedom);
     let mut changed = false;
     for i in (0..found.agrees.len()).filter(|&i| !found.agrees[i]).collect::<Vec<_>>() {
         let best = (0..captures.readings[i].camera_from_target.len())
-            .filter_map(|k| Some((k, fit.surprise(&captures.view(i, k), captures.session.setup)?)))
+            .filter_map(|k| {
+                Some((k, fit.squared_mahalanobis(&captures.view(i, k), captures.session.setup)?))
+            })
             .min_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((k, d2)) = best
             && d2 < limit
@@ -75,25 +77,27 @@ fn readmit(captures: &Captures, found: &mut Consensus, fit: &JointFit) -> bool {
     changed
 }
 
-/// Puts the worst capture out if it surprises a fit of the others.
+/// Rejects the worst capture if it is an outlier to a fit of the others.
 fn put_out(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &Config) -> bool {
     let setup = captures.session.setup;
     let used = agreeing(found);
     if used.len() <= FEWEST_POSES + 1 {
         return false; // the rest would not tell its noise
     }
-    let inside = |&i: &usize| Some((fit.surprise(&captures.view(i, found.reading[i]), setup)?, i));
+    let inside = |&i: &usize| {
+        Some((fit.squared_mahalanobis(&captures.view(i, found.reading[i]), setup)?, i))
+    };
     let mut suspects: Vec<(f64, usize)> = used.iter().filter_map(inside).collect();
     suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let surprising = |&(_, i): &(f64, usize)| {
+    let outlying = |&(_, i): &(f64, usize)| {
         let rest: Vec<usize> = used.iter().copied().filter(|&k| k != i).collect();
         let without = fit_of(captures, found, &rest, config)?;
-        let d2 = without.surprise(&captures.view(i, found.reading[i]), setup)?;
-        let excess = d2 / surprise_limit(IMPROBABLE, 1, without.degrees_of_freedom);
+        let d2 = without.squared_mahalanobis(&captures.view(i, found.reading[i]), setup)?;
+        let excess = d2 / outlier_limit(IMPROBABLE, 1, without.degrees_of_freedom);
         (excess > 1.0).then_some((excess, i))
     };
     let worst =
-        suspects.iter().take(SUSPECTS).filter_map(surprising).max_by(|a, b| a.0.total_cmp(&b.0));
+        suspects.iter().take(SUSPECTS).filter_map(outlying).max_by(|a, b| a.0.total_cmp(&b.0));
     if let Some((_, i)) = worst {
         found.agrees[i] = false;
     }

@@ -137,7 +137,7 @@ fn significance(h: &DMatrix<f64>, g: &DVector<f64>) -> (f64, usize) {
 /// Chance of a touch as far off as it is below which it is left out.
 const IMPROBABLE_TOUCH: f64 = 1e-4;
 
-/// Leaves out, one by one, touches that surprise a fit made without them.
+/// Rejects, one by one, touches that are outliers to a fit made without them.
 fn leave_out_wrong(
     problem: &mut Problem,
     touches: &mut [Vec<usize>],
@@ -155,7 +155,9 @@ fn leave_out_wrong(
         let removed = without.boards[board].corners.remove(corner);
         let alone = TouchedBoard { corners: vec![removed], ..problem.boards[board].clone() };
         let refitted = joint::refit(&without, fit, known);
-        let Some(d2) = refitted.surprise_of_touch(&without, &alone) else { return left_out };
+        let Some(d2) = refitted.squared_mahalanobis_of_touch(&without, &alone) else {
+            return left_out;
+        };
         let dof = 3.0 * (count as f64 - 1.0);
         let p = statistics::of_f(d2 / 3.0, (3.0, dof));
         if p * count as f64 > IMPROBABLE_TOUCH {

@@ -9,13 +9,13 @@ use crate::model::residual::Residual;
 /// Predicted error (95 %) beyond which an answer is rejected when the user named no limit, mm.
 pub(super) const MOST_PREDICTED_MM: f64 = 10.0;
 
-/// Captures from which on those left out say something of the others: what is left of fewer hardly determines an answer.
+/// Captures from which on a leave-one-out residual says something: what remains of fewer hardly determines an answer.
 pub(super) const FEWEST_HELD_OUT: usize = 5;
 
 /// Share of the captures that must agree.
 pub(super) const LEAST_AGREEING: f64 = 0.5;
 
-/// Fewest captures of which a part may be left out: three determine an answer and confirm nothing.
+/// Fewest captures of which some may be rejected: three determine an answer and confirm nothing.
 pub(super) const FEWEST_CONFIRMED: usize = 4;
 
 /// Fewer captures than this are answered with a warning: of so few a wrong one is not noticed.

@@ -1,8 +1,8 @@
 //! Wrong captures that hide one another.
 //!
 //! Several captures that are each a little wrong make the noise look larger than it is, and none of
-//! them is a surprise any more. So the fit starts from the part of the captures that agrees best and
-//! grows, always by the capture that fits next best, until the next one is a surprise, or all that are
+//! them is an outlier any more. So the fit starts from the part of the captures that agrees best and
+//! grows, always by the capture that fits next best, until the next one is an outlier, or all that are
 //! still outside are one as a group. The best part
 //! of good captures is better than all of them: their squared distances, six axes each, fall short by
 //! `P(χ²₈ < q)/P(χ²₆ < q)`, with `q` where the part ends.
@@ -26,7 +26,7 @@ const ROUNDS: usize = 6;
 /// Steps in which the search grows, at most: of many captures it takes several at once.
 const STEPS: usize = 30;
 
-/// Those of `views` that surprise a fit of the others; `fit_of` fits a part of them.
+/// Those of `views` that are outliers to a fit of the others; `fit_of` fits a part of them.
 pub(super) fn masked(
     views: &[View],
     all: &JointFit,
@@ -52,18 +52,18 @@ pub(super) fn masked(
     while let Some(of_inner) = fit {
         let fitted = inner.len() as f64 / views.len() as f64;
         let dof = of_inner.degrees_of_freedom;
-        let limit = |chance: f64, captures: usize| {
-            surprise_limit(chance, captures, dof) / shortfall(fitted)
-        };
+        let limit =
+            |chance: f64, captures: usize| outlier_limit(chance, captures, dof) / shortfall(fitted);
         let outside = (0..views.len()).filter(|i| !inner.contains(i));
-        let surprises: Vec<(usize, f64)> =
-            outside.filter_map(|i| Some((i, of_inner.surprise(&views[i], setup)?))).collect();
-        let next = surprises.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
-        let together = surprises.iter().map(|s| s.1).sum::<f64>();
-        let chance = IMPROBABLE / ways(views.len(), surprises.len());
-        let as_a_group = together > limit(chance, surprises.len()) && next > limit(UNLIKELY, 1);
+        let distances: Vec<(usize, f64)> = outside
+            .filter_map(|i| Some((i, of_inner.squared_mahalanobis(&views[i], setup)?)))
+            .collect();
+        let next = distances.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
+        let together = distances.iter().map(|s| s.1).sum::<f64>();
+        let chance = IMPROBABLE / ways(views.len(), distances.len());
+        let as_a_group = together > limit(chance, distances.len()) && next > limit(UNLIKELY, 1);
         if next > limit(IMPROBABLE, 1) || as_a_group {
-            return surprises.into_iter().map(|s| s.0).collect();
+            return distances.into_iter().map(|s| s.0).collect();
         }
         if inner.len() + step >= views.len() {
             break;
@@ -102,7 +102,7 @@ pub(crate) const IMPROBABLE: f64 = 1e-5;
 
 /// Squared distance, six axes a capture, that so many captures exceed with this chance where the
 /// noise is estimated from so few equations.
-pub(crate) fn surprise_limit(chance: f64, captures: usize, degrees_of_freedom: f64) -> f64 {
+pub(crate) fn outlier_limit(chance: f64, captures: usize, degrees_of_freedom: f64) -> f64 {
     let axes = 6.0 * captures as f64;
     FisherSnedecor::new(axes, degrees_of_freedom.max(1.0))
         .map_or(f64::INFINITY, |f| axes * f.inverse_cdf(1.0 - chance))

@@ -74,7 +74,6 @@ use evidence::Evidence;
 pub use evidence::unjudged;
 use notes::Notes;
 use optics::Optics;
-use streams::Failure;
 use unknown::{Task, Unknown};
 
 /// Runs the whole calibration. Bad data end in a verdict, not in an error.
@@ -91,12 +90,12 @@ pub fn calibrate(session: &Session, config: &Config) -> Result<Calibration, Erro
     let session = session.in_order();
     let unknown = Unknown::of(&session);
     if !session.unknown_scale {
-        return of_captures(&session, &Task { config, unknown });
+        return of_captures(session, &Task { config, unknown });
     }
     match unscaled::in_metres(&session, config) {
         Ok((session, scale)) => {
             let unknown = Unknown { scale: Some(scale), ..unknown };
-            of_captures(&session, &Task { config, unknown })
+            of_captures(session, &Task { config, unknown })
         }
         Err(error) => {
             let unknown = Unknown { scale: Some(1.0), ..unknown };
@@ -110,22 +109,21 @@ fn in_motion(session: &Session, motion: &Motion, config: &Config) -> Result<Cali
     let found = streams::synchronize(session, motion, config)?;
     let task = Task { config, unknown: found.unknown };
     let result = match &found.failure {
-        None => of_captures(&found.session, &task)?,
+        None => of_captures(found.session.in_order(), &task)?,
         // at any offset the motions are the same: the calibration names what they leave open
-        Some(Failure::NoOffset(error)) => {
+        Some(failure) if failure.motions_may_tell => {
             let unknown = Unknown { time_offset_s: None, ..task.unknown };
-            let plain = of_captures(&found.session, &Task { config, unknown })?;
-            streams::without_offset(plain, error)
+            let plain = of_captures(found.session.in_order(), &Task { config, unknown })?;
+            streams::without_offset(plain, &failure.error)
         }
-        Some(Failure::Nothing(error)) => without_answer(&found.session, &task, error),
+        Some(failure) => without_answer(&found.session, &task, &failure.error),
     };
     let first = found.findings(&result);
     Ok(result.noting_first(first))
 }
 
-/// The calibration of captures, of which those count that do not repeat one another.
-fn of_captures(session: &Session, task: &Task) -> Result<Calibration, Error> {
-    let mut session = session.in_order();
+/// The calibration of captures in the order of their names, of which those count that do not repeat one another.
+fn of_captures(mut session: Session, task: &Task) -> Result<Calibration, Error> {
     let repeated = repeated::take_out(&mut session);
     let plain = of_distinct(session.clone(), task);
     let with_drift = match session.in_sequence {
@@ -145,7 +143,7 @@ fn of_distinct(mut session: Session, task: &Task) -> Calibration {
     if let Some(TargetModel::Sphere { .. }) = session.target {
         let run = |session: &Session| judged(balls::from_balls(session, task));
         let result = moved::answer_of_the_end(&session, run(&session), run);
-        return moved::told(result, false);
+        return moved::reported(result, false);
     }
     let config = task.config;
     let run = |session: &Session| {
@@ -159,7 +157,7 @@ fn of_distinct(mut session: Session, task: &Task) -> Calibration {
     let result = moved::answer_of_the_end(&session, found, run);
     let scans = scans::look(&session, &result);
     let result = Calibration { scans: scans.result, ..result.noting(scans.warnings) };
-    let result = moved::told(result, scans.is_bent);
+    let result = moved::reported(result, scans.is_bent);
     of_one_place.put_back(result).noting(touched_twice)
 }
 

@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// With what is said of a movement. `explained`: what was measured besides says already why captures disagree.
-pub(super) fn told(result: Calibration, explained: bool) -> Calibration {
+pub(super) fn reported(result: Calibration, explained: bool) -> Calibration {
     let Some(movement) = result.movement.clone() else { return result };
     let of: fn(Movement, Setup) -> MovementFinding = match movement.kind {
         MovementKind::Block if runs_to_the_end(&movement) => return result,

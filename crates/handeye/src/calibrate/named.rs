@@ -15,14 +15,14 @@ use crate::{
     solve,
 };
 
-/// Where the motions leave something open, the residual of the likeliest answer stands for the
-/// method's own: the latter says nothing against the data.
+/// Where the motions leave something open, with the residual of the likeliest answer in place of the
+/// method's own, which says nothing against the data.
 pub(super) fn by_likeliest(
     views: &Views,
     fit: &JointFit,
     config: &Config,
     found: &Evidence,
-    (own, _): (Choice, HeldOut),
+    own: Choice,
 ) -> (Choice, HeldOut) {
     let problem = views::views_problem(views.session, &views.views, &fit.extras);
     let left_out = joint::held_out_views(&problem, fit, &config.known);

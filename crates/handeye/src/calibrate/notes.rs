@@ -2,7 +2,7 @@
 
 use crate::Warning;
 
-/// Findings in the order in which they are told, and what follows from them.
+/// Findings in the order in which they are reported, and what follows from them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Notes {
     /// What to know.

@@ -215,7 +215,7 @@ impl Offset {
     }
 
     /// Why the answer is that of the scans alone.
-    pub(super) fn not_believed(&self, scans: &Calibration, moved: &Calibration) -> Warning {
+    pub(super) fn not_confirmed(&self, scans: &Calibration, moved: &Calibration) -> Warning {
         let own = scans.hand_eye.mount_from_camera;
         let apart = own.zip(moved.hand_eye.mount_from_camera).map(|(a, b)| a.distance_to(&b) * 1e3);
         let apart_mm = apart.unwrap_or(f64::NAN);

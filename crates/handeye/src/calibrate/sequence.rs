@@ -57,9 +57,9 @@ const BY_CHANCE: f64 = 2.3;
 /// Rounds of letting captures in and putting them out.
 const ROUNDS: usize = 6;
 
-/// Surprise (squared, in units of standard deviations, of six axes) that one capture in a hundred
+/// Squared Mahalanobis distance (six axes) that one capture in a hundred
 /// thousand exceeds.
-const SURPRISING: f64 = 34.0;
+const OUTLIER: f64 = 34.0;
 
 /// Names of the candidate.
 const NAME: &str = "drift";
@@ -183,7 +183,7 @@ fn sequence(session: &Session, task: &Task, at: &HandEye) -> Sequence {
     Sequence { setup: session.setup, side: Side::Target, views, after, extras }
 }
 
-/// The fit with drift on the side where it gains most, and the captures that are no surprise to it;
+/// The fit with drift on the side where it gains most, and the captures that are no outliers to it;
 /// `None` where it gains little on either.
 fn fit(
     sequence: &mut Sequence,
@@ -220,7 +220,8 @@ fn fit(
         }
     }
     for _ in 0..ROUNDS {
-        let belongs: Vec<bool> = found.views.iter().map(|v| v.surprise < SURPRISING).collect();
+        let belongs: Vec<bool> =
+            found.views.iter().map(|v| v.squared_mahalanobis < OUTLIER).collect();
         if belongs == *used || belongs.iter().filter(|b| **b).count() < FEWEST {
             break;
         }
@@ -329,7 +330,7 @@ impl Drifting<'_> {
         result.noting([StreamFinding::Drift { drift, is_fitted: true }])
     }
 
-    /// Target poses as they were given, and what each missed when left out.
+    /// Target poses as they were given, with the leave-one-out residual of each.
     fn captures(&self, plain: &Calibration, steady: &Calibration) -> Vec<CaptureResult> {
         let given: BTreeMap<&str, Option<_>> =
             plain.captures.iter().map(|c| (c.id.as_str(), c.camera_from_target)).collect();

@@ -59,7 +59,7 @@ pub(super) fn judge(
     let p_value = statistics::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
     let off = (value - 1.0).abs();
     let improbable = p_value < IMPROBABLE_SIZE;
-    let told = match (&views.session.target, views.session.target_size) {
+    let said = match (&views.session.target, views.session.target_size) {
         _ if used => SizeOfAnswer::Estimated,
         // distances that came from elsewhere are taken as they are: small errors of scale are left to the user
         (None, _) if off > LEAST_SIZE_ERROR && improbable => SizeOfAnswer::Declared,
@@ -71,7 +71,7 @@ pub(super) fn judge(
         _ => return Some((Scale { value, sigma, used }, Notes::default())),
     };
     let (value, sigma) = if used { answer } else { (value, sigma) };
-    let finding = size_finding(views.session, declared, (value, sigma), told);
+    let finding = size_finding(views.session, declared, (value, sigma), said);
     let is_beyond = (value - 1.0).abs() > MOST_SIZE_ERROR;
     let notes = if is_beyond { Notes::against(finding) } else { Notes::of([finding]) };
     Some((Scale { value, sigma, used }, notes))

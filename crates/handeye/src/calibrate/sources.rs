@@ -98,7 +98,7 @@ pub(super) fn in_one_frame(
                 return fused;
             }
             if moved.verdict == Verdict::Accepted && scans.verdict == Verdict::Accepted {
-                let finding = offset.not_believed(&scans, &moved);
+                let finding = offset.not_confirmed(&scans, &moved);
                 return scans.noting_first([finding]);
             }
             moved

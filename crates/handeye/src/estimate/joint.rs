@@ -313,7 +313,7 @@ impl JointFit {
 
     /// Squared Mahalanobis distance of a capture that the fit has not seen: its misfit against its
     /// own noise and the fit's uncertainty together.
-    pub fn surprise(&self, view: &View, setup: Setup) -> Option<f64> {
+    pub fn squared_mahalanobis(&self, view: &View, setup: Setup) -> Option<f64> {
         let pair = view.with(&self.extras, &self.values);
         let (r, j) = least_squares::misfit_with_jacobian(&self.hand_eye, &pair);
         let own = self.noise.covariance(view, &self.hand_eye, setup);
@@ -362,8 +362,12 @@ impl JointFit {
         touched::rows(board, at, extras, &values, &variances, problem.setup)
     }
 
-    /// Squared Mahalanobis distance of touches that the fit has not seen, as [`Self::surprise`].
-    pub(crate) fn surprise_of_touch(&self, problem: &Problem, board: &TouchedBoard) -> Option<f64> {
+    /// Squared Mahalanobis distance of touches that the fit has not seen, as [`Self::squared_mahalanobis`].
+    pub(crate) fn squared_mahalanobis_of_touch(
+        &self,
+        problem: &Problem,
+        board: &TouchedBoard,
+    ) -> Option<f64> {
         let (rows, all) = self.unseen_touches(problem, board)?;
         let cholesky = Cholesky::new(all)?;
         Some(rows.residual.dot(&cholesky.solve(&rows.residual)))

@@ -80,7 +80,7 @@ impl<'a> Outliers<'a> {
     pub fn is_restored(&self, view: &View) -> bool {
         let residual = self.residual(view);
         let is_noise = |(fit, setup): (&JointFit, Setup)| {
-            fit.surprise(view, setup).is_some_and(|d2| d2 < RESTORED)
+            fit.squared_mahalanobis(view, setup).is_some_and(|d2| d2 < RESTORED)
         };
         residual.is_within(RESTORABLE)
             && (residual.is_within(self.typical) || self.fit.is_some_and(is_noise))

@@ -55,11 +55,10 @@ pub(super) struct Synchronized {
 }
 
 /// Why there is no offset.
-pub(super) enum Failure {
-    /// Nothing can be said.
-    Nothing(Error),
-    /// At no offset do robot and camera move alike.
-    NoOffset(Error),
+pub(super) struct Failure {
+    pub error: Error,
+    /// Whether the motions, which are the same at any offset, may say what they leave open.
+    pub motions_may_tell: bool,
 }
 
 /// Finds the offset of the clocks, and the robot's pose at the moment of each capture: of poses that are a stream of
@@ -81,9 +80,13 @@ pub(super) fn synchronize(
     let still = open::still(&both, found.as_ref().ok().map(|f| &f.0));
     let (settled, chosen, rivals) = match (found, still) {
         (Err(error @ Error::TooFewSamples { .. }), _) | (_, Some(error)) => {
-            return Ok(failed(&both, session, error, cleaning).for_good());
+            let failure = Failure { error, motions_may_tell: false };
+            return Ok(failed(&both, session, failure, cleaning));
         }
-        (Err(error), None) => return Ok(failed(&both, session, error, cleaning)),
+        (Err(error), None) => {
+            let failure = Failure { error, motions_may_tell: !session.unknown_scale };
+            return Ok(failed(&both, session, failure, cleaning));
+        }
         (Ok(found), None) => found,
     };
     let steady = open::clock_is_free(&both, &chosen, &settled);
@@ -110,20 +113,7 @@ pub(super) fn synchronize(
     })
 }
 
-impl Failure {
-    fn for_good(self) -> Self {
-        match self {
-            Self::Nothing(error) | Self::NoOffset(error) => Self::Nothing(error),
-        }
-    }
-}
-
 impl Synchronized {
-    /// The same where the motions do not even say what they leave open.
-    fn for_good(self) -> Self {
-        Self { failure: self.failure.map(Failure::for_good), ..self }
-    }
-
     /// What to know about clocks and captures, beside their result.
     pub fn findings(&self, result: &Calibration) -> Vec<Warning> {
         if self.failure.is_some() {
@@ -147,17 +137,21 @@ impl Synchronized {
     }
 }
 
-/// Streams with no offset: the motions say what they leave open.
-fn failed(both: &Both, session: &Session, error: Error, cleaning: Vec<Warning>) -> Synchronized {
-    // at any offset the motions are the same
+/// Captures of streams with no offset: at any, their motions are the same.
+fn failed(
+    both: &Both,
+    session: &Session,
+    failure: Failure,
+    cleaning: Vec<Warning>,
+) -> Synchronized {
     let start = starts(both).first().copied().unwrap_or(0.0);
     let chosen = choose::choose(both, start, choose::MOST_VIEWS);
     let of_motions = Session { in_sequence: false, ..moments(both, &chosen, start) };
-    let nothing = session.unknown_scale || of_motions.observations.is_empty();
+    let motions_may_tell = failure.motions_may_tell && !of_motions.observations.is_empty();
     Synchronized {
         session: of_motions,
         unknown: Unknown { scale: session.unknown_scale.then_some(1.0), time_offset_s: Some(0.0) },
-        failure: Some(if nothing { Failure::Nothing(error) } else { Failure::NoOffset(error) }),
+        failure: Some(Failure { motions_may_tell, ..failure }),
         cleaning,
         without: vec![],
         chosen: None,

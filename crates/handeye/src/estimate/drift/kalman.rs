@@ -264,9 +264,9 @@ pub(super) fn smooth(lines: &[Line], levels: &Levels) -> Vec<Slow> {
             (misfit - drift, own + see * smoothed * see.transpose())
         };
         let weighted = linalg::invert_spd(&spread).map_or_else(Vector6::zeros, |w| w * left_out);
-        let surprise = left_out.dot(&weighted);
+        let squared_mahalanobis = left_out.dot(&weighted);
         let (drift, left_out) = (line.to_target * drift, line.to_target * left_out);
-        all.push(Slow { drift, left_out, surprise });
+        all.push(Slow { drift, left_out, squared_mahalanobis });
     }
     all.reverse();
     all

@@ -56,7 +56,7 @@ pub(crate) struct Slow {
     /// Its misfit where drift is told by the other views alone (rotation, rad; position, m).
     pub left_out: Vector6<f64>,
     /// The square of that in units of its standard deviation; six on average.
-    pub surprise: f64,
+    pub squared_mahalanobis: f64,
 }
 
 /// Largest number of extras.

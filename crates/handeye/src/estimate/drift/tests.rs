@@ -147,7 +147,7 @@ fn views_left_out_are_missed(side: Side) {
         let surprise = missed.dot(&spread.cholesky().unwrap().solve(&missed));
         let missed_there = lines[k].to_target * missed.fixed_view::<6, 1>(0, 0);
         assert!((slow[k].left_out - missed_there).norm() < 1e-9, "view {k}");
-        assert!((slow[k].surprise / surprise - 1.0).abs() < 1e-5, "view {k}");
+        assert!((slow[k].squared_mahalanobis / surprise - 1.0).abs() < 1e-5, "view {k}");
     }
 }
 

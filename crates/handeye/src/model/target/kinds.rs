@@ -126,7 +126,7 @@ pub enum TargetModel {
     },
     /// A ball. It has no corners and is found in 3D scans only.
     Sphere {
-        /// Its diameter; every scan finds it for itself where it is not told.
+        /// Its diameter; without it, estimated from the scans.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         diameter_mm: Option<f64>,
     },
@@ -187,7 +187,7 @@ impl AprilTagFamily {
     }
 }
 
-/// Where a marker sits on a board.
+/// The place of a marker on a board.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedTag {
     /// Which marker of the dictionary.
