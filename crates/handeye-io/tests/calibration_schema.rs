@@ -17,7 +17,7 @@ use handeye::{
     },
     estimate::{
         certify::Certificate,
-        evaluate::{Diversity, Misfit},
+        evaluate::{Diversity, RmsResidual},
         predict::{PredictedTre, TreMap, TreSlice},
     },
     findings::{
@@ -37,7 +37,7 @@ fn full() -> Calibration {
         anchor_from_target: Some(Pose::identity()),
         covariance: PoseCovariance { mount_from_camera: rows, anchor_from_target: rows },
     };
-    let misfit = Misfit {
+    let residual = RmsResidual {
         rotation_rms_deg: Some(0.0),
         translation_rms_mm: Some(0.0),
         reprojection_rms_px: Some(0.0),
@@ -55,8 +55,8 @@ fn full() -> Calibration {
         candidates: vec![Candidate {
             name: "m".into(),
             hand_eye: answer,
-            in_sample: misfit,
-            held_out: misfit,
+            in_sample: residual,
+            held_out: residual,
             touch_rms_mm: Some(0.0),
             held_out_mm: Some(0.0),
             predicted_tre_mm: Some(0.0),
@@ -73,8 +73,8 @@ fn full() -> Calibration {
                 slices: vec![TreSlice { axes: [0, 1], p95_mm: vec![vec![Some(1.0)]] }],
             }),
         }),
-        residual: misfit,
-        held_out: misfit,
+        residual: residual,
+        held_out: residual,
         captures: vec![CaptureResult {
             id: "01".into(),
             used: true,

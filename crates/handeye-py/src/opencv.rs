@@ -1,6 +1,6 @@
 //! What OpenCV's two functions take and give, with a look at the answer before it is given.
 //!
-//! The answer is that of the method as published. Where its misfit is small, alike in all poses, without order, no
+//! The answer is that of the method as published. Where its residual is small, alike in all poses, without order, no
 //! better with the target in another size, and the rotations are about several axes, it is returned at once. Everything
 //! else is held against the recommended estimator, which knows its uncertainty: what that refuses, and answers that are
 //! grossly off beside it, are refused; what it has to say else comes as a warning.
@@ -32,11 +32,11 @@ const HAND_EYE: [Method; 5] = [
 ];
 /// Those of its other function.
 const ROBOT_WORLD: [Method; 2] = [Method::Shah, Method::Li];
-/// With fewer poses the misfit says little.
+/// With fewer poses the residual says little.
 const FEW: usize = 6;
-/// Misfits (root mean square) up to which nothing is wrong: rad, and share of the distance to the target.
+/// Residuals (root mean square) up to which nothing is wrong: rad, and share of the distance to the target.
 const SMALL: (f64, f64) = (5e-3, 5e-3);
-/// One pose's misfit is uneven when it is so many times the largest that is usual, ...
+/// One pose's residual is uneven when it is so many times the largest that is usual, ...
 const UNEVEN: f64 = 1.5;
 /// Median of the length of three normal numbers.
 const MEDIAN_LENGTH: f64 = 1.538;
@@ -356,7 +356,7 @@ fn is_in_order(errors: &[Vector3<f64>]) -> bool {
     neighbours > ORDERLY * all / (3.0 * errors.len() as f64).sqrt() && all.sqrt() > ROUNDING
 }
 
-/// Whether targets of another size would fit clearly better: the misfit of the positions by both places and a factor.
+/// Whether targets of another size would fit clearly better: the residual of the positions by both places and a factor.
 fn is_of_another_size(pairs: &[PosePair], found: &HandEye, distance: f64) -> bool {
     type Vector7 = SVector<f64, 7>;
     let (x, y) = (found.mount_from_camera, found.anchor_from_target);

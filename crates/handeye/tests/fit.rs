@@ -81,7 +81,7 @@ fn moved(fit: &JointFit, step: &DVector<f64>) -> (HandEye, Vector3<f64>) {
     (at, Vector3::from_fn(|k, _| fit.values[k] + step[12 + k]))
 }
 
-fn view_misfit(at: &HandEye, view: &handeye::solve::View, arm: &DVector<f64>) -> DVector<f64> {
+fn view_residual(at: &HandEye, view: &handeye::solve::View, arm: &DVector<f64>) -> DVector<f64> {
     let HandEye { mount_from_camera, anchor_from_target } = *at;
     let anchor_from_mount = view.pair.anchor_from_mount.retract(&twist(view.by_arm.as_ref(), arm));
     let anchor_from_camera = anchor_from_mount * mount_from_camera;
@@ -91,7 +91,7 @@ fn view_misfit(at: &HandEye, view: &handeye::solve::View, arm: &DVector<f64>) ->
 }
 
 /// Tip minus corner, all of one board.
-fn touch_misfit(
+fn touch_residual(
     at: &HandEye,
     tip: &Vector3<f64>,
     arm: &DVector<f64>,
@@ -140,7 +140,7 @@ fn touch_covariance(at: &HandEye, noise: &NoiseModel, board: &TouchedBoard) -> D
     v
 }
 
-/// Everything that a fit weighs: misfits, each divided by a root of its covariance at the answer.
+/// Everything that a fit weighs: residuals, each divided by a root of its covariance at the answer.
 struct Definition {
     problem: Problem,
     fit: JointFit,
@@ -160,11 +160,11 @@ impl Definition {
         Self { problem, fit, roots }
     }
 
-    fn misfits(&self, step: &DVector<f64>) -> DVector<f64> {
+    fn residuals(&self, step: &DVector<f64>) -> DVector<f64> {
         let (at, tip) = moved(&self.fit, step);
         let arm = arm_at(&self.problem, &self.fit, step);
-        let views = self.problem.views.iter().map(|v| view_misfit(&at, v, &arm));
-        let boards = self.problem.boards.iter().map(|b| touch_misfit(&at, &tip, &arm, b));
+        let views = self.problem.views.iter().map(|v| view_residual(&at, v, &arm));
+        let boards = self.problem.boards.iter().map(|b| touch_residual(&at, &tip, &arm, b));
         let divided = views
             .chain(boards)
             .zip(&self.roots)
@@ -175,16 +175,16 @@ impl Definition {
         all.into()
     }
 
-    /// Jacobian by central differences, and the misfits.
+    /// Jacobian by central differences, and the residuals.
     fn differences(&self) -> (DMatrix<f64>, DVector<f64>) {
         let n = 12 + self.problem.extras.len();
         let column = |k: usize| {
             let mut step = DVector::zeros(n);
             step[k] = STEP;
-            (self.misfits(&step) - self.misfits(&-step)) / (2.0 * STEP)
+            (self.residuals(&step) - self.residuals(&-step)) / (2.0 * STEP)
         };
         let columns: Vec<DVector<f64>> = (0..n).map(column).collect();
-        (DMatrix::from_columns(&columns), self.misfits(&DVector::zeros(n)))
+        (DMatrix::from_columns(&columns), self.residuals(&DVector::zeros(n)))
     }
 }
 
@@ -269,7 +269,7 @@ fn noise_found(setup: Setup, trials: u64) -> (f64, f64) {
 }
 
 /// Where the camera is far from the flange, the turning robot moves what it sees by more than its
-/// position errs, and the prior, which knows the misfit alone, has the position's noise too large.
+/// position errs, and the prior, which knows the residual alone, has the position's noise too large.
 #[test]
 fn the_robots_noise_is_found_from_a_start_five_times_off() {
     for (setup, most) in [(Setup::EyeToHand, 1.25), (Setup::EyeInHand, 1.5)] {

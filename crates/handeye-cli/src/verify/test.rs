@@ -217,14 +217,14 @@ fn see(
     let touched: Vec<usize> =
         (0..session.touches.len()).filter(|&k| session.touches[k].placement == name).collect();
     let corner = |k: usize| target.corner(session.touches[k].corner);
-    let misfit = |pose: &TargetPose| -> f64 {
+    let residual = |pose: &TargetPose| -> f64 {
         let of = |&k: &usize| {
             let there = base_from_camera * pose.camera_from_target * corner(k)?;
             Some((there.vector() - session.touches[k].in_base.vector()).norm())
         };
         touched.iter().filter_map(of).sum()
     };
-    let best = candidates.iter().min_by(|a, b| misfit(a).total_cmp(&misfit(b)));
+    let best = candidates.iter().min_by(|a, b| residual(a).total_cmp(&residual(b)));
     let Some(pose) = best else { return };
     let board = test.poses.len();
     test.poses.push(pose.covariance.unwrap_or_else(Matrix6::zeros));

@@ -240,8 +240,8 @@ fn proven(
     let open_one = if ways[0].0 == ways[1].0 { ways.map(|w| w.1) } else { ways.map(|w| w.0) };
     let [first, second] = open_one.map(|d| d.name());
     let said = |k: usize, name: &str| {
-        let misfit = both[k].as_ref().and_then(|c| c.residual.translation_rms_mm);
-        misfit.map_or(format!("{name} does not fit"), |mm| {
+        let residual = both[k].as_ref().and_then(|c| c.residual.translation_rms_mm);
+        residual.map_or(format!("{name} does not fit"), |mm| {
             format!("as {name} they miss by {mm:.1} mm")
         })
     };

@@ -157,7 +157,7 @@ class Calibration:
 
     @property
     def captures(self) -> List[Dict[str, Any]]:
-        """Every capture, with its misfit, and why it was left out if it was."""
+        """Every capture, with its residual, and why it was left out if it was."""
         return copy.deepcopy(list(self._known["captures"]))
 
     @property

@@ -20,7 +20,7 @@ use crate::{
         views::camera_in_words,
     },
     estimate::{
-        evaluate::{self, Misfit},
+        evaluate::{self, RmsResidual},
         predict::{self, PredictedTre, Volume},
         touches,
     },
@@ -172,9 +172,9 @@ fn chosen(
     (fit, missed): (&PointFit, &[Option<f64>]),
     tre: Option<PredictedTre>,
 ) -> (Choice, Candidate) {
-    let agreeing = fit.misfits_m.iter().zip(&fit.agrees).filter(|(_, a)| **a).map(|(m, _)| *m);
-    let in_sample = misfit(agreeing);
-    let held_out = misfit(missed.iter().flatten().copied());
+    let agreeing = fit.residuals_m.iter().zip(&fit.agrees).filter(|(_, a)| **a).map(|(m, _)| *m);
+    let in_sample = residual(agreeing);
+    let held_out = residual(missed.iter().flatten().copied());
     let candidate = Candidate {
         name: METHOD.into(),
         hand_eye,
@@ -196,10 +196,10 @@ fn chosen(
     (choice, candidate)
 }
 
-fn misfit(values: impl Iterator<Item = f64>) -> Misfit {
+fn residual(values: impl Iterator<Item = f64>) -> RmsResidual {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, n), v| (sum + v * v, n + 1.0));
     let rms = (count > 0.0).then(|| (sum / count).sqrt() * 1e3);
-    Misfit { translation_rms_mm: rms, ..Misfit::default() }
+    RmsResidual { translation_rms_mm: rms, ..RmsResidual::default() }
 }
 
 fn budget(fit: &PointFit, views: &[PointView]) -> Vec<BudgetEntry> {
@@ -237,11 +237,11 @@ fn with_residuals(
     for (k, &i) in seen.iter().enumerate() {
         let capture = &mut captures[i];
         capture.camera_from_target = Some(pair(&views[k], fit).camera_from_target);
-        capture.residual_mm = Some(fit.misfits_m[k] * 1e3);
+        capture.residual_mm = Some(fit.residuals_m[k] * 1e3);
         capture.held_out_mm = missed[k].map(|m| m * 1e3);
         capture.used = fit.agrees[k];
         if !capture.used {
-            let mm = fit.misfits_m[k] * 1e3;
+            let mm = fit.residuals_m[k] * 1e3;
             capture.reason = Some(format!("its ball is {mm:.1} mm from where the others put it"));
             rejected.push(capture.id.clone());
         }

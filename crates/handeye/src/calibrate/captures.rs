@@ -1,4 +1,4 @@
-//! Misfit of every capture and touch, and which way round the target lies.
+//! Residual of every capture and touch, and which way round the target lies.
 
 use crate::{
     Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,

@@ -11,7 +11,7 @@ use crate::{
         views,
     },
     estimate::{
-        evaluate::{Diversity, Misfit},
+        evaluate::{Diversity, RmsResidual},
         predict::PredictedTre,
     },
     findings::movement::Movement,
@@ -77,9 +77,9 @@ pub(super) struct Choice {
     /// Its error where it will be used.
     pub predicted_tre_mm: Option<PredictedTre>,
     /// Residual on the captures that it was made from.
-    pub residual: Misfit,
+    pub residual: RmsResidual,
     /// Leave-one-out residual.
-    pub held_out: Misfit,
+    pub held_out: RmsResidual,
 }
 
 /// How measured distances and clocks relate to metres and to the robot's clock.

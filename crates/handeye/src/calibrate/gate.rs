@@ -1,6 +1,6 @@
 //! Which captures belong, judged by the noise that they show themselves.
 //!
-//! The consensus gates by the median misfit, which is rough. Here every capture is judged by a fit
+//! The consensus gates by the median residual, which is rough. Here every capture is judged by a fit
 //! that has not seen it: its squared Mahalanobis distance, against noise estimated by restricted
 //! likelihood from those that agree. Captures that are no outliers come back in; then the worst of
 //! those inside goes out if it is one.

@@ -168,12 +168,12 @@ fn leave_out_wrong(
     }
 }
 
-/// The touch whose removal promises most: the largest misfit in units of the noise.
+/// The touch whose removal promises most: the largest residual in units of the noise.
 fn worst_touch(problem: &Problem, fit: &JointFit) -> Option<(usize, usize)> {
     let mut worst: Option<(f64, (usize, usize))> = None;
     for (b, board) in problem.boards.iter().enumerate() {
-        let misfits = fit.touch_misfits(problem, board);
-        for (k, e) in misfits.iter().enumerate() {
+        let residuals = fit.touch_residuals(problem, board);
+        for (k, e) in residuals.iter().enumerate() {
             let size = e.norm_squared();
             if worst.is_none_or(|(most, _)| size > most) {
                 worst = Some((size, (b, k)));
@@ -260,9 +260,9 @@ const WRONG_TIP: f64 = 1e-3;
 impl Joint {
     /// RMS distance of tip and corner over the touches that were used, tip corrected (m).
     pub(super) fn touch_rms(&self) -> Option<f64> {
-        let misfits =
-            self.problem.boards.iter().flat_map(|b| self.fit.touch_misfits(&self.problem, b));
-        root_mean_square(misfits.map(|e| e.norm_squared()))
+        let residuals =
+            self.problem.boards.iter().flat_map(|b| self.fit.touch_residuals(&self.problem, b));
+        root_mean_square(residuals.map(|e| e.norm_squared()))
     }
 
     /// RMS distance (m) of tip and corner over touches left out of the fit: one board at a time
@@ -290,7 +290,7 @@ impl Joint {
 
     fn missed(&self, without: &Problem, board: &TouchedBoard, known: &KnownNoise) -> Vec<f64> {
         let refitted = joint::refit(without, &self.fit, known);
-        refitted.touch_misfits(without, board).iter().map(|e| e.norm_squared()).collect()
+        refitted.touch_residuals(without, board).iter().map(|e| e.norm_squared()).collect()
     }
 
     /// What to know about the fit.

@@ -79,7 +79,7 @@ fn ways(count: usize, part: usize) -> f64 {
     (0..part).map(|k| (count - k) as f64 / (part - k) as f64).product()
 }
 
-/// The `count` views with the smallest misfit in units of the noise, in order.
+/// The `count` views with the smallest residual in units of the noise, in order.
 fn nearest(views: &[View], fit: &JointFit, setup: Setup, count: usize) -> Vec<usize> {
     let distance = |v: &View| fit.distance(v, setup).unwrap_or(f64::INFINITY);
     let mut ranked: Vec<(f64, usize)> =

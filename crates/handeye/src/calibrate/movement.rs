@@ -2,7 +2,7 @@
 //! that agree.
 //!
 //! Captures come in the order in which they were taken. A movement by a twist `δ`, of the camera or of the target,
-//! moves the misfits of the captures before it,
+//! moves the residuals of the captures before it,
 //!
 //! ```text
 //! r_i ≈ s_i J_i δ        s_i = 1 before a step, and 0 after; falling evenly from 1 to 0 for a slip
@@ -164,7 +164,7 @@ fn of_camera(rows: &[Used]) -> Option<Matrix6<f64>> {
 
 fn row(captures: &Captures, fit: &JointFit, i: usize, reading: usize) -> Option<Row> {
     let view = captures.view(i, reading);
-    let (r, j) = least_squares::misfit_with_jacobian(&fit.hand_eye, &view.pair);
+    let (r, j) = least_squares::residual_with_jacobian(&fit.hand_eye, &view.pair);
     let covariance = fit.noise.covariance(&view, &fit.hand_eye, captures.session.setup);
     let root = Cholesky::new(covariance)?.l();
     Some(Row {

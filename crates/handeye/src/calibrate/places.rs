@@ -38,7 +38,7 @@ pub(super) fn take_out(session: &Session, found: &Calibration) -> (Session, Unco
     let Some(hand_eye) = answer(found) else { return all_count() };
     // rejected ones as well: where places differ, captures of one agree with each other alone
     let places = places(&session.observations);
-    if !errors_belong_to(&places, |i| misfit(session, &hand_eye, i)) {
+    if !errors_belong_to(&places, |i| residual(session, &hand_eye, i)) {
         return all_count();
     }
     let first_of = |i: usize| places.iter().find(|p| p[1..].contains(&i)).map(|p| p[0]);
@@ -77,18 +77,21 @@ fn places(all: &[Observation]) -> Vec<Vec<usize>> {
     places
 }
 
-/// The misfit of a capture, of its candidates the nearest one's.
-fn misfit(session: &Session, hand_eye: &HandEye, i: usize) -> Option<Vector6<f64>> {
+/// The residual of a capture, of its candidates the nearest one's.
+fn residual(session: &Session, hand_eye: &HandEye, i: usize) -> Option<Vector6<f64>> {
     let o = &session.observations[i];
     let anchor_from_mount = session.setup.anchor_from_mount(o.base_from_flange);
     let of = |camera_from_target| {
-        least_squares::misfit(hand_eye, &PosePair { anchor_from_mount, camera_from_target })
+        least_squares::residual(hand_eye, &PosePair { anchor_from_mount, camera_from_target })
     };
     let all = o.candidates.iter().map(|c| of(c.camera_from_target));
     all.min_by(|a, b| a.norm().total_cmp(&b.norm()))
 }
 
-fn errors_belong_to(places: &[Vec<usize>], misfit: impl Fn(usize) -> Option<Vector6<f64>>) -> bool {
+fn errors_belong_to(
+    places: &[Vec<usize>],
+    residual: impl Fn(usize) -> Option<Vector6<f64>>,
+) -> bool {
     let count: usize = places.iter().map(Vec::len).sum();
     let near = count - places.len();
     let places: Vec<&Vec<usize>> = places.iter().filter(|p| p.len() > 1).collect();
@@ -99,7 +102,7 @@ fn errors_belong_to(places: &[Vec<usize>], misfit: impl Fn(usize) -> Option<Vect
         let (mut between, mut within) = (0.0, 0.0);
         for place in &places {
             let all: Vec<Vector3<f64>> =
-                place.iter().filter_map(|&i| misfit(i)).map(|r| part(&r)).collect();
+                place.iter().filter_map(|&i| residual(i)).map(|r| part(&r)).collect();
             let mean = all.iter().sum::<Vector3<f64>>() / all.len().max(1) as f64;
             between += mean.norm_squared() * all.len() as f64;
             within += all.iter().map(|r| (r - mean).norm_squared()).sum::<f64>();

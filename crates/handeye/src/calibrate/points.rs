@@ -11,7 +11,7 @@ use crate::{
         result::{Answer, Candidate, PoseCovariance, rows},
     },
     estimate::{
-        evaluate::Misfit,
+        evaluate::RmsResidual,
         predict::{self, Volume},
         touches::{self, Registration, TouchPairs},
     },
@@ -73,8 +73,10 @@ fn candidate(
     held_out_m: Option<f64>,
     predicted_tre_mm: Option<f64>,
 ) -> Candidate {
-    let misfit =
-        |m: Option<f64>| Misfit { translation_rms_mm: m.map(|m| m * 1e3), ..Misfit::default() };
+    let residual = |m: Option<f64>| RmsResidual {
+        translation_rms_mm: m.map(|m| m * 1e3),
+        ..RmsResidual::default()
+    };
     Candidate {
         name: "point-pairs-svd".into(),
         hand_eye: Answer {
@@ -85,8 +87,8 @@ fn candidate(
                 anchor_from_target: None,
             },
         },
-        in_sample: misfit(Some(found.rms_m)),
-        held_out: misfit(held_out_m),
+        in_sample: residual(Some(found.rms_m)),
+        held_out: residual(held_out_m),
         touch_rms_mm: Some(found.rms_m * 1e3),
         held_out_mm: held_out_m.map(|m| m * 1e3),
         predicted_tre_mm,

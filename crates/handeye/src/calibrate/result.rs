@@ -11,7 +11,7 @@ use crate::{
     Anchor, Base, Camera, Flange, Intrinsics, Mount, Pose, Setup, Target, Verdict, Warning,
     estimate::{
         certify::Certificate,
-        evaluate::{Diversity, Misfit},
+        evaluate::{Diversity, RmsResidual},
         predict::PredictedTre,
     },
     findings::{movement::Movement, severity::Severity},
@@ -64,10 +64,10 @@ pub struct Candidate {
     pub name: String,
     /// Its answer.
     pub hand_eye: Answer,
-    /// Misfit on the captures it was made from.
-    pub in_sample: Misfit,
-    /// Misfit on captures left out of it.
-    pub held_out: Misfit,
+    /// Residual on the captures it was made from.
+    pub in_sample: RmsResidual,
+    /// Residual on captures left out of it.
+    pub held_out: RmsResidual,
     /// RMS distance of touches to its prediction, including touches it was made from.
     pub touch_rms_mm: Option<f64>,
     /// The error on what it has not seen: touches where there are any, captures otherwise.
@@ -100,11 +100,11 @@ pub struct CaptureResult {
     pub residual_px: Option<f64>,
     /// RMS distance of its corners to where the answer and the robot pose put them.
     pub reprojection_px: Option<f64>,
-    /// Misfit of its loop, at the target's first corner.
+    /// Residual of its loop, at the target's first corner.
     pub residual_mm: Option<f64>,
-    /// Misfit of its loop, rotation.
+    /// Residual of its loop, rotation.
     pub residual_deg: Option<f64>,
-    /// The same misfit when the answer was made without it.
+    /// The same residual when the answer was made without it.
     pub held_out_mm: Option<f64>,
     /// The same, rotation.
     pub held_out_deg: Option<f64>,
@@ -254,7 +254,7 @@ pub struct ArmResult {
     pub anchor_from_target: Pose<Anchor, Target>,
     /// The tool's tip minus what the robot believes, in the flange, mm; null without touches.
     pub tip_offset_mm: Option<[f64; 3]>,
-    /// Misfit of captures left out.
+    /// Residual of captures left out.
     pub held_out: ArmHeldOut,
     /// Standard deviation of the robot's position with the model that was given, mm per axis.
     pub robot_before_mm: f64,
@@ -279,7 +279,7 @@ pub struct ArmDeviation {
     pub observed: bool,
 }
 
-/// RMS misfit of captures left out, mm.
+/// RMS residual of captures left out, mm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ArmHeldOut {
     /// With the model that was given.
@@ -316,10 +316,10 @@ pub struct Calibration {
     pub candidates: Vec<Candidate>,
     /// Predicted error where the answer will be used.
     pub predicted_tre_mm: Option<PredictedTre>,
-    /// Misfit of the chosen answer.
-    pub residual: Misfit,
-    /// Misfit of the chosen method on what was left out.
-    pub held_out: Misfit,
+    /// Residual of the chosen answer.
+    pub residual: RmsResidual,
+    /// Residual of the chosen method on what was left out.
+    pub held_out: RmsResidual,
     /// All captures, in the order of their names.
     pub captures: Vec<CaptureResult>,
     /// All touches.

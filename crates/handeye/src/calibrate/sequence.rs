@@ -27,7 +27,7 @@ use crate::{
             self, DriftFit, Free,
             sequence::{Sequence, Side},
         },
-        evaluate::{self, Misfit},
+        evaluate::{self, RmsResidual},
         predict::{self, PredictedTre},
         touches,
     },
@@ -50,7 +50,7 @@ const GAIN: f64 = 8.9;
 /// The same of one parameter.
 const GAIN_OF_ONE: f64 = 5.4;
 
-/// Correlation of neighbouring misfits that chance exceeds in one of a hundred sequences, times the
+/// Correlation of neighbouring residuals that chance exceeds in one of a hundred sequences, times the
 /// root of their number of equations.
 const BY_CHANCE: f64 = 2.3;
 
@@ -233,7 +233,7 @@ fn fit(
     Ok(Some(found))
 }
 
-/// Whether misfits of neighbouring views, each in units of its own noise and in the axes of what may
+/// Whether residuals of neighbouring views, each in units of its own noise and in the axes of what may
 /// give way, are more alike than chance has it.
 fn neighbours_alike(sequence: &Sequence, used: &[bool], near: &JointFit) -> bool {
     let white = |view: &View| {
@@ -242,18 +242,18 @@ fn neighbours_alike(sequence: &Sequence, used: &[bool], near: &JointFit) -> bool
             Side::Target => Matrix6::identity(),
             Side::Camera => lie::adjoint(pair.camera_from_target.iso()),
         };
-        let r = turn * least_squares::misfit(&near.hand_eye, &pair);
+        let r = turn * least_squares::residual(&near.hand_eye, &pair);
         let noise = near.noise.covariance(view, &near.hand_eye, sequence.setup);
         (turn * noise * turn.transpose()).cholesky()?.l().solve_lower_triangular(&r)
     };
     let views = sequence.views.iter().zip(used).filter(|(_, used)| **used);
-    let misfits: Vec<Vector6<f64>> = views.filter_map(|(view, _)| white(view)).collect();
-    let products: f64 = misfits.windows(2).map(|w| w[0].dot(&w[1])).sum();
-    let squares: f64 = misfits.iter().map(Vector6::norm_squared).sum();
-    products > BY_CHANCE / (6.0 * misfits.len() as f64).sqrt() * squares
+    let residuals: Vec<Vector6<f64>> = views.filter_map(|(view, _)| white(view)).collect();
+    let products: f64 = residuals.windows(2).map(|w| w[0].dot(&w[1])).sum();
+    let squares: f64 = residuals.iter().map(Vector6::norm_squared).sum();
+    products > BY_CHANCE / (6.0 * residuals.len() as f64).sqrt() * squares
 }
 
-fn held_out(found: &DriftFit, used: &[bool]) -> Misfit {
+fn held_out(found: &DriftFit, used: &[bool]) -> RmsResidual {
     let one = |(v, used): (&drift::sequence::Slow, &bool)| {
         used.then(|| Residual {
             angle: lie::omega(&v.left_out).norm(),
@@ -278,7 +278,7 @@ struct Drifting<'a> {
     names: &'a [String],
     sequence: &'a Sequence,
     found: &'a DriftFit,
-    held_out: Misfit,
+    held_out: RmsResidual,
 }
 
 impl Drifting<'_> {

@@ -102,8 +102,8 @@ fn readings(pair: &PosePair) -> Readings {
     }
 }
 
-/// Mean of `ln(1 + d²)` over all captures, `d` their misfit in units of 0.3 degrees and 2 mm.
-pub(crate) fn misfit(hand_eye: &HandEye, pairs: &[PosePair]) -> f64 {
+/// Mean of `ln(1 + d²)` over all captures, `d` their residual in units of 0.3 degrees and 2 mm.
+pub(crate) fn residual(hand_eye: &HandEye, pairs: &[PosePair]) -> f64 {
     let one = |pair: &PosePair| hand_eye.loop_residual(pair).over(UNIT).powi(2).ln_1p();
     pairs.iter().map(one).sum::<f64>() / pairs.len().max(1) as f64
 }

@@ -81,7 +81,7 @@ pub(crate) fn first_scale(pairs: &[PosePair]) -> Result<f64, Error> {
     });
     let score = |s: &andreff::Scaled| {
         let metric: Vec<PosePair> = pairs.iter().map(|p| p.farther(s.scale)).collect();
-        settle::misfit(&s.hand_eye, &metric)
+        settle::residual(&s.hand_eye, &metric)
     };
     let all = whole.clone().ok().into_iter().chain(small);
     let best = all.map(|s| (score(&s), s)).min_by(|a, b| a.0.total_cmp(&b.0));

@@ -8,7 +8,7 @@ use crate::{
         limits::{BELIEVABLE, FEWEST_HELD_OUT, LEAST_AGREEING, MOST_PREDICTED_MM},
         result::{Answer, Calibration, Determined},
     },
-    estimate::{evaluate::Misfit, predict::PredictedTre},
+    estimate::{evaluate::RmsResidual, predict::PredictedTre},
     mistakes,
     model::verdict::Verdict,
     quaternion_xyzw,
@@ -91,7 +91,11 @@ fn contradictions(found: &Evidence) -> Vec<String> {
 }
 
 /// The same of captures that agree and are rejected, and of the leave-one-out residual.
-pub(super) fn contradictions_of(used: usize, rejected: usize, held_out: &Misfit) -> Vec<String> {
+pub(super) fn contradictions_of(
+    used: usize,
+    rejected: usize,
+    held_out: &RmsResidual,
+) -> Vec<String> {
     let mut against = Vec::new();
     let seen = used + rejected;
     if seen > 0 && used > 0 && (used as f64) < LEAST_AGREEING * seen as f64 {
@@ -116,7 +120,7 @@ pub(super) fn contradictions_of(used: usize, rejected: usize, held_out: &Misfit)
 }
 
 /// Whether a robot and a camera in working order may be that far apart.
-pub(super) fn is_believable(residual: &Misfit) -> bool {
+pub(super) fn is_believable(residual: &RmsResidual) -> bool {
     let (deg, mm) = (residual.rotation_rms_deg, residual.translation_rms_mm);
     let within = |value: Option<f64>, most: f64| value.is_none_or(|value| value <= most);
     within(deg, BELIEVABLE.degrees()) && within(mm, BELIEVABLE.millimetres())

@@ -13,7 +13,7 @@ pub(crate) struct Views<'a> {
     pub session: &'a Session,
     /// Observations that are used, in order.
     pub used: Vec<&'a Observation>,
-    /// The same as pose pairs about the target's first corner, so that misfits are those there.
+    /// The same as pose pairs about the target's first corner, so that residuals are those there.
     pub views: Vec<View>,
     /// The target frame about its first corner, seen from the target's own.
     pub target_from_corner: Pose<Target, Target>,

@@ -21,11 +21,11 @@ use crate::{
 /// how exact positions are, nor positions of rotations.
 const OF_ONE_NOISE: f64 = 0.5;
 
-/// Factor on covariances, for noise estimated from few captures and for misfit.
+/// Factor on covariances, for noise estimated from few captures and for residual.
 pub(super) fn inflation(fit: &JointFit) -> Option<f64> {
     let dof = fit.degrees_of_freedom;
-    let misfit = if dof > 0.0 { (fit.chi_squared / dof).max(1.0) } else { 1.0 };
-    let factor = misfit * touches::small_sample(OF_ONE_NOISE * dof);
+    let residual = if dof > 0.0 { (fit.chi_squared / dof).max(1.0) } else { 1.0 };
+    let factor = residual * touches::small_sample(OF_ONE_NOISE * dof);
     factor.is_finite().then_some(factor)
 }
 

@@ -31,16 +31,16 @@ struct Expected {
     /// Its place in the session.
     touch: usize,
     /// Where it was touched minus where the views put the corner, in the base (m).
-    misfit: Vector3<f64>,
+    residual: Vector3<f64>,
     /// Rotation of the flange; of the base where no flange was recorded.
     flange: Matrix3<f64>,
-    /// Weight of the misfit: the inverse of its covariance.
+    /// Weight of the residual: the inverse of its covariance.
     weight: Matrix3<f64>,
 }
 
 impl Expected {
     fn distance(&self, tip: &Vector3<f64>) -> f64 {
-        let r = self.misfit + self.flange * tip;
+        let r = self.residual + self.flange * tip;
         r.dot(&(self.weight * r))
     }
 }
@@ -72,7 +72,7 @@ pub(super) fn find(
     if 3 * agreeing >= 2 * all.len() {
         for e in outside {
             let touch = &session.touches[e.touch];
-            let off = (e.misfit + e.flange * tip).norm() * 1e3;
+            let off = (e.residual + e.flange * tip).norm() * 1e3;
             let partner = exchanged(e, boards, &all, problem, fit, &tip);
             let finding = TouchFinding::Misplaced {
                 corner: touch.corner,
@@ -85,7 +85,7 @@ pub(super) fn find(
         }
         return found;
     }
-    let off = median(all.iter().map(|e| e.misfit.norm()));
+    let off = median(all.iter().map(|e| e.residual.norm()));
     let answer = if let Some(how) = in_other_units(boards, problem, fit, all.len()) {
         how
     } else if let Some(how) = renamed(boards, target, problem, fit, all.len()) {
@@ -124,13 +124,13 @@ fn expected(boards: &Boards, problem: &Problem, fit: &JointFit) -> Vec<Expected>
     let mut all = vec![];
     for (board, touches) in boards.boards.iter().zip(&boards.touches) {
         let Some(expectations) = fit.expected_touches(problem, board) else { continue };
-        for ((corner, &touch), (misfit, covariance)) in
+        for ((corner, &touch), (residual, covariance)) in
             board.corners.iter().zip(touches).zip(expectations)
         {
             let spread = covariance + Matrix3::identity() * SLACK.powi(2);
             let Some(weight) = linalg::invert_spd(&spread) else { continue };
             let flange = corner.base_from_flange.map_or_else(Matrix3::identity, |f| f.rotation());
-            all.push(Expected { touch, misfit, flange, weight });
+            all.push(Expected { touch, residual, flange, weight });
         }
     }
     all
@@ -143,7 +143,7 @@ fn agrees(e: &Expected, tip: &Vector3<f64>) -> bool {
 /// The offset of the tip on which most touches agree, and how many; of equals the smallest.
 fn consensus(all: &[Expected]) -> (Vector3<f64>, usize) {
     let count = |tip: &Vector3<f64>| all.iter().filter(|e| agrees(e, tip)).count();
-    let proposals = all.iter().map(|e| -(e.flange.transpose() * e.misfit));
+    let proposals = all.iter().map(|e| -(e.flange.transpose() * e.residual));
     let zero = (Vector3::zeros(), count(&Vector3::zeros()));
     proposals.filter(|tip| tip.norm() < LARGEST_TIP).fold(zero, |best, tip| {
         let agreeing = count(&tip);

@@ -115,32 +115,32 @@ impl Fits<'_> {
     /// board, a crossing of something else is soon found.
     fn consistent(&self, mut fitted: Fitted) -> Fitted {
         let mut grid = Grid { corners: fitted.iter().map(|(k, f)| (*k, f.pixel)).collect() };
-        let mut misfits: BTreeMap<(i32, i32), f64> =
-            grid.corners.keys().filter_map(|&k| Some((k, self.misfit(&grid, k)?))).collect();
+        let mut residuals: BTreeMap<(i32, i32), f64> =
+            grid.corners.keys().filter_map(|&k| Some((k, self.residual(&grid, k)?))).collect();
         loop {
-            let stray = |(k, misfit): (&(i32, i32), &f64)| {
-                let usual = median(grid.around(*k).filter_map(|(k, _)| misfits.get(&k)).copied());
+            let stray = |(k, residual): (&(i32, i32), &f64)| {
+                let usual = median(grid.around(*k).filter_map(|(k, _)| residuals.get(&k)).copied());
                 let own = fitted.get(k)?.covariance.trace();
-                let ratio = misfit / (usual * usual + own).sqrt();
-                (ratio > STRAY && *misfit > NOT_STRAY_PX).then_some((ratio, *k))
+                let ratio = residual / (usual * usual + own).sqrt();
+                (ratio > STRAY && *residual > NOT_STRAY_PX).then_some((ratio, *k))
             };
-            let worst = misfits.iter().filter_map(stray).max_by(|a, b| a.0.total_cmp(&b.0));
+            let worst = residuals.iter().filter_map(stray).max_by(|a, b| a.0.total_cmp(&b.0));
             let Some((_, worst)) = worst else { return fitted };
             fitted.remove(&worst);
             grid.corners.remove(&worst);
-            misfits.remove(&worst);
+            residuals.remove(&worst);
             let near: Vec<(i32, i32)> = grid.around(worst).map(|(k, _)| k).collect();
             for k in near {
-                match self.misfit(&grid, k) {
-                    Some(misfit) => misfits.insert(k, misfit),
-                    None => misfits.remove(&k),
+                match self.residual(&grid, k) {
+                    Some(residual) => residuals.insert(k, residual),
+                    None => residuals.remove(&k),
                 };
             }
         }
     }
 
     /// Distance of a corner from where its neighbours have it, px, as if they had it exactly.
-    fn misfit(&self, grid: &Grid, label: (i32, i32)) -> Option<f64> {
+    fn residual(&self, grid: &Grid, label: (i32, i32)) -> Option<f64> {
         let predicted = grid.predict(label, |k| self.place(k))?;
         Some((grid.corners.get(&label)? - predicted.pixel).norm() / (1.0 + predicted.spread).sqrt())
     }

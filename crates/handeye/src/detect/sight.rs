@@ -163,7 +163,7 @@ fn by_picture(
     Some((pixel, j))
 }
 
-/// Place of a corner in the camera frame, and the derivative of its misfit in the scan.
+/// Place of a corner in the camera frame, and the derivative of its residual in the scan.
 fn by_scan(
     pose: &Isometry3<f64>,
     in_target: &Vector3<f64>,

@@ -63,12 +63,12 @@ fn is_stray(
     let mut usual = 0.0;
     for _ in 0..ROUNDS {
         let Some(trend) = Trend::of(&near) else { return false };
-        usual = median(near.iter().map(|n| trend.misfit(n)));
+        usual = median(near.iter().map(|n| trend.residual(n)));
         if (off[k] - trend.here).norm() <= floor.max(STRAY * usual) {
             return false;
         }
         for n in &mut near {
-            n.weight = (HUBER * usual / trend.misfit(n)).min(1.0);
+            n.weight = (HUBER * usual / trend.residual(n)).min(1.0);
         }
     }
     usual.is_finite()
@@ -102,7 +102,7 @@ impl Trend {
         Some(Self { here: plane.row(0).transpose(), slope })
     }
 
-    fn misfit(&self, near: &Near) -> f64 {
+    fn residual(&self, near: &Near) -> f64 {
         (near.off - self.here - self.slope * near.at).norm()
     }
 }

@@ -153,12 +153,12 @@ fn measure_disc(
     let at = found.at;
     let clear = radius > LIGHT_BLURS * at[6].exp();
     if clear && radius * at[7].hypot(at[8]) > SLOPED {
-        let multiplied = disc.misfit(&found);
+        let multiplied = disc.residual(&found);
         let mut start = at;
         start.fixed_rows_mut::<2>(7).scale_mut(at[4]);
         disc.light = Light::Adds;
         let added = disc.descend(start, STEP_PX);
-        match added.filter(|added| disc.misfit(added) < multiplied) {
+        match added.filter(|added| disc.residual(added) < multiplied) {
             Some(added) => found = added,
             None => disc.light = Light::Multiplies,
         }

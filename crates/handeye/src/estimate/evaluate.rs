@@ -9,9 +9,9 @@ use crate::{
     solve::{self, Method, View, least_squares, motions},
 };
 
-/// Misfit in rotation and translation.
+/// Residual in rotation and translation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
-pub struct Misfit {
+pub struct RmsResidual {
     /// Root mean square angle; null where no rotations were compared.
     pub rotation_rms_deg: Option<f64>,
     /// Root mean square distance at the target's first corner.
@@ -39,7 +39,7 @@ pub struct Diversity {
 pub enum Estimator {
     /// A published closed form.
     ClosedForm(Method),
-    /// Least squares over both unknowns; 1 rad of misfit costs as much as 0.1 m.
+    /// Least squares over both unknowns; 1 rad of residual costs as much as 0.1 m.
     LeastSquares,
 }
 
@@ -94,7 +94,7 @@ pub fn held_out(estimator: &Estimator, views: &[View], start: &HandEye) -> HeldO
     found
 }
 
-/// The misfit (rad, m) of every capture when the camera's place comes from elsewhere and the
+/// The residual (rad, m) of every capture when the camera's place comes from elsewhere and the
 /// target's place from the other captures.
 pub(crate) fn placed_without(
     views: &[View],
@@ -109,22 +109,22 @@ pub(crate) fn placed_without(
     (0..views.len()).map(without).collect()
 }
 
-/// Root mean squares of misfits; those that are missing are left out.
-pub fn rms(misfits: &[Option<Residual>]) -> Misfit {
-    let all: Vec<Residual> = misfits.iter().flatten().copied().collect();
+/// Root mean squares of residuals; those that are missing are left out.
+pub fn rms(residuals: &[Option<Residual>]) -> RmsResidual {
+    let all: Vec<Residual> = residuals.iter().flatten().copied().collect();
     let mean = |part: fn(&Residual) -> f64| {
         let sum: f64 = all.iter().map(|m| part(m).powi(2)).sum();
         (!all.is_empty()).then(|| (sum / all.len() as f64).sqrt())
     };
-    Misfit {
+    RmsResidual {
         rotation_rms_deg: mean(|m| m.angle).map(f64::to_degrees),
         translation_rms_mm: mean(|m| m.distance).map(|t| t * 1e3),
         reprojection_rms_px: None,
     }
 }
 
-/// Misfit of all captures under one answer.
-pub fn in_sample(answer: &HandEye, views: &[View]) -> Misfit {
+/// Residual of all captures under one answer.
+pub fn in_sample(answer: &HandEye, views: &[View]) -> RmsResidual {
     let all: Vec<_> = views.iter().map(|v| Some(answer.loop_residual(&v.pair))).collect();
     rms(&all)
 }

@@ -2,7 +2,7 @@
 //!
 //! Unknowns are `X = mount_from_camera`, `Y = anchor_from_target` and a list of extras `x` with
 //! priors. Every robot pose, and every pose of the target in a picture, is an unknown of its own
-//! as well; to first order these leave the problem in closed form, and what remains are misfits
+//! as well; to first order these leave the problem in closed form, and what remains are residuals
 //! with covariances that are sums over sources of error:
 //!
 //! ```text
@@ -60,10 +60,10 @@ const FAR: f64 = 1.0;
 pub(super) const PRIOR_VIEWS: f64 = 2.0;
 /// Touches' worth of prior belief in the first level of their noise.
 pub(super) const PRIOR_TOUCHES: f64 = 2.0;
-/// Weight of rotation against translation in the fit whose misfit gives the first noise level,
+/// Weight of rotation against translation in the fit whose residual gives the first noise level,
 /// m per rad.
 const FIRST_WEIGHT: f64 = 0.3;
-/// Prior share of the misfit in rotation that is the robot's: a robot reports its orientation
+/// Prior share of the residual in rotation that is the robot's: a robot reports its orientation
 /// several times better than one picture tells a board's tilt.
 const ROBOT_ROTATION_SHARE: f64 = 0.3;
 /// The same in position: the camera's depth and what rotations do at a distance are in it as well.
@@ -143,7 +143,7 @@ fn climb(problem: &Problem, mut state: State, prior: &NoiseModel, known: &KnownN
     let mut system = System::at(problem, &state);
     for round in 0..MOST_ROUNDS {
         let moved = system.advance(problem, &mut state);
-        // far from the answer the misfit is not noise
+        // far from the answer the residual is not noise
         let changed = if round == 0 && moved > FAR {
             f64::INFINITY
         } else {
@@ -158,13 +158,13 @@ fn climb(problem: &Problem, mut state: State, prior: &NoiseModel, known: &KnownN
     System::at(problem, &state).finish(problem, state)
 }
 
-/// The level of the misfit, shared between the sources.
+/// The level of the residual, shared between the sources.
 fn first_noise(problem: &Problem, start: &State, known: &KnownNoise) -> NoiseModel {
     let views = &problem.views;
     let (mut rotation, mut position) = (0.0, 0.0);
     for view in views {
         let pair = view.with(&problem.extras, &start.values);
-        let r = least_squares::misfit(&start.hand_eye, &pair);
+        let r = least_squares::residual(&start.hand_eye, &pair);
         rotation += lie::omega(&r).norm_squared();
         position += lie::nu(&r).norm_squared();
     }
@@ -184,7 +184,7 @@ fn first_noise(problem: &Problem, start: &State, known: &KnownNoise) -> NoiseMod
     levelled(problem, start, noise, known)
 }
 
-/// The same shares at the height that makes the misfit of the views as large as expected.
+/// The same shares at the height that makes the residual of the views as large as expected.
 fn levelled(
     problem: &Problem,
     start: &State,
@@ -219,7 +219,7 @@ fn levelled(
     noise
 }
 
-/// RMS misfit of the touches per axis, where the views put them, but not beyond what a hand does.
+/// RMS residual of the touches per axis, where the views put them, but not beyond what a hand does.
 fn touch_level(problem: &Problem, state: &State, noise: &NoiseModel) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for board in &problem.boards {
@@ -237,7 +237,7 @@ fn touch_level(problem: &Problem, state: &State, noise: &NoiseModel) -> f64 {
     (TOUCH_SHARE * (sum / f64::max(count, 1.0)).sqrt()).clamp(1e-9, LARGEST_TOUCH)
 }
 
-/// Share of that misfit which is believed to be the hand's: the answer of the views errs as well.
+/// Share of that residual which is believed to be the hand's: the answer of the views errs as well.
 const TOUCH_SHARE: f64 = 0.75;
 /// First belief in the error of a tip led by hand, m per axis: at most this.
 const LARGEST_TOUCH: f64 = 0.25e-3;
@@ -311,11 +311,11 @@ impl JointFit {
         State { hand_eye: self.hand_eye, values, noise: noise.clone() }
     }
 
-    /// Squared Mahalanobis distance of a capture that the fit has not seen: its misfit against its
+    /// Squared Mahalanobis distance of a capture that the fit has not seen: its residual against its
     /// own noise and the fit's uncertainty together.
     pub fn squared_mahalanobis(&self, view: &View, setup: Setup) -> Option<f64> {
         let pair = view.with(&self.extras, &self.values);
-        let (r, j) = least_squares::misfit_with_jacobian(&self.hand_eye, &pair);
+        let (r, j) = least_squares::residual_with_jacobian(&self.hand_eye, &pair);
         let own = self.noise.covariance(view, &self.hand_eye, setup);
         let expected = own + j * self.pose_covariance()? * j.transpose();
         Some(r.dot(&(linalg::invert_spd(&expected)? * r)))
@@ -323,13 +323,13 @@ impl JointFit {
 
     /// Squared Mahalanobis distance of a capture against its own noise alone.
     pub(crate) fn distance(&self, view: &View, setup: Setup) -> Option<f64> {
-        let r = least_squares::misfit(&self.hand_eye, &view.with(&self.extras, &self.values));
+        let r = least_squares::residual(&self.hand_eye, &view.with(&self.extras, &self.values));
         let own = self.noise.covariance(view, &self.hand_eye, setup);
         Some(r.dot(&(linalg::invert_spd(&own)? * r)))
     }
 
-    /// Misfit of every touch of a board, in the base (m).
-    pub(crate) fn touch_misfits(
+    /// Residual of every touch of a board, in the base (m).
+    pub(crate) fn touch_residuals(
         &self,
         problem: &Problem,
         board: &TouchedBoard,
@@ -338,7 +338,7 @@ impl JointFit {
         (0..board.corners.len()).map(|k| rows.residual.fixed_rows::<3>(3 * k).into()).collect()
     }
 
-    /// Misfit of every touch of a board, in the base (m), and its covariance without what the touch
+    /// Residual of every touch of a board, in the base (m), and its covariance without what the touch
     /// itself adds.
     pub(crate) fn expected_touches(
         &self,
@@ -373,7 +373,7 @@ impl JointFit {
         Some(rows.residual.dot(&cholesky.solve(&rows.residual)))
     }
 
-    /// Touches as the fit expects them, and the covariance of their misfits when it has not seen
+    /// Touches as the fit expects them, and the covariance of their residuals when it has not seen
     /// them.
     fn unseen_touches(
         &self,

@@ -1,7 +1,7 @@
-//! Where the misfit of a loop `C⁻¹ X⁻¹ A⁻¹ Y = exp(r)` comes from, and that of a touch.
+//! Where the residual of a loop `C⁻¹ X⁻¹ A⁻¹ Y = exp(r)` comes from, and that of a touch.
 //!
 //! The robot errs at the flange, the camera in its own axes at the target, the tip where it is led
-//! by hand. Each source of error is one variance component, and each misfit a sum of them:
+//! by hand. Each source of error is one variance component, and each residual a sum of them:
 //!
 //! ```text
 //! cov(r_i) = B_i Θ B_iᵀ        Θ = diag(θ_source(column))
@@ -219,7 +219,7 @@ impl NoiseModel {
         all
     }
 
-    /// Covariance of a view's misfit, in the Target frame.
+    /// Covariance of a view's residual, in the Target frame.
     pub fn covariance(&self, view: &View, hand_eye: &HandEye, setup: Setup) -> Matrix6<f64> {
         covariance(&factor(view, &view.pair, hand_eye, setup), &columns(view), &self.variances())
     }

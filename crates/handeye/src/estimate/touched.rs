@@ -1,4 +1,4 @@
-//! Misfit of touches: the tip against the corner, in the base.
+//! Residual of touches: the tip against the corner, in the base.
 //!
 //! ```text
 //! e_k = b_k + F_k Δτ - q_k       q_k = X C P_k  (eye-to-hand)      q_k = Y P_k  (eye-in-hand)
@@ -42,7 +42,7 @@ pub struct TouchedCorner {
     /// How the flange moved with the arm's deviations: 6 rows, rotation first, perturbed on the
     /// right; it carries the tip along.
     pub by_arm: Option<Arc<DMatrix<f64>>>,
-    /// The corner, about the point at which views state their misfit (m).
+    /// The corner, about the point at which views state their residual (m).
     pub in_target: Vector3<f64>,
     /// How it moves with the deviations of the target's shape.
     pub by_shape: SMatrix<f64, 3, SHAPES>,

@@ -34,7 +34,7 @@ pub struct TouchPairs {
     pub base_from_mount: Vec<Pose<crate::Base, Mount>>,
     /// Which view each pair was seen from; empty where the robot did not move the camera.
     pub views: Vec<usize>,
-    /// The touched corner, about the point at which misfits are stated.
+    /// The touched corner, about the point at which residuals are stated.
     pub corner: Vector3<f64>,
 }
 
@@ -212,7 +212,7 @@ fn touch_covariance(touches: &[&TouchPairs], x: &Pose<Mount, Camera>) -> Option<
 }
 
 /// One view's part in the error of touches: where it saw the target, and the covariance of its
-/// misfit (robot and camera together) in the target's axes at the reference point.
+/// residual (robot and camera together) in the target's axes at the reference point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ViewNoise {
     /// Rotation of the target in the camera.

@@ -172,8 +172,8 @@ pub struct KnownPosition {
 }
 
 impl KnownPosition {
-    /// Misfit of an answer in standard deviations.
-    pub(crate) fn misfit(&self, x: &Pose<Mount, Camera>) -> f64 {
+    /// Residual of an answer in standard deviations.
+    pub(crate) fn residual(&self, x: &Pose<Mount, Camera>) -> f64 {
         (self.axis.dot(&x.translation()) - self.value_m) / self.sigma_m
     }
 }

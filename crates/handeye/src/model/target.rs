@@ -82,7 +82,7 @@ impl TargetModel {
         })
     }
 
-    /// The point at which misfits are stated: the first inner corner, or the centre of a tag.
+    /// The point at which residuals are stated: the first inner corner, or the centre of a tag.
     pub fn reference(&self) -> Point<Target> {
         let origin = Point::new(0.0, 0.0, 0.0);
         if matches!(self, Self::Tag { .. }) { origin } else { self.corner(0).unwrap_or(origin) }

@@ -10,7 +10,7 @@
 //!
 //! With both normals, a match that is off along the surface does no harm to second order. Each is weighed
 //! by the variance of both means across the surface, and those beyond some standard deviations do not
-//! count (Tukey). A table would soon pull that limit below the misfit of the few things upon it, and
+//! count (Tukey). A table would soon pull that limit below the residual of the few things upon it, and
 //! they would never count again: so the limit begins at the gate, and narrows from round to round.
 //!
 //! S. Rusinkiewicz, *A symmetric objective function for ICP*, ACM Trans. Graph. 38(4), 2019.

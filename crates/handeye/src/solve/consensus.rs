@@ -49,9 +49,9 @@ pub struct Consensus {
 /// Angles of one motion, seen by robot and camera, that are still taken for the same. Pictures of
 /// a tilted board are good to 3 degrees even when the lens is not calibrated. 8 degrees.
 const SAME_ANGLE: f64 = 0.14;
-/// Rotation that counts as one unit of misfit in the score: 0.3 degrees.
+/// Rotation that counts as one unit of residual in the score: 0.3 degrees.
 const UNIT_ANGLE: f64 = 0.3 / 180.0 * std::f64::consts::PI;
-/// Distance that counts as one unit of misfit in the score, m.
+/// Distance that counts as one unit of residual in the score, m.
 const UNIT_DISTANCE: f64 = 2e-3;
 /// Triples drawn; with 40 % wrong captures 20 are enough for one clean triple in 99 of 100 cases.
 const DRAWS: usize = 200;
@@ -95,7 +95,7 @@ pub fn consensus(captures: &[Readings]) -> Result<Consensus, Error> {
 const SURELY_LESS: f64 = 1.0 - 1e-6;
 
 /// The answer of truncated least squares near one that is polished, at the noise that its median
-/// misfit tells.
+/// residual tells.
 fn harden(captures: &[Readings], hand_eye: &HandEye) -> HandEye {
     let (found, sigma) = settle(captures, *hand_eye);
     let readable = (0..captures.len()).filter(|&i| !captures[i].camera_from_target.is_empty());
@@ -151,11 +151,11 @@ fn hypotheses(captures: &[Readings], triple: [usize; 3], two_axes: bool) -> Vec<
     for a in 0..i.camera_from_target.len() {
         for b in 0..j.camera_from_target.len() {
             let (first, second) = (pair(i, a), pair(j, b));
-            let Some(one) = angle_misfit(&first, &second) else { continue };
+            let Some(one) = angle_residual(&first, &second) else { continue };
             for c in 0..k.camera_from_target.len() {
                 let third = pair(k, c);
                 let (Some(two), Some(three)) =
-                    (angle_misfit(&first, &third), angle_misfit(&second, &third))
+                    (angle_residual(&first, &third), angle_residual(&second, &third))
                 else {
                     continue;
                 };
@@ -176,13 +176,13 @@ fn hypotheses(captures: &[Readings], triple: [usize; 3], two_axes: bool) -> Vec<
 }
 
 /// By how much robot and camera disagree on the angle of one motion; `None` when beyond belief.
-fn angle_misfit(i: &PosePair, j: &PosePair) -> Option<f64> {
+fn angle_residual(i: &PosePair, j: &PosePair) -> Option<f64> {
     let m = motions::motion(i, j);
-    let misfit = (m.a.rotation.angle() - m.b.rotation.angle()).abs();
-    (misfit < SAME_ANGLE).then_some(misfit)
+    let residual = (m.a.rotation.angle() - m.b.rotation.angle()).abs();
+    (residual < SAME_ANGLE).then_some(residual)
 }
 
-/// `d²` of one reading, in units of misfit.
+/// `d²` of one reading, in units of residual.
 fn distance(hand_eye: &HandEye, pair: &PosePair) -> f64 {
     let e = hand_eye.loop_error(pair);
     (e.iso().rotation.angle() / UNIT_ANGLE).powi(2)
@@ -241,14 +241,14 @@ fn agreeing(captures: &[Readings], hand_eye: &HandEye) -> Vec<(usize, usize)> {
     (0..captures.len()).filter(|&i| found.agrees[i]).map(|i| (i, found.reading[i])).collect()
 }
 
-/// Misfit, in robust standard deviations, beyond which a capture does not agree with the others.
+/// Residual, in robust standard deviations, beyond which a capture does not agree with the others.
 /// Real robots and lenses have heavier tails than Gaussian noise, and a capture that is only
 /// somewhat worse than the rest still informs: wrong ones are usually tens of these away.
 const GATE: f64 = 7.0;
 /// Least standard deviations that the gate assumes: rounding in stored poses. Per axis.
 const LEAST: Residual = Residual { angle: 2e-4, distance: 1e-4 };
 
-/// Chooses readings for a given answer and gates captures by the median misfit; also the standard
+/// Chooses readings for a given answer and gates captures by the median residual; also the standard
 /// deviations (per axis) that this tells.
 fn settle(captures: &[Readings], hand_eye: HandEye) -> (Consensus, Residual) {
     let best: Vec<Option<(usize, f64)>> =

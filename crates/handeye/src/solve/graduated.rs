@@ -23,7 +23,7 @@ use crate::{
     solve::{View, least_squares::fit_weighted},
 };
 
-/// Steps at most: `1.4^100` is beyond any ratio of misfits.
+/// Steps at most: `1.4^100` is beyond any ratio of residuals.
 const MOST_STEPS: usize = 100;
 /// Factor on `μ` in each step, of the paper.
 const GROWTH: f64 = 1.4;

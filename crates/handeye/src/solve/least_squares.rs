@@ -60,17 +60,17 @@ type Matrix6x12 = SMatrix<f64, 6, 12>;
 const MOST_STEPS: usize = 100;
 /// The fit has converged when a step changes the cost by less than this part of it.
 const COST_CHANGE: f64 = 1e-14;
-/// The misfit of one view, `r_i`.
-pub fn misfit(hand_eye: &HandEye, pair: &PosePair) -> Vector6<f64> {
+/// The residual of one view, `r_i`.
+pub fn residual(hand_eye: &HandEye, pair: &PosePair) -> Vector6<f64> {
     lie::log(hand_eye.loop_error(pair).inverse().iso())
 }
 
-/// The misfit and its Jacobian by `(X, Y)`.
-pub(crate) fn misfit_with_jacobian(
+/// The residual and its Jacobian by `(X, Y)`.
+pub(crate) fn residual_with_jacobian(
     hand_eye: &HandEye,
     pair: &PosePair,
 ) -> (Vector6<f64>, SMatrix<f64, 6, 12>) {
-    let r = misfit(hand_eye, pair);
+    let r = residual(hand_eye, pair);
     let inverse = lie::left_jacobian_inverse(&r);
     let by_x = -inverse * lie::adjoint(pair.camera_from_target.inverse().iso());
     let mut j = Matrix6x12::zeros();
@@ -89,7 +89,7 @@ struct Normal {
 fn normal(views: &[View], weights: &[Matrix6<f64>], at: &HandEye) -> Normal {
     let mut sum = Normal { h: Matrix12::zeros(), g: Vector12::zeros(), cost: 0.0 };
     for (view, w) in views.iter().zip(weights) {
-        let (r, j) = misfit_with_jacobian(at, &view.pair);
+        let (r, j) = residual_with_jacobian(at, &view.pair);
         let jw = j.transpose() * w;
         sum.h += jw * j;
         sum.g += jw * r;
@@ -153,14 +153,14 @@ fn damped_step(at: &Normal, damping: f64) -> Option<Vector12> {
     Some(step - inverse * (at.g + h * step))
 }
 
-/// Fits both unknowns with one weight for all: 1 rad of misfit costs as much as `metres_per_rad`.
+/// Fits both unknowns with one weight for all: 1 rad of residual costs as much as `metres_per_rad`.
 pub(crate) fn fit_fixed_weights(views: &[View], start: &HandEye, metres_per_rad: f64) -> HandEye {
     let rotation = metres_per_rad * metres_per_rad;
     let weight = Matrix6::from_diagonal(&Vector6::new(rotation, rotation, rotation, 1.0, 1.0, 1.0));
     minimise(views, &vec![weight; views.len()], start).0
 }
 
-/// Fits both unknowns with a weight for each view, 6 x 6 on its misfit (rotation first).
+/// Fits both unknowns with a weight for each view, 6 x 6 on its residual (rotation first).
 pub(crate) fn fit_weighted(views: &[View], weights: &[Matrix6<f64>], start: &HandEye) -> HandEye {
     minimise(views, weights, start).0
 }
@@ -179,12 +179,12 @@ mod tests {
         let truth = truths()[0];
         let off = moved(&truth, &Vector12::from_fn(|i, _| 0.3 * (i as f64 + 1.0).sin()));
         for view in views(5) {
-            let (_, j) = misfit_with_jacobian(&off, &view.pair);
+            let (_, j) = residual_with_jacobian(&off, &view.pair);
             for k in 0..12 {
                 let mut step = Vector12::zeros();
                 step[k] = 1e-6;
-                let ahead = misfit(&moved(&off, &step), &view.pair);
-                let behind = misfit(&moved(&off, &-step), &view.pair);
+                let ahead = residual(&moved(&off, &step), &view.pair);
+                let behind = residual(&moved(&off, &-step), &view.pair);
                 let numeric = (ahead - behind) / 2e-6;
                 assert!((j.column(k) - numeric).norm() < 1e-6, "column {k}");
             }

@@ -8,7 +8,7 @@
 //! least-squares fit, so no start is asked for; what is farther from the truth than 63 degrees is
 //! nearer to another turn. With many captures the fit of some few tells which captures agree (least
 //! median of squares). The last fit weighs each capture by the covariance of its centre and by one
-//! more variance, the robot's, that makes the misfits as large as expected:
+//! more variance, the robot's, that makes the residuals as large as expected:
 //!
 //! ```text
 //! V_i = R_A R_X S_i R_Xᵀ R_Aᵀ + σ² I          Σ rᵀ V⁻¹ r = 3 K - 9
@@ -49,7 +49,7 @@ pub struct PointFit {
     /// Which captures agree.
     pub agrees: Vec<bool>,
     /// Distance of each capture's centre from the point, m.
-    pub misfits_m: Vec<f64>,
+    pub residuals_m: Vec<f64>,
     /// Equations minus unknowns.
     pub degrees_of_freedom: f64,
 }
@@ -84,11 +84,11 @@ struct State {
 }
 
 impl State {
-    fn misfit(&self, v: &PointView) -> Vector3<f64> {
+    fn residual(&self, v: &PointView) -> Vector3<f64> {
         (v.anchor_from_mount * (self.x * v.in_camera)).vector() - self.p
     }
 
-    /// Of the misfit, by a step of both.
+    /// Of the residual, by a step of both.
     fn jacobian(&self, v: &PointView) -> SMatrix<f64, 3, 9> {
         let r = v.anchor_from_mount.rotation() * self.x.rotation();
         let mut j = SMatrix::<f64, 3, 9>::zeros();
@@ -103,20 +103,20 @@ impl State {
         Self { x: self.x.retract(&delta), p: self.p + step.fixed_rows::<3>(6) }
     }
 
-    /// Variance of a capture's misfit, m².
+    /// Variance of a capture's residual, m².
     fn noise(&self, v: &PointView, robot: f64) -> Matrix3<f64> {
         let r = v.anchor_from_mount.rotation() * self.x.rotation();
         r * v.covariance * r.transpose() + Matrix3::identity() * (robot + LEAST_SIGMA.powi(2))
     }
 }
 
-/// The misfit (m, in the anchor) of a capture at an answer, its Jacobian by camera and point, and its noise.
+/// The residual (m, in the anchor) of a capture at an answer, its Jacobian by camera and point, and its noise.
 pub(crate) fn equations_of(
     v: &PointView,
     fit: &PointFit,
 ) -> (Vector3<f64>, SMatrix<f64, 3, 9>, Matrix3<f64>) {
     let state = State { x: fit.mount_from_camera, p: fit.in_anchor.vector() };
-    (state.misfit(v), state.jacobian(v), state.noise(v, fit.robot_sigma_m.powi(2)))
+    (state.residual(v), state.jacobian(v), state.noise(v, fit.robot_sigma_m.powi(2)))
 }
 
 /// Finds the camera and the point.
@@ -159,7 +159,7 @@ pub(crate) fn fit_points(views: &[PointView]) -> Result<PointFit, Error> {
         in_anchor: Point::from_vector(state.p),
         covariance,
         robot_sigma_m: robot.sqrt(),
-        misfits_m: views.iter().map(|v| state.misfit(v).norm()).collect(),
+        residuals_m: views.iter().map(|v| state.residual(v).norm()).collect(),
         degrees_of_freedom: 3.0 * used.len() as f64 - 9.0,
         agrees,
     })
@@ -177,7 +177,7 @@ pub fn held_out(views: &[PointView], fit: &PointFit) -> Vec<Option<f64>> {
         }
         let start = State { x: fit.mount_from_camera, p: fit.in_anchor.vector() };
         let state = descend(&others, start, Some(robot), STEPS.1);
-        Some(state.misfit(&views[k]).norm())
+        Some(state.residual(&views[k]).norm())
     };
     (0..views.len()).map(one).collect()
 }
@@ -187,7 +187,7 @@ fn chosen(views: &[PointView], agrees: &[bool]) -> Vec<PointView> {
 }
 
 fn distance(v: &PointView, state: &State, robot: f64) -> f64 {
-    let r = state.misfit(v);
+    let r = state.residual(v);
     state.noise(v, robot).cholesky().map_or(f64::INFINITY, |c| r.dot(&c.solve(&r)))
 }
 
@@ -198,7 +198,7 @@ fn consensus(views: &[PointView], agrees: &mut [bool]) -> Result<State, Error> {
         return from_all_starts(views).ok_or_else(undetermined);
     }
     let mut random = Random::new(views.len() as u64);
-    let off = |s: &State| median(views.iter().map(|v| s.misfit(v).norm()));
+    let off = |s: &State| median(views.iter().map(|v| s.residual(v).norm()));
     let trial = |_| {
         let mut order: Vec<usize> = (0..views.len()).collect();
         for k in 0..TRIAL.0 {
@@ -212,7 +212,7 @@ fn consensus(views: &[PointView], agrees: &mut [bool]) -> Result<State, Error> {
     let (_, state) = best.ok_or_else(undetermined)?;
     // a trial of few captures misses the others by more than their noise: nobody right is left out
     let limit = NEAR * off(&state) + LEAST_SIGMA;
-    agrees.iter_mut().zip(views).for_each(|(a, v)| *a = state.misfit(v).norm() <= limit);
+    agrees.iter_mut().zip(views).for_each(|(a, v)| *a = state.residual(v).norm() <= limit);
     Ok(state)
 }
 
@@ -220,7 +220,7 @@ fn consensus(views: &[PointView], agrees: &mut [bool]) -> Result<State, Error> {
 fn from_all_starts(views: &[PointView]) -> Option<State> {
     let fits = cube_turns().into_iter().filter_map(|r| {
         let state = descend(views, with_rotation(views, &r)?, None, STEPS.0);
-        let cost: f64 = views.iter().map(|v| state.misfit(v).norm_squared()).sum();
+        let cost: f64 = views.iter().map(|v| state.residual(v).norm_squared()).sum();
         cost.is_finite().then_some((cost, state))
     });
     fits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|f| f.1)
@@ -259,7 +259,7 @@ fn with_rotation(views: &[PointView], r: &Matrix3<f64>) -> Option<State> {
 fn equations(views: &[PointView], s: &State, robot: Option<f64>) -> (Nine, SVector<f64, 9>, f64) {
     let (mut h, mut g, mut cost) = (Nine::zeros(), SVector::<f64, 9>::zeros(), 0.0);
     for v in views {
-        let (e, j) = (s.misfit(v), s.jacobian(v));
+        let (e, j) = (s.residual(v), s.jacobian(v));
         let noise = robot.map_or_else(Matrix3::identity, |robot| s.noise(v, robot));
         let Some(factor) = noise.cholesky() else { return (h, g, f64::INFINITY) };
         h += j.transpose() * factor.solve(&j);
@@ -295,14 +295,14 @@ fn descend(views: &[PointView], start: State, robot: Option<f64>, steps: usize) 
     state
 }
 
-/// The variance (m²) that makes the misfits as large as expected.
+/// The variance (m²) that makes the residuals as large as expected.
 fn robot_variance(views: &[PointView], state: &State) -> f64 {
     let freedom = 3.0 * views.len() as f64 - 9.0;
     let cost = |robot: f64| views.iter().map(|v| distance(v, state, robot)).sum::<f64>();
     if freedom <= 0.0 || cost(0.0) <= freedom {
         return 0.0;
     }
-    let squares: f64 = views.iter().map(|v| state.misfit(v).norm_squared()).sum();
+    let squares: f64 = views.iter().map(|v| state.residual(v).norm_squared()).sum();
     let (mut low, mut high) = (0.0, squares / freedom);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

@@ -93,10 +93,10 @@ fn step(state: &State, p: &SMatrix<f64, 9, 9>, m: &Centred, n: f64) -> Option<SM
     let (r_x, r_y) = (matrix(&state.r_x), matrix(&state.r_y));
     let vec = |r: &Matrix3<f64>| SMatrix::<f64, 9, 1>::from_column_slice(r.as_slice());
     let (x, y, j_x, j_y) = (vec(&r_x), vec(&r_y), turning(&r_x), turning(&r_y));
-    let misfit = vec(&(r_y * m.bb - m.ab)) - m.br * state.t_x;
+    let residual = vec(&(r_y * m.bb - m.ab)) - m.br * state.t_x;
     let mut gradient = SMatrix::<f64, 9, 1>::zeros();
     gradient.fixed_rows_mut::<3>(0).copy_from(&-(j_x.transpose() * (p.transpose() * y)));
-    gradient.fixed_rows_mut::<3>(3).copy_from(&(j_y.transpose() * (misfit - p * x)));
+    gradient.fixed_rows_mut::<3>(3).copy_from(&(j_y.transpose() * (residual - p * x)));
     gradient.fixed_rows_mut::<3>(6).copy_from(&(m.rr * state.t_x + m.ra - m.br.transpose() * y));
     let (h_xy, h_yt) = (-(j_x.transpose() * (p.transpose() * j_y)), -(j_y.transpose() * m.br));
     let twice = Matrix3::identity() * (2.0 * n); // J_xᵀ J_x = 2 I

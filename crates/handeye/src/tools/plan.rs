@@ -29,7 +29,7 @@ use crate::{
     register::rigid_fit::point_jacobian,
     solve::{
         View,
-        least_squares::{Matrix12, misfit_with_jacobian},
+        least_squares::{Matrix12, residual_with_jacobian},
     },
 };
 
@@ -277,7 +277,7 @@ impl Setting {
         let covariance = linalg::invert_spd(&self.of_picture(&pair.camera_from_target)?);
         let view = View { covariance: Some(covariance?), ..View::bare(pair) };
         let v = self.model().covariance(&view, &self.hand_eye, self.setup);
-        let (_, j) = misfit_with_jacobian(&self.hand_eye, &pair);
+        let (_, j) = residual_with_jacobian(&self.hand_eye, &pair);
         Some(j.transpose() * linalg::invert_spd(&v)? * j)
     }
 

@@ -20,7 +20,7 @@ pub(super) struct Judge<'a> {
 pub(super) struct Judged {
     pub(super) candidate: Candidate,
     pub(super) tre: Option<predict::PredictedTre>,
-    /// Misfit of each capture when it was left out.
+    /// Residual of each capture when it was left out.
     pub(super) held_out: HeldOut,
 }
 

@@ -4,7 +4,7 @@
 //! it is. So views are spread evenly over the motion, not over time: the path of the robot is cut
 //! into cells of equal length, and of each cell the moment at which the robot is slowest is taken,
 //! for an error of the clocks does least there. How many cells is decided by the data: as long as
-//! the misfits of neighbouring views are alike, they are halved.
+//! the residuals of neighbouring views are alike, they are halved.
 
 use nalgebra::{Isometry3, Vector6};
 
@@ -18,11 +18,11 @@ use crate::{
 
 /// Most views; more would take long and hardly tell more.
 pub(super) const MOST_VIEWS: usize = 120;
-/// Fewer views are not asked for, however alike their misfits are.
+/// Fewer views are not asked for, however alike their residuals are.
 pub(super) const FEWEST_VIEWS: usize = 30;
 /// Length of path (m) that counts as one rad of turn.
 const METRES_PER_RAD: f64 = 0.3;
-/// Correlation of neighbouring misfits that is let pass: covariances are then 20 % too small at most.
+/// Correlation of neighbouring residuals that is let pass: covariances are then 20 % too small at most.
 const ALIKE: f64 = 0.1;
 
 /// Both streams, the robot's as flange poses in the base.
@@ -141,21 +141,21 @@ pub(super) fn choose(both: &Both, offset: f64, most: usize) -> Vec<usize> {
     slowest.map(|i| moments[i].0).collect()
 }
 
-/// Correlation of the misfits of neighbouring views, each in units of its own noise; zero where it
+/// Correlation of the residuals of neighbouring views, each in units of its own noise; zero where it
 /// may be chance, or too small to matter.
 pub(super) fn likeness(settled: &Settled, setup: Setup) -> f64 {
     let fit = &settled.fit;
     let white = |view: &crate::solve::View| {
         let pair = view.with(&fit.extras, &fit.values);
-        let r = least_squares::misfit(&fit.hand_eye, &pair);
+        let r = least_squares::residual(&fit.hand_eye, &pair);
         let noise = fit.noise.covariance(view, &fit.hand_eye, setup).cholesky()?;
         noise.l().solve_lower_triangular(&r)
     };
-    let misfits: Vec<Vector6<f64>> = settled.views.iter().filter_map(white).collect();
-    let products: f64 = misfits.windows(2).map(|w| w[0].dot(&w[1])).sum();
-    let squares: f64 = misfits.iter().map(Vector6::norm_squared).sum();
+    let residuals: Vec<Vector6<f64>> = settled.views.iter().filter_map(white).collect();
+    let products: f64 = residuals.windows(2).map(|w| w[0].dot(&w[1])).sum();
+    let squares: f64 = residuals.iter().map(Vector6::norm_squared).sum();
     let found = products / squares.max(f64::MIN_POSITIVE);
-    // two standard deviations of what independent misfits show
-    let chance = 2.0 / (6.0 * misfits.len().max(1) as f64).sqrt();
+    // two standard deviations of what independent residuals show
+    let chance = 2.0 / (6.0 * residuals.len().max(1) as f64).sqrt();
     if found > ALIKE.max(chance) { found } else { 0.0 }
 }

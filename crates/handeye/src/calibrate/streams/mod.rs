@@ -242,8 +242,8 @@ fn starts(both: &Both) -> Vec<f64> {
 /// Views that tell good starts from bad ones.
 const FEW_VIEWS: usize = 40;
 
-/// Starts whose misfit is within this factor, and this much, of the least fit alike: a motion that
-/// repeats. The second is a misfit of 0.3 mm.
+/// Starts whose residual is within this factor, and this much, of the least fit alike: a motion that
+/// repeats. The second is a residual of 0.3 mm.
 const ALIKE: f64 = 1.5;
 const ALIKE_ANYWAY: f64 = 0.02;
 
@@ -257,8 +257,8 @@ fn settle_streams(
     let mut first_error = None;
     let mut ranked: Vec<(f64, f64)> = vec![];
     for start in starts(both) {
-        match misfit_at(both, start, unknown_scale) {
-            Ok(misfit) => ranked.push((misfit, start)),
+        match residual_at(both, start, unknown_scale) {
+            Ok(residual) => ranked.push((residual, start)),
             Err(error) => first_error = first_error.or(Some(error)),
         }
     }
@@ -285,14 +285,14 @@ fn settle_streams(
 }
 
 /// How well a few views agree at an offset.
-fn misfit_at(both: &Both, offset: f64, unknown_scale: bool) -> Result<f64, Error> {
+fn residual_at(both: &Both, offset: f64, unknown_scale: bool) -> Result<f64, Error> {
     let chosen = choose::choose(both, offset, FEW_VIEWS);
     let mut pairs = both.captures(&chosen, offset, 1.0).pairs;
     if unknown_scale {
         let scale = unscaled::first_scale(&pairs)?;
         pairs = both.captures(&chosen, offset, scale).pairs;
     }
-    settle::agreement(&pairs).map(|found| settle::misfit(&found.hand_eye, &pairs))
+    settle::agreement(&pairs).map(|found| settle::residual(&found.hand_eye, &pairs))
 }
 
 /// Settles offset and scale from a first offset, with fewer views as long as neighbours err alike.

@@ -21,7 +21,7 @@ use crate::{
 const MOST_AT_REST: (f64, f64) = (0.02, 5e-3);
 /// Scatter that is rest, whatever the camera sees. rad and m.
 const AT_REST: (f64, f64) = (1e-3, 1e-3);
-/// Motion is more than so many times the misfit of the loops.
+/// Motion is more than so many times the residual of the loops.
 const ABOVE_NOISE: f64 = 3.0;
 
 /// Scatter (root mean square; rad, m) of a stream's poses about their mean.
@@ -67,7 +67,7 @@ pub(super) fn still(both: &Both, settled: Option<&Settled>) -> Option<Error> {
 
 /// Standard deviations by which the clocks are moved to see whether that costs what it should.
 const MOVED: f64 = 20.0;
-/// Factor on the misfit below which it costs nothing. By as many standard deviations it should be
+/// Factor on the residual below which it costs nothing. By as many standard deviations it should be
 /// 1.5 and more.
 const COSTS: f64 = 1.2;
 /// Squared distance, in units of its noise, beyond which a capture is wrong anyway.
@@ -120,7 +120,7 @@ fn cost(both: &Both, chosen: &[usize], settled: &Settled, offset: f64) -> Option
     let weights: Vec<Matrix6<f64>> = views.iter().map(weight).collect::<Option<_>>()?;
     let at = least_squares::fit_weighted(&views, &weights, &fit.hand_eye);
     let one = |(v, w): (&View, &Matrix6<f64>)| {
-        let r = least_squares::misfit(&at, &v.pair);
+        let r = least_squares::residual(&at, &v.pair);
         r.dot(&(w * r))
     };
     Some(views.iter().zip(&weights).map(one).sum::<f64>() / views.len() as f64)

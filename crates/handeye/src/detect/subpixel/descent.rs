@@ -72,7 +72,7 @@ impl Disc {
     }
 
     /// Mean squared residual of the pixels that are not saturated.
-    pub fn misfit(&self, found: &Descent<9>) -> f64 {
+    pub fn residual(&self, found: &Descent<9>) -> f64 {
         found.there.cost / self.told(&residuals(&Model::new(&found.at, self.light), self))
     }
 

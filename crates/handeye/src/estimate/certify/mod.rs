@@ -22,7 +22,7 @@ use quadratic::{Cost, Rotations};
 /// Relative gap up to which bound and cost count as one.
 const CLOSED: f64 = 1e-6;
 /// Costs below this part of the form's trace are rounding: gaps are relative to it at least. It is
-/// a misfit of about 0.1 mm.
+/// a residual of about 0.1 mm.
 const LEAST_COST: f64 = 1e-8;
 
 /// What is proven of the least-squares fit.

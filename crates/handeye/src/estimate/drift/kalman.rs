@@ -1,4 +1,4 @@
-//! The filter over misfits and Jacobian, and the pass back.
+//! The filter over residuals and Jacobian, and the pass back.
 
 use nalgebra::{DMatrix, DVector, Matrix6, SMatrix, SVector, Vector6};
 
@@ -16,7 +16,7 @@ use crate::{
 
 /// Largest number of columns of the Jacobian.
 pub(super) const WIDTH: usize = 12 + EXTRAS;
-/// Misfit and Jacobian side by side.
+/// Residual and Jacobian side by side.
 pub(super) const BOTH: usize = 1 + WIDTH;
 /// Drift of the pose and of the unit.
 pub(super) const STATE: usize = 7;
@@ -33,7 +33,7 @@ pub(super) struct Line {
     pub rows: Rows,
     pub factor: Factor,
     pub columns: [Source; COLUMNS],
-    /// How a step in the axes of the camera moves the slow part of the misfit.
+    /// How a step in the axes of the camera moves the slow part of the residual.
     pub carry: Matrix6<f64>,
     /// Takes the axes of these equations to those of the target.
     pub to_target: Matrix6<f64>,
@@ -51,7 +51,7 @@ pub(super) fn lines(
     let one = |k: usize| {
         let view = &sequence.views[k];
         let pair = view.with(&sequence.extras, values);
-        let (r, j) = least_squares::misfit_with_jacobian(hand_eye, &pair);
+        let (r, j) = least_squares::residual_with_jacobian(hand_eye, &pair);
         let by_c = -lie::left_jacobian_inverse(&r);
         let mut rows = Rows::zeros();
         rows.column_mut(0).copy_from(&r);
@@ -89,13 +89,13 @@ pub(super) fn lines(
     (0..sequence.views.len()).map(one).collect()
 }
 
-/// What the filter leaves: misfit and Jacobian whitened, squared and summed.
+/// What the filter leaves: residual and Jacobian whitened, squared and summed.
 pub(super) struct Filtered {
     pub sum: SMatrix<f64, BOTH, BOTH>,
     log_determinant: f64,
 }
 
-/// Before one view: drift of misfit and Jacobian, and its covariance.
+/// Before one view: drift of residual and Jacobian, and its covariance.
 struct Before {
     state: SMatrix<f64, STATE, BOTH>,
     spread: Square,
@@ -126,7 +126,7 @@ fn before(line: &Line, drift: &Drift, last: Option<Before>) -> Before {
     }
 }
 
-/// Covariance of a view's misfit under what came before, as root and inverse.
+/// Covariance of a view's residual under what came before, as root and inverse.
 fn innovation(line: &Line, before: &Before, levels: &Levels) -> (Matrix6<f64>, Matrix6<f64>) {
     let own = noise::covariance(&line.factor, &line.columns, &levels.noise.variances());
     let all = own + line.see * before.spread * line.see.transpose();
@@ -204,7 +204,7 @@ struct Pass {
     state: SVector<f64, STATE>,
     spread: Square,
     inverse: Matrix6<f64>,
-    /// Misfit minus what was expected.
+    /// Residual minus what was expected.
     new: Vector6<f64>,
 }
 
@@ -236,7 +236,7 @@ pub(super) fn smooth(lines: &[Line], levels: &Levels) -> Vec<Slow> {
         let (line, pass) = (&lines[k], &passes[k]);
         let phi = lines.get(k + 1).map_or(1.0, |l| (-l.after / levels.drift.memory).exp());
         let see = &line.see;
-        // how the next state moves with this one, and with this misfit
+        // how the next state moves with this one, and with this residual
         let (next, gain) = if line.used {
             let gain: Gain = pass.spread * see.transpose() * pass.inverse * phi;
             (Square::identity() * phi - gain * see, gain)
@@ -260,8 +260,8 @@ pub(super) fn smooth(lines: &[Line], levels: &Levels) -> Vec<Slow> {
         } else {
             let own = noise::covariance(&line.factor, &line.columns, &levels.noise.variances());
             let smoothed = pass.spread - pass.spread * back * pass.spread;
-            let misfit: Vector6<f64> = line.rows.column(0).into_owned();
-            (misfit - drift, own + see * smoothed * see.transpose())
+            let residual: Vector6<f64> = line.rows.column(0).into_owned();
+            (residual - drift, own + see * smoothed * see.transpose())
         };
         let weighted = linalg::invert_spd(&spread).map_or_else(Vector6::zeros, |w| w * left_out);
         let squared_mahalanobis = left_out.dot(&weighted);

@@ -1,7 +1,7 @@
 //! A sequence of views of which a part of the error changes slowly: drift.
 //!
 //! Odometry of a camera adds one small error to the next, a target gives way, a robot warms up, and
-//! a robot whose geometry is off errs alike in poses that are alike. The misfit of view `k` then has
+//! a robot whose geometry is off errs alike in poses that are alike. The residual of view `k` then has
 //! two parts,
 //!
 //! ```text
@@ -13,13 +13,13 @@
 //! with `w_k` the time between two views and `m` the time after which drift is forgotten, both in
 //! mean intervals: per interval the drift moves by `ρ` (rad) and `τ` (m) in the axes of the camera.
 //! All of that is slow as the target has it ([`sequence::Side::Target`]). A camera that moves in its holder is slow
-//! in its own axes: then misfits, and all that is said above of them, are those in the camera's axes,
+//! in its own axes: then residuals, and all that is said above of them, are those in the camera's axes,
 //! `Ad(C_k) r_k` ([`sequence::Side::Camera`]).
 //!
 //! As `m` grows, drift becomes a random walk, and the start of it goes along with `Y`. `s_k` is the
-//! same of the unit of distances, `h_k` how the misfit moves with it; only where that is unknown.
+//! same of the unit of distances, `h_k` how the residual moves with it; only where that is unknown.
 //!
-//! A Kalman filter over misfits and Jacobian together whitens both at once; what remains is least
+//! A Kalman filter over residuals and Jacobian together whitens both at once; what remains is least
 //! squares in `(X, Y, extras)`, and the determinants of the filter and of those normal equations
 //! give the restricted likelihood of all standard deviations and of `m` (A. Harvey, *Forecasting,
 //! structural time series models and the Kalman filter*, 1989, section 3.4). A backward pass tells
@@ -121,7 +121,7 @@ fn check(sequence: &Sequence, used: &[bool]) -> Result<(), Error> {
 /// Drift of the unit, per interval, to begin with.
 const FIRST_SCALE: f64 = 1e-3;
 
-/// Levels to start from: little drift, or most of the misfit.
+/// Levels to start from: little drift, or most of the residual.
 fn starts(
     sequence: &Sequence,
     used: &[bool],
@@ -149,7 +149,7 @@ fn starts(
             for s in start.noise.sigmas.iter_mut().filter(|s| known.sigma(s.source).is_none()) {
                 s.sigma = (s.sigma * kept).max(noise::LEAST_SIGMA);
             }
-            // a walk that strays by the misfit over a third of the sequence
+            // a walk that strays by the residual over a third of the sequence
             let step = moved * (3.0 / n).sqrt();
             start.drift = Drift {
                 rotation: rotation * step,

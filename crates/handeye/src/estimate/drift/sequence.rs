@@ -51,9 +51,9 @@ impl Drift {
 /// One view of a sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Slow {
-    /// The slow part of its misfit, perturbing `camera_from_target` on the right.
+    /// The slow part of its residual, perturbing `camera_from_target` on the right.
     pub drift: Vector6<f64>,
-    /// Its misfit where drift is told by the other views alone (rotation, rad; position, m).
+    /// Its residual where drift is told by the other views alone (rotation, rad; position, m).
     pub left_out: Vector6<f64>,
     /// The square of that in units of its standard deviation; six on average.
     pub squared_mahalanobis: f64,

@@ -66,7 +66,7 @@ fn short(side: Side) -> (Sequence, Vec<Line>, Levels) {
     (sequence, lines, Levels { noise, drift, free: true })
 }
 
-/// Covariance of all misfits side by side, from the definition of the drift.
+/// Covariance of all residuals side by side, from the definition of the drift.
 fn dense(lines: &[Line], levels: &Levels) -> DMatrix<f64> {
     let n = lines.len();
     let mut all = DMatrix::zeros(6 * n, 6 * n);

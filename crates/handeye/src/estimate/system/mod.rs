@@ -1,7 +1,7 @@
 //! The equations of the joint fit at one point, and the step that they give.
 //!
 //! The method is told in [`super::joint`]; `views` has the equations of a view, `sights` what the
-//! corners say about the camera, `reml` the noise that the misfits show, `regressors` what noise passes
+//! corners say about the camera, `reml` the noise that the residuals show, `regressors` what noise passes
 //! off as information, `groups` what the answer is without some of the views.
 
 mod groups;
@@ -72,7 +72,7 @@ impl System {
         let Some(known) = &problem.known_position else { return };
         let x = &state.hand_eye.mount_from_camera;
         let j = known.axis.transpose() * x.rotation() / known.sigma_m;
-        let e = known.misfit(x);
+        let e = known.residual(x);
         for a in 0..3 {
             self.g[3 + a] += j[a] * e;
             for b in 0..3 {
@@ -188,7 +188,7 @@ impl System {
         let seen = SeenMount::of(problem, state);
         for (view, noise) in problem.views.iter().zip(&self.views) {
             let pair = view.with(&problem.extras, &state.values);
-            let mut r = least_squares::misfit(&seen.hand_eye, &pair);
+            let mut r = least_squares::residual(&seen.hand_eye, &pair);
             divide(&noise.root, r.as_mut_slice());
             cost += r.norm_squared();
         }
@@ -205,7 +205,7 @@ impl System {
             cost += rows.residual.dot(&block.cholesky.solve(&rows.residual));
         }
         let known = problem.known_position.as_ref();
-        cost += known.map_or(0.0, |k| k.misfit(&state.hand_eye.mount_from_camera).powi(2));
+        cost += known.map_or(0.0, |k| k.residual(&state.hand_eye.mount_from_camera).powi(2));
         let prior = |(e, x): (&Extra, &f64)| ((x - e.prior_mean) / e.prior_sigma).powi(2);
         let priors: f64 = problem.extras.iter().zip(&state.values).map(prior).sum();
         cost + priors + self.sights.cost(&state.values)

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The likelihood of the robot's true poses has none of it: the noise that `V` expects changes with the
-//! step just as the misfit does. So information is believed only as far as it exceeds `S`.
+//! step just as the residual does. So information is believed only as far as it exceeds `S`.
 //!
 //! W. A. Fuller, *Measurement Error Models*, Wiley 1987, 3.1.
 

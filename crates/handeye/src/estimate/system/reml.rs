@@ -1,4 +1,4 @@
-//! The noise of every source from the misfits, and what each contributes to the information.
+//! The noise of every source from the residuals, and what each contributes to the information.
 
 use std::ops::AddAssign;
 

@@ -30,7 +30,7 @@ impl System {
         variances: &Variances,
     ) -> ViewNoise {
         let pair = view.with(&problem.extras, &state.values);
-        let (r, j) = least_squares::misfit_with_jacobian(&seen.hand_eye, &pair);
+        let (r, j) = least_squares::residual_with_jacobian(&seen.hand_eye, &pair);
         let mut factor = noise::factor(view, &pair, &seen.hand_eye, problem.setup);
         let columns = noise::columns(view);
         let covariance = noise::covariance(&factor, &columns, variances);
