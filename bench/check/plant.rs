@@ -123,7 +123,7 @@ impl Case {
         self.board.iter_mut().for_each(|b| b.rotate_left(k));
     }
 
-    /// Capture `j` has the picture of capture `i`.
+    /// Capture `j` has the image of capture `i`.
     fn show_again(&mut self, i: usize, j: usize) {
         self.session.observations[j] = self.session.observations[i].clone();
         if let Some(board) = &mut self.board {

@@ -6,7 +6,7 @@ use handeye::{ImageCorner, TargetModel, detect::detect as find};
 use handeye_io::read_image;
 use serde_json::{Map, Value, json};
 
-/// A picture is looked at again until so much time went by, ns, or so often.
+/// An image is looked at again until so much time went by, ns, or so often.
 const LONG_ENOUGH: f64 = 8e7;
 const MOST_CALLS: usize = 40;
 

@@ -1,4 +1,4 @@
-//! Pictures of boards whose corners are known, and what `detect` finds in them; for
+//! Images of boards whose corners are known, and what `detect` finds in them; for
 //! `bench/detection/run.py`, which sets other detectors beside it:
 //!
 //! ```text
@@ -7,9 +7,9 @@
 //! cargo run --release -p handeye-bench --bin detection -- search HARD EMPTY
 //! ```
 //!
-//! The numbers are pictures per case. `render` writes PNG files and `truth.json`, the same bytes for
+//! The numbers are images per case. `render` writes PNG files and `truth.json`, the same bytes for
 //! the same numbers; `detect` reads both and writes `handeye.json`. `search` draws and
-//! looks at many pictures without writing them, and prints what was found.
+//! looks at many images without writing them, and prints what was found.
 
 mod detected;
 mod pictures;

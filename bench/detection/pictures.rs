@@ -1,4 +1,4 @@
-//! The pictures: cases, and the truth about each picture.
+//! The images: cases, and the truth about each image.
 
 use std::{fs, path::Path};
 
@@ -13,14 +13,14 @@ use serde_json::{Value, json};
 
 use crate::placing::{Distance, SIZES, Size, place};
 
-/// One picture, before it is drawn.
+/// One image, before it is drawn.
 pub struct Picture {
     /// Table that it belongs to, and case there.
     table: &'static str,
     pub case: String,
     size: Size,
     pub target: TargetModel,
-    /// Without one, the clutter alone is the picture.
+    /// Without one, the clutter alone is the image.
     scene: Option<Scene>,
     conditions: Conditions,
     optics: Optics,
@@ -96,7 +96,7 @@ fn spreads() -> [(&'static str, Optics); 5] {
 const SNRS: [f64; 5] = [10.0, 20.0, 50.0, 100.0, 200.0];
 /// Steepest tilt of the accuracy tables, degrees.
 const STEEPEST_DEG: f64 = 60.0;
-/// How far the board's middle is from the picture's, and how much of the picture it fills.
+/// How far the board's middle is from the image's, and how much of the image it fills.
 const ASIDE: f64 = 0.05;
 const FILL: f64 = 0.8;
 
@@ -148,7 +148,7 @@ impl Picture {
     }
 }
 
-/// Boards tilted evenly from 0 to 60 degrees under every spread, in pictures of every size.
+/// Boards tilted evenly from 0 to 60 degrees under every spread, in images of every size.
 fn accuracy(count: usize) -> Vec<Picture> {
     let mut all = vec![];
     for (kind, target) in targets() {
@@ -202,7 +202,7 @@ fn noises(count: usize) -> Vec<Picture> {
     SNRS.into_iter().flat_map(|snr| (0..count).map(move |i| one(snr, i))).collect()
 }
 
-/// What makes a picture of the finding tables hard.
+/// What makes an image of the finding tables hard.
 const HARD: [&str; 8] = [
     "half hidden",
     "tilt 70 degrees",
@@ -295,7 +295,7 @@ fn smaller(target: &TargetModel) -> TargetModel {
     }
 }
 
-/// Pictures without any board: each pattern in turn.
+/// Images without any board: each pattern in turn.
 fn empty(count: usize) -> Vec<Picture> {
     let of = |target: TargetModel| (0..count).map(move |i| empty_of(i, &target));
     targets().into_iter().flat_map(|(_, target)| of(target)).collect()
@@ -309,7 +309,7 @@ pub fn empty_of(i: usize, target: &TargetModel) -> Picture {
     picture
 }
 
-/// Writes pictures and truth.
+/// Writes images and truth.
 pub fn render(folder: &Path, accurate: usize, difficult: usize, none: usize) {
     fs::create_dir_all(folder).expect("a folder that can be made");
     let all = [accuracy(accurate), noises(accurate), hard(difficult), empty(none)];

@@ -1,4 +1,4 @@
-//! Boards in front of a camera, so that they fill a given part of its picture.
+//! Boards in front of a camera, so that they fill a given part of its image.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use handeye::{
 };
 use nalgebra::{Isometry3, UnitQuaternion, Vector2, Vector3};
 
-/// Pictures of a camera: 1.3, 5 and 12 megapixels.
+/// Images of a camera: 1.3, 5 and 12 megapixels.
 #[derive(Clone, Copy)]
 pub struct Size {
     pub name: &'static str,
@@ -25,15 +25,15 @@ pub const SIZES: [Size; 3] = [
 /// How far away a board is.
 #[derive(Clone, Copy)]
 pub enum Distance {
-    /// It fills this share of the picture's width or height.
+    /// It fills this share of the image's width or height.
     Fill(f64),
     /// The squares in its middle are so many pixels wide, seen square on.
     Square(f64),
 }
 
-/// Focal length over the picture's width.
+/// Focal length over the image's width.
 const FOCAL: f64 = 1.2;
-/// `k1 k2 p1 p2`: corners of the picture move by about 4 % of their distance from the middle.
+/// `k1 k2 p1 p2`: corners of the image move by about 4 % of their distance from the middle.
 const LENS: [f64; 4] = [-0.16, 0.06, 4e-4, -3e-4];
 /// Paper beyond the outermost corners, in distances between corners.
 const PAPER: f64 = 1.3;
@@ -61,7 +61,7 @@ fn camera(size: Size, random: &mut Random) -> Intrinsics {
 }
 
 /// The board tilted by `tilt` (rad) about a random direction, turned at random in its plane, its
-/// middle within `aside` of the picture's (in shares of the picture's size).
+/// middle within `aside` of the image's (in shares of the image's size).
 pub fn place(
     target: &TargetModel,
     size: Size,
@@ -100,7 +100,7 @@ fn nearest(fits: impl Fn(f64) -> bool) -> f64 {
     (0..HALVINGS).fold((NEAREST, FARTHEST), halve).1
 }
 
-/// Whether the board's paper spans no more than `share` of the picture, and lies in it.
+/// Whether the board's paper spans no more than `share` of the image, and lies in it.
 fn fills(
     target: &TargetModel,
     camera: &Intrinsics,
@@ -114,7 +114,7 @@ fn fills(
     let corners = [(low.x, low.y), (high.x, low.y), (low.x, high.y), (high.x, high.y)];
     let pixel = |(x, y): (f64, f64)| {
         let p = (*pose * Point::new(x, y, 0.0)).vector();
-        // the lens folds over far outside of the picture
+        // the lens folds over far outside of the image
         (p.x.hypot(p.y) < p.z).then(|| camera.project(&p)).flatten()
     };
     let Some(pixels) = corners.into_iter().map(pixel).collect::<Option<Vec<_>>>() else {

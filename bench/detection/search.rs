@@ -1,4 +1,4 @@
-//! Many hard pictures and many without a board, drawn and looked at in memory: what is found, and
+//! Many hard images and many without a board, drawn and looked at in memory: what is found, and
 //! what is wrong.
 
 use std::{
@@ -27,7 +27,7 @@ struct Tally {
     visible: usize,
     right: usize,
     wrong: usize,
-    /// Seeds of the pictures with something wrong.
+    /// Seeds of the images with something wrong.
     seeds: Vec<u64>,
 }
 
@@ -51,7 +51,7 @@ impl Tally {
 
 type Key = (&'static str, &'static str, String);
 
-/// `hard` pictures of each case and target, `empty` pictures for all targets together.
+/// `hard` images of each case and target, `empty` images for all targets together.
 pub fn search(hard_count: usize, empty_count: usize) -> Value {
     let pictures: Vec<Picture> = hard(hard_count);
     let jobs = pictures.len() + empty_count;

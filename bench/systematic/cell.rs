@@ -8,7 +8,7 @@ use handeye::{
 
 use crate::faults::Fault;
 
-/// What there is beside pictures and robot poses.
+/// What there is beside images and robot poses.
 #[derive(Clone, Copy)]
 pub struct Kind {
     pub setup: Setup,

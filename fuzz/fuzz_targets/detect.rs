@@ -1,4 +1,4 @@
-//! Targets in arbitrary pictures.
+//! Targets in arbitrary images.
 #![no_main]
 
 use std::sync::LazyLock;

@@ -1,4 +1,4 @@
-//! Pictures of every kind that is read.
+//! Images of every kind that is read.
 #![no_main]
 
 use handeye_fuzz::{file, told};

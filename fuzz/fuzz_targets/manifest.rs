@@ -1,4 +1,4 @@
-//! Manifests, with pictures, scans and poses beside them.
+//! Manifests, with images, scans and poses beside them.
 #![no_main]
 
 use std::{fs, sync::Once};

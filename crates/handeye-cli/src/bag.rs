@@ -33,7 +33,7 @@ pub struct BagArgs {
     /// Topic of the depth images or clouds, where there are several.
     #[arg(long, value_name = "TOPIC")]
     pub depth: Option<String>,
-    /// Topic of the camera's intrinsics, where it does not lie beside the pictures.
+    /// Topic of the camera's intrinsics, where it does not lie beside the images.
     #[arg(long, value_name = "TOPIC")]
     pub camera_info: Option<String>,
     /// Frame (or link of the model) of the robot's base.
@@ -52,7 +52,7 @@ pub struct BagArgs {
     /// The robot's model for --joints, where the bag has none.
     #[arg(long, value_name = "FILE", requires = "joints")]
     pub urdf: Option<PathBuf>,
-    /// Whether the robot stood still for its pictures.
+    /// Whether the robot stood still for its images.
     #[arg(long, value_enum, default_value_t)]
     pub motion: MotionArg,
     /// Most images of a robot in motion.

@@ -1,4 +1,4 @@
-//! `handeye detect`: the target's corners in pictures.
+//! `handeye detect`: the target's corners in images.
 
 use std::{
     fs,

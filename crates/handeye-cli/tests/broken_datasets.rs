@@ -7,7 +7,7 @@ mod folder;
 
 use folder::{Folder, handeye};
 
-/// A dataset that can be read; its pictures show nothing.
+/// A dataset that can be read; its images show nothing.
 const MANIFEST: &str = "setup = \"eye-in-hand\"\n[target]\nkind = \"checkerboard\"\ncolumns = 9\nrows = 6\nsquare_mm = 20.0\n[robot]\nposes = \"poses.csv\"\nnotation = \"ur\"\ndirection = \"base_from_flange\"\n[images]\nfiles = \"img_*.png\"\n[camera]\nwidth = 640\nheight = 480\nfx = 600.0\nfy = 600.0\ncx = 320.0\ncy = 240.0\n";
 const POSES: &str = "0.1,0.2,0.3,0.1,0.2,0.3\n0.2,0.2,0.3,0.1,0.2,0.3\n0.3,0.2,0.3,0.1,0.2,0.4\n";
 

@@ -66,7 +66,7 @@ fn tabb_ds1_from_pictures_without_intrinsics() {
     accepted_within("tabb_ds1", 4.43);
 }
 
-/// Eight pictures of an asymmetric grid of circles.
+/// Eight images of an asymmetric grid of circles.
 #[test]
 fn xema_eih_from_pictures() {
     let Some(found) = accepted_within("xema_eih", 0.79) else { return };
@@ -95,7 +95,7 @@ fn moveit_samples_poses_alone() {
     accepted_within("moveit_samples", 4.795);
 }
 
-/// The camera comes without distortion, but its pictures of one tag show that its lens bends.
+/// The camera comes without distortion, but its images of one tag show that its lens bends.
 #[test]
 fn visp_franka_eth_finds_that_the_lens_bends() {
     let Some(found) = accepted_within("visp_franka_eth", 2.86) else { return };

@@ -123,7 +123,7 @@ fn a_start_is_looked_for_where_it_is_asked_for() {
     assert!(degrees < 0.2 && mm < 0.6, "{degrees} deg, {mm} mm");
 }
 
-/// A camera matrix alone does not say of which size its pictures are: the depth image does.
+/// A camera matrix alone does not say of which size its images are: the depth image does.
 #[test]
 fn depth_images_are_registered_with_their_intrinsics() {
     let (source, target, truth) = scans(&cell());

@@ -1,4 +1,4 @@
-//! Pictures as grey values from 0 to 255.
+//! Images as grey values from 0 to 255.
 
 use std::{io::Cursor, path::Path};
 
@@ -10,19 +10,19 @@ use crate::{
     files,
 };
 
-/// Largest picture that is decoded, in pixels.
+/// Largest image that is decoded, in pixels.
 pub(crate) const MOST_PIXELS: u64 = 64_000_000;
-/// Smallest side of a picture that can show anything.
+/// Smallest side of an image that can show anything.
 const SMALLEST_SIDE: u32 = 8;
-/// Memory one picture may take while it is decoded: 64 MP of four 16-bit channels.
+/// Memory one image may take while it is decoded: 64 MP of four 16-bit channels.
 const MOST_MEMORY: u64 = 8 * MOST_PIXELS;
 
-/// Reads a PNG, JPEG, TIFF or BMP picture of 8 or 16 bits, grey or colour (Rec. 601 luma).
+/// Reads a PNG, JPEG, TIFF or BMP image of 8 or 16 bits, grey or colour (Rec. 601 luma).
 ///
-/// A 16-bit picture is scaled by its full range, or by `bit_depth` bits where the camera used fewer.
+/// A 16-bit image is scaled by its full range, or by `bit_depth` bits where the camera used fewer.
 ///
 /// # Errors
-/// What is no picture, cut short, larger than 64 megapixels, or brighter than `bit_depth` says.
+/// What is no image, cut short, larger than 64 megapixels, or brighter than `bit_depth` says.
 pub fn read_image(path: &Path, bit_depth: Option<u32>) -> Result<GrayImage, Error> {
     let picture = decode(path)?;
     gray(&picture, bit_depth, path)
@@ -80,7 +80,7 @@ fn reader<'a>(bytes: &'a [u8], path: &Path) -> Result<ImageReader<Cursor<&'a [u8
     Ok(reader)
 }
 
-/// The decoded picture, its size checked first.
+/// The decoded image, its size checked first.
 pub(crate) fn decode(path: &Path) -> Result<DynamicImage, Error> {
     let bytes = files::bytes(path)?;
     size_of(&bytes, path)?;

@@ -1,7 +1,7 @@
 //! From a dataset's files to measurements: corners, their points in 3D, poses of the target.
 //!
 //! Captures are read, measured and dropped one by one on a few threads, so that memory holds no
-//! more than a handful of pictures however many there are.
+//! more than a handful of images however many there are.
 
 mod depth;
 
@@ -75,7 +75,7 @@ struct Seen {
 /// Measures every capture and placement; `progress` is told how many of how many are done.
 ///
 /// # Errors
-/// A file that cannot be read or used. A picture without the target is not an error.
+/// A file that cannot be read or used. An image without the target is not an error.
 pub fn measure(
     dataset: &Dataset,
     progress: &(dyn Fn(usize, usize) + Sync),
@@ -318,7 +318,7 @@ fn uncalibrated(dataset: &Dataset, error: &handeye::Error) -> Error {
     malformed(Place::file(&dataset.manifest), what, "add the camera's intrinsics to the manifest")
 }
 
-/// Pictures must have the size the camera was calibrated at.
+/// Images must have the size the camera was calibrated at.
 fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), Error> {
     for (shot, s) in shots.iter().zip(seen) {
         let (Some((w, h)), Some(path)) = (s.size, shot.image) else { continue };

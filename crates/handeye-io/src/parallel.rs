@@ -1,17 +1,17 @@
-//! Pictures and scans worked on by a few threads, each holding one at a time: memory does not grow
+//! Images and scans worked on by a few threads, each holding one at a time: memory does not grow
 //! with their number.
 
 use std::path::Path;
 
 pub use handeye::math::parallel::in_order;
 
-/// Pictures larger than this (pixels) are worked on by two threads at most: each takes some
+/// Images larger than this (pixels) are worked on by two threads at most: each takes some
 /// twenty bytes a pixel.
 const LARGE_PICTURE: u64 = 6_000_000;
 /// More threads than this only fight for memory.
 const MOST_THREADS: usize = 8;
 
-/// How many threads may work on these pictures at once.
+/// How many threads may work on these images at once.
 pub fn threads<'a>(pictures: impl IntoIterator<Item = &'a Path>) -> usize {
     let cores = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
     let mut sizes = pictures.into_iter().filter_map(|p| crate::image_size(p).ok());

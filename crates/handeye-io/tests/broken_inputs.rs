@@ -84,7 +84,7 @@ const WORKING: Manifest = Manifest {
 
 const POSES: &str = "0.1,0.2,0.3,0.1,0.2,0.3\n0.2,0.2,0.3,0.1,0.2,0.3\n0.3,0.2,0.3,0.1,0.2,0.4\n";
 
-/// Opens a folder with a manifest, poses and three pictures.
+/// Opens a folder with a manifest, poses and three images.
 fn open(manifest: &Manifest, poses: &str) -> Result<Dataset, String> {
     let folder = Folder::new();
     let Manifest { setup, target, robot, images, more } = manifest;

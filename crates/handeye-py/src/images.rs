@@ -1,4 +1,4 @@
-//! Targets in pictures.
+//! Targets in images.
 
 use std::path::PathBuf;
 
@@ -120,7 +120,7 @@ fn picture(image: &Bound<'_, PyAny>) -> PyResult<GrayImage> {
     Err(errors::input("the image must be an array of uint8, uint16, float32 or float64 (0 to 255)"))
 }
 
-/// Floating pictures from 0 to 1 are so dark to us that no board would be found in them.
+/// Floating images from 0 to 1 are so dark to us that no board would be found in them.
 fn up_to_255(picture: GrayImage) -> PyResult<GrayImage> {
     let brightest = picture.values().iter().copied().fold(0.0, f32::max);
     if brightest > 0.0 && brightest <= 1.0 {

@@ -13,9 +13,9 @@ use crate::{closed_form::setup, errors, images, working};
 
 /// Most captures: more are mistakes.
 const MOST: usize = 999;
-/// Largest side of a picture, px.
+/// Largest side of an image, px.
 const LARGEST_PX: u32 = 10_000;
-/// Focal length in picture widths.
+/// Focal length in image widths.
 const FOCAL: f64 = 0.9375;
 
 /// Writes a dataset and its truth; names of the files.

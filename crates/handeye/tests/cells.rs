@@ -105,7 +105,7 @@ fn captures_that_repeat_one_another_count_once() {
     assert!(found.rejected.is_empty());
 }
 
-/// Where the robot is better than the pictures, closed forms are far from the likeliest answer.
+/// Where the robot is better than the images, closed forms are far from the likeliest answer.
 #[test]
 fn a_method_asked_for_by_name_states_its_own_error() {
     for method in [Method::Shah, Method::TsaiLenz, Method::Andreff] {

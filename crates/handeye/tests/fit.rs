@@ -310,7 +310,7 @@ fn the_least_cost_is_as_large_as_the_noise_says() {
 #[test]
 #[ignore = "a minute"]
 fn the_least_cost_is_as_large_as_the_noise_says_to_a_hundredth() {
-    // corners of picture and scan share the error of the pixel, and count as if they did not
+    // corners of image and scan share the error of the pixel, and count as if they did not
     for (scans, most) in [(false, 0.01), (true, 0.05)] {
         let found = cost_over_expected(1000, scans);
         println!("scans {scans}: cost over degrees of freedom {found:.4}");

@@ -58,7 +58,7 @@ fn to_the_best(scenario: Scenario, trials: u64, of: &[&str]) -> f64 {
     chosen / each.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Rows in which picture and scan are not at odds: there lens and depth must move, not the choice.
+/// Rows in which image and scan are not at odds: there lens and depth must move, not the choice.
 const ROWS: [&str; 8] = [
     "independent errors",
     "tip off 0.5 mm",

@@ -13,7 +13,7 @@ use nalgebra::SVector;
 /// The share by which the focal length that is given is too long.
 const WRONG: f64 = 2e-3;
 
-/// Pictures as rendered ones are measured: 0.05 px.
+/// Images as rendered ones are measured: 0.05 px.
 const EXACT: CellNoise = CellNoise { corner_px: 0.05, ..CellNoise::NONE };
 
 fn session(setup: Setup, seed: u64, captures: usize, noise: CellNoise) -> (Session, Truth) {

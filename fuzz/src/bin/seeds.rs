@@ -233,7 +233,7 @@ fn put(target: &str, name: &str, bytes: &[u8]) {
     fs::write(folder.join(name), bytes).expect("a file can be written");
 }
 
-/// Of six pictures and two places, as other programs write them.
+/// Of six images and two places, as other programs write them.
 fn bags() {
     for (k, bytes) in [
         (0, &include_bytes!("../../bags/small.mcap")[..]),

@@ -1,4 +1,4 @@
-//! From a bag to a dataset: pictures, scans and robot poses as files, and the manifest that describes them.
+//! From a bag to a dataset: images, scans and robot poses as files, and the manifest that describes them.
 
 use std::{
     ffi::OsString,
@@ -23,15 +23,15 @@ use crate::{
     robot::Urdf,
 };
 
-/// Whether the robot stood still for its pictures.
+/// Whether the robot stood still for its images.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Motion {
     /// Still where it stood still at six places and more.
     #[default]
     Auto,
-    /// It stood still: one picture of each place.
+    /// It stood still: one image of each place.
     Still,
-    /// It moved: many pictures, and the robot's poses over time.
+    /// It moved: many images, and the robot's poses over time.
     Moving,
 }
 
@@ -42,11 +42,11 @@ pub struct BagOptions {
     pub setup: Option<Setup>,
     /// What the camera sees.
     pub target: Option<Targets>,
-    /// The topic of the pictures; may be left out where there is one only.
+    /// The topic of the images; may be left out where there is one only.
     pub image: Option<String>,
     /// The topic of depth images or clouds, likewise.
     pub depth: Option<String>,
-    /// The topic of the camera's intrinsics; that beside the pictures unless said.
+    /// The topic of the camera's intrinsics; that beside the images unless said.
     pub camera: Option<String>,
     /// Where the robot's poses come from.
     pub robot: RobotSource,
@@ -54,7 +54,7 @@ pub struct BagOptions {
     pub urdf: Option<PathBuf>,
     /// Whether it stood still.
     pub motion: Motion,
-    /// Most pictures of a robot in motion.
+    /// Most images of a robot in motion.
     pub most: usize,
     /// Which times count.
     pub stamps: Stamps,
@@ -73,9 +73,9 @@ pub struct Extracted {
     pub questions: Vec<String>,
 }
 
-/// Places at which the robot must have stood still for the pictures to be taken there.
+/// Places at which the robot must have stood still for the images to be taken there.
 const FEWEST_PLACES: usize = 6;
-/// Farthest in time (s) a scan may be from the picture of a robot that moves, and of one that was still for each of them.
+/// Farthest in time (s) a scan may be from the image of a robot that moves, and of one that was still for each of them.
 const BESIDE_MOVING_S: f64 = 1e-3;
 const BESIDE_TRIGGERED_S: f64 = 0.5;
 /// Scans that nobody asked for are not used where more captures than this share would be lost for lack of one.
@@ -149,7 +149,7 @@ pub(super) struct Plan<'a> {
     pub(super) notes: Vec<String>,
 }
 
-/// A picture, or a scan alone, and where the robot was.
+/// An image, or a scan alone, and where the robot was.
 pub(super) struct Capture {
     pub(super) name: String,
     pub(super) moment: Moment,
@@ -185,7 +185,7 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    /// The topic that leads: of pictures, or else of scans.
+    /// The topic that leads: of images, or else of scans.
     fn leading(&self) -> &str {
         self.chosen.image.as_ref().or(self.chosen.scan.as_ref()).map_or("", String::as_str)
     }

@@ -212,5 +212,5 @@ fn bounded(unpacked: u64, file: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Pictures of one colour are packed to a hundredth; more than this many times its size no bag unpacks to.
+/// Images of one colour are packed to a hundredth; more than this many times its size no bag unpacks to.
 const MOST_UNPACKED: u64 = 500;

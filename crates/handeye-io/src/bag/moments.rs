@@ -1,4 +1,4 @@
-//! Which pictures become captures: one of each place where the robot stood still, or many of a robot in motion.
+//! Which images become captures: one of each place where the robot stood still, or many of a robot in motion.
 
 use handeye::math::lie;
 use nalgebra::Vector6;
@@ -8,36 +8,36 @@ use super::{
     survey::Shot,
 };
 
-/// A picture to be written, and where the robot was.
+/// An image to be written, and where the robot was.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Moment {
     pub(super) shot: Shot,
     pub(super) at: At,
 }
 
-/// For how long before a picture (s) the robot must have been at rest, and after it: exposures take time, and stamps
+/// For how long before an image (s) the robot must have been at rest, and after it: exposures take time, and stamps
 /// may be late.
 const BEFORE_S: f64 = 0.3;
 const AFTER_S: f64 = 0.1;
 /// What of that a recording must have at its very ends.
 const LEAST_S: f64 = 0.2;
-/// Scans farther than this from their picture (s) may show something else.
+/// Scans farther than this from their image (s) may show something else.
 const SAME_REST_S: f64 = 10.0;
-/// Farthest that a robot at rest is from where it is at the picture (rad, m).
+/// Farthest that a robot at rest is from where it is at the image (rad, m).
 const REST: (f64, f64) = (2e-4, 2e-4);
-/// Pictures whose robot poses differ by less (rad, m) show the same place.
+/// Images whose robot poses differ by less (rad, m) show the same place.
 const SAME_PLACE: (f64, f64) = (2e-3, 1e-3);
 /// Length of path (m) that counts as one rad of turn.
 const METRES_PER_RAD: f64 = 0.3;
 
-/// One picture of every place where the robot stood still: the middle one.
+/// One image of every place where the robot stood still: the middle one.
 pub(super) fn still(shots: &[Shot], robot: &Robot) -> Vec<Moment> {
     let times = robot.times();
     let resting = |shot: &Shot| Some(Moment { shot: *shot, at: at_rest(shot, robot, &times)? });
     places(shots.iter().filter_map(resting))
 }
 
-/// Of pictures of the same place, one after the other, the middle one.
+/// Of images of the same place, one after the other, the middle one.
 fn places(moments: impl IntoIterator<Item = Moment>) -> Vec<Moment> {
     let mut places: Vec<Vec<Moment>> = vec![];
     for moment in moments {
@@ -49,7 +49,7 @@ fn places(moments: impl IntoIterator<Item = Moment>) -> Vec<Moment> {
     places.into_iter().map(|place| place[place.len() / 2].clone()).collect()
 }
 
-/// Where the robot was at a picture, if it was at rest.
+/// Where the robot was at an image, if it was at rest.
 fn at_rest(shot: &Shot, robot: &Robot, times: &[f64]) -> Option<At> {
     let here = robot.at(shot.time_s)?;
     // where the recording begins or ends, what there is of it counts
@@ -63,7 +63,7 @@ fn at_rest(shot: &Shot, robot: &Robot, times: &[f64]) -> Option<At> {
     (rests(from) && rests(to) && within.copied().all(rests)).then_some(here)
 }
 
-/// The scan nearest in time to a picture of a robot that stood still, of those that it was at rest for at the same place.
+/// The scan nearest in time to an image of a robot that stood still, of those that it was at rest for at the same place.
 pub(super) fn scan_beside(picture: &Moment, scans: &[Shot], robot: &Robot) -> Option<Shot> {
     let times = robot.times();
     let away = |s: &Shot| (s.time_s - picture.shot.time_s).abs();
@@ -74,7 +74,7 @@ pub(super) fn scan_beside(picture: &Moment, scans: &[Shot], robot: &Robot) -> Op
     near_in_time.iter().find(same).map(|s| **s)
 }
 
-/// Pictures of a robot that stood still as somebody says, whose poses come too seldom to see that: of each the nearest pose.
+/// Images of a robot that stood still as somebody says, whose poses come too seldom to see that: of each the nearest pose.
 pub(super) fn triggered(shots: &[Shot], robot: &Robot) -> Vec<Moment> {
     let one = |shot: &Shot| Some(Moment { shot: *shot, at: robot.nearest(shot.time_s)? });
     let mut all: Vec<Moment> = shots.iter().filter_map(one).collect();
@@ -93,11 +93,11 @@ fn apart(a: &At, b: &At) -> (f64, f64) {
     (lie::angle(&a.rotation, &b.rotation), (a.translation.vector - b.translation.vector).norm())
 }
 
-/// Up to `most` pictures, spread evenly over the robot's path, of each stretch the one where it is slowest.
+/// Up to `most` images, spread evenly over the robot's path, of each stretch the one where it is slowest.
 pub(super) fn moving(shots: &[Shot], robot: &Robot, most: usize) -> Vec<Moment> {
     let known =
         shots.iter().filter_map(|shot| Some(Moment { shot: *shot, at: robot.at(shot.time_s)? }));
-    // many pictures of one place tell no more than one: of a rest the middle one counts
+    // many images of one place tell no more than one: of a rest the middle one counts
     let known = places(known);
     if known.len() <= most {
         return known;
@@ -121,7 +121,7 @@ pub(super) fn moving(shots: &[Shot], robot: &Robot, most: usize) -> Vec<Moment> 
         .collect()
 }
 
-/// How fast the flange moves at a picture, rad/s.
+/// How fast the flange moves at an image, rad/s.
 fn speed(robot: &Robot, moment: &Moment) -> f64 {
     let at = |by: f64| robot.at(moment.shot.time_s + by);
     let (Some(before), Some(after)) = (at(-STEP_S), at(STEP_S)) else { return f64::INFINITY };

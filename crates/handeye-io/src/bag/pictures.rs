@@ -1,4 +1,4 @@
-//! Pictures, depth images and clouds out of messages, as files.
+//! Images, depth images and clouds out of messages, as files.
 
 use std::io::Cursor;
 
@@ -20,7 +20,7 @@ struct Pixels {
     order: &'static [usize],
 }
 
-/// How pictures are encoded that are written as they are.
+/// How images are encoded that are written as they are.
 fn plain(encoding: &str) -> Option<Pixels> {
     use ExtendedColorType::{L8, L16, Rgb8, Rgb16};
     let (channels, depth, colour, order): (usize, usize, ExtendedColorType, &'static [usize]) =
@@ -41,11 +41,11 @@ fn plain(encoding: &str) -> Option<Pixels> {
     Some(Pixels { channels, depth, colour, order })
 }
 
-/// What is written of raw pictures.
+/// What is written of raw images.
 const READ: &str =
     "mono8, mono16, rgb8, bgr8, rgba8, bgra8, rgb16, bgr16, bayer_*8, uyvy and yuyv are";
 
-/// A picture.
+/// An image.
 pub(super) fn picture(image: &Image) -> Result<File, String> {
     let size = checked(image.width, image.height)?;
     if let Some(pattern) = image.encoding.strip_prefix("bayer_").and_then(|e| e.strip_suffix('8')) {
@@ -73,7 +73,7 @@ pub(super) fn picture(image: &Image) -> Result<File, String> {
     Ok(("png", png_of(&channels.collect::<Vec<u8>>(), size, pixels.colour)))
 }
 
-/// A picture that was packed, as it is.
+/// An image that was packed, as it is.
 pub(super) fn packed(image: &CompressedImage) -> Result<File, String> {
     if image.data.starts_with(&[0x89, b'P', b'N', b'G']) {
         Ok(("png", image.data.to_vec()))

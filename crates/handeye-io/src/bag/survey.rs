@@ -1,4 +1,4 @@
-//! What a bag holds: its topics, everything about the robot and the cameras, and when pictures were taken.
+//! What a bag holds: its topics, everything about the robot and the cameras, and when images were taken.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -37,11 +37,11 @@ pub struct Topic {
     pub messages: usize,
     /// The frame of the first one.
     pub frame: Option<String>,
-    /// Size and encoding of the first picture or cloud.
+    /// Size and encoding of the first image or cloud.
     pub shape: Option<String>,
 }
 
-/// A picture, a depth image or a cloud: the how manieth of its topic, and when it was taken (s).
+/// An image, a depth image or a cloud: the how manieth of its topic, and when it was taken (s).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Shot {
     pub(super) index: usize,
@@ -58,7 +58,7 @@ pub(super) struct Edge {
     pub(super) samples: Vec<(f64, Isometry3<f64>)>,
 }
 
-/// All of a bag but its pictures.
+/// All of a bag but its images.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Survey {
     pub(super) topics: BTreeMap<String, Topic>,
@@ -112,12 +112,12 @@ pub fn contents(path: &Path, tick: &Tick) -> Result<BagContents, Error> {
     })
 }
 
-/// What pictures and clouds are.
+/// What images and clouds are.
 pub(super) const IMAGE: &str = "sensor_msgs/Image";
 pub(super) const COMPRESSED: &str = "sensor_msgs/CompressedImage";
 pub(super) const CLOUD: &str = "sensor_msgs/PointCloud2";
 
-/// Reads a bag, but no picture of it.
+/// Reads a bag, but no image of it.
 pub(crate) fn survey(path: &Path, stamps: Stamps, tick: &Tick) -> Result<Survey, Error> {
     let mut found = Survey { stamps, ..Survey::default() };
     let mut unreadable: BTreeMap<String, (usize, Broken)> = BTreeMap::new();

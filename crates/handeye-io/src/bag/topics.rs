@@ -1,4 +1,4 @@
-//! Which topics of a bag are the pictures, the scans and the camera.
+//! Which topics of a bag are the images, the scans and the camera.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::error::{Error, unusable};
 
-/// What a bag's pictures and scans are.
+/// What a bag's images and scans are.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Chosen {
     pub(super) image: Option<String>,
@@ -72,13 +72,13 @@ pub(super) fn choose(survey: &Survey, asked: &Asked, bag: &Path) -> Result<Chose
     Ok(chosen)
 }
 
-/// The topic of pictures that was asked for, or the only one; of one camera, raw before packed.
+/// The topic of images that was asked for, or the only one; of one camera, raw before packed.
 fn image(survey: &Survey, asked: Option<&str>, bag: &Path) -> Result<Option<String>, Error> {
     let all: Vec<&String> =
         survey.topics.iter().filter(|(_, t)| is_picture(t)).map(|(name, _)| name).collect();
     if let Some(name) = asked {
         return match survey.topics.get(name) {
-            // pictures of 16 bits look like depth: here somebody says what they are
+            // images of 16 bits look like depth: here somebody says what they are
             Some(topic) if [IMAGE, COMPRESSED].contains(&topic.kind.as_str()) => {
                 Ok(Some(name.into()))
             }
@@ -108,7 +108,7 @@ fn is_packed(name: &str, all: &[&String]) -> bool {
     all.iter().any(|raw| name.strip_prefix(raw.as_str()).is_some_and(|rest| rest.starts_with('/')))
 }
 
-/// A scan counts in the frame of the pictures.
+/// A scan counts in the frame of the images.
 fn scan(survey: &Survey, name: &str, chosen: &Chosen, bag: &Path) -> Result<String, Error> {
     let Some(topic) = survey.topics.get(name).filter(|t| is_depth(t)) else {
         return Err(unusable(
@@ -130,7 +130,7 @@ fn scan(survey: &Survey, name: &str, chosen: &Chosen, bag: &Path) -> Result<Stri
     Ok(name.into())
 }
 
-/// The only depth in the frame of the pictures; clouds before depth images.
+/// The only depth in the frame of the images; clouds before depth images.
 fn scan_beside(survey: &Survey, chosen: &mut Chosen) -> Option<String> {
     let frame = match &chosen.image {
         Some(image) => Some(&survey.topics.get(image)?.frame),
@@ -164,7 +164,7 @@ fn scan_beside(survey: &Survey, chosen: &mut Chosen) -> Option<String> {
     Some(one.clone())
 }
 
-/// The camera's topic beside one of its pictures: the nearest `camera_info` upwards of the same frame.
+/// The camera's topic beside one of its images: the nearest `camera_info` upwards of the same frame.
 fn camera_beside(survey: &Survey, topic: &str) -> Option<String> {
     let frame = survey.topics.get(topic)?.frame.clone().unwrap_or_default();
     let mut above = topic;

@@ -36,7 +36,7 @@ const SCAN_CAMERA: &str = "scan_camera.yaml";
 const ROBOT: &str = "robot.csv";
 const URDF: &str = "robot.urdf";
 
-/// Pictures or scans: also the name of their folder.
+/// Images or scans: also the name of their folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Images,
@@ -95,7 +95,7 @@ fn wanted(plan: &Plan) -> Wanted {
     all
 }
 
-/// Writes all pictures and scans in one more pass.
+/// Writes all images and scans in one more pass.
 fn pictures(plan: &mut Plan, folder: &Path, tick: &Tick) -> Result<Written, Error> {
     let wanted = wanted(plan);
     let (mut counts, mut done, mut broken) =
@@ -201,7 +201,7 @@ fn camera(plan: &mut Plan, topic: &str, pictures: &str, path: &Path) -> Result<b
     Ok(true)
 }
 
-/// As ROS keeps its cameras in files, for the part of the sensor and the binning that the pictures have.
+/// As ROS keeps its cameras in files, for the part of the sensor and the binning that the images have.
 fn camera_yaml(info: &CameraInfo, rectified: bool) -> String {
     let [left, top, height, width] = info.region.map(f64::from);
     let [bin_x, bin_y] = info.binning.map(|b| f64::from(b.max(1)));
@@ -238,7 +238,7 @@ fn camera_yaml(info: &CameraInfo, rectified: bool) -> String {
     )
 }
 
-/// Writes the robot's poses: one a capture, or, of a robot in motion, all there are beside the pictures' times.
+/// Writes the robot's poses: one a capture, or, of a robot in motion, all there are beside the images' times.
 fn robot_files(plan: &Plan, folder: &Path) -> Result<(), Error> {
     let columns = match plan.robot.urdf() {
         Some(urdf) => urdf.joint_names().join(","),

@@ -52,7 +52,7 @@ impl Found {
         }
     }
 
-    /// Complete intrinsics; a size that is not said is the pictures', before they were resized.
+    /// Complete intrinsics; a size that is not said is the images', before they were resized.
     pub(super) fn intrinsics(
         &self,
         place: &Place,

@@ -55,14 +55,14 @@ impl CameraSpec {
         Self { file: Some(name.into()), ..Self::default() }
     }
 
-    /// Whether nothing is given but the wish to calibrate, and perhaps the size of the pictures.
+    /// Whether nothing is given but the wish to calibrate, and perhaps the size of the images.
     pub(crate) fn is_open(&self) -> bool {
         let Self { width, height, calibrate, .. } = *self;
         let nothing = Self { width, height, calibrate, ..Self::default() };
         self.calibrate.is_some() && *self == nothing
     }
 
-    /// How well the intrinsics are known, in pixels of the pictures.
+    /// How well the intrinsics are known, in pixels of the images.
     pub(crate) fn sigma(&self) -> Result<Option<LensSigma>, String> {
         let all =
             [("focal_sigma_px", self.focal_sigma_px), ("center_sigma_px", self.center_sigma_px)];
@@ -82,10 +82,10 @@ impl CameraSpec {
 
 /// A lens that is known no better is not calibrated, px.
 const MOST_SIGMA_PX: f64 = 1000.0;
-/// Pictures may differ from the calibrated size by the rounding of a resize, px.
+/// Images may differ from the calibrated size by the rounding of a resize, px.
 const ROUNDING_PX: u32 = 1;
 
-/// The intrinsics for pictures of size `picture`, if that is known.
+/// The intrinsics for images of size `picture`, if that is known.
 pub(crate) fn read(
     spec: &CameraSpec,
     root: &Path,
@@ -102,7 +102,7 @@ pub(crate) fn read(
 }
 
 /// Reads the intrinsics of a calibration file; `camera` names one of several in it, `picture` is
-/// the size of the pictures, for files that do not say it.
+/// the size of the images, for files that do not say it.
 ///
 /// # Errors
 /// What is no calibration, holds several cameras, or leaves the distortion model or the size open.
@@ -128,7 +128,7 @@ fn in_file(path: &Path, camera: Option<&str>) -> Result<Found, Error> {
     }
 }
 
-/// Scales to the pictures' size where the manifest says they were resized.
+/// Scales to the images' size where the manifest says they were resized.
 fn resized(
     camera: Intrinsics,
     spec: &CameraSpec,

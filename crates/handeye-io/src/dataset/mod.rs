@@ -43,7 +43,7 @@ pub use touches::FIXED_BOARD;
 /// Name of the manifest in a folder.
 pub const MANIFEST: &str = "handeye.toml";
 
-/// Everything a calibration needs; pictures and scans stay on disk until they are asked for.
+/// Everything a calibration needs; images and scans stay on disk until they are asked for.
 #[derive(Debug, Clone)]
 pub struct Dataset {
     /// The manifest's file.
@@ -58,7 +58,7 @@ pub struct Dataset {
     pub answer_frame: AnswerFrame,
     /// What takes a board's place, where scans are brought together by their shape.
     pub shape: Option<Shape>,
-    /// What else the pictures may show, and is not used.
+    /// What else the images may show, and is not used.
     pub other_targets: Vec<TargetModel>,
     /// The camera's intrinsics; `None` when they are to be calibrated from the views.
     pub intrinsics: Option<Intrinsics>,
@@ -66,7 +66,7 @@ pub struct Dataset {
     pub lens_sigma: Option<LensSigma>,
     /// The model of the lens to be calibrated from the views; beside given intrinsics, to check them.
     pub lens: Option<LensModel>,
-    /// Width and height of the pictures (px) as the manifest has them.
+    /// Width and height of the images (px) as the manifest has them.
     pub picture: Option<(u32, u32)>,
     /// Where corners of another program count their pixels from, as declared.
     pub pixel_origin: Option<PixelOrigin>,
@@ -111,7 +111,7 @@ pub struct CaptureSource {
     pub joints: Vec<f64>,
     /// When it was taken, by the camera's clock, s, where the robot did not stop for it.
     pub time_s: Option<f64>,
-    /// The picture's file.
+    /// The image's file.
     pub image: Option<PathBuf>,
     /// The scan's file.
     pub scan: Option<PathBuf>,
@@ -150,7 +150,7 @@ impl Dataset {
 pub struct PlacementSource {
     /// Its name.
     pub id: String,
-    /// The picture's file.
+    /// The image's file.
     pub image: Option<PathBuf>,
     /// The scan's file.
     pub scan: Option<PathBuf>,
@@ -183,7 +183,7 @@ pub struct WorkspaceBox {
 /// Standard deviations that the manifest declares; `None` is to be estimated.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Noise {
-    /// Of a corner in the picture, px.
+    /// Of a corner in the image, px.
     pub image_px: Option<f64>,
     /// Of the robot's position, m.
     pub robot_position: Option<f64>,
@@ -232,7 +232,7 @@ impl Dataset {
         Opening { manifest: Manifest::parse(&source)?, source, root: root.to_path_buf() }.dataset()
     }
 
-    /// Reads a capture's or a placement's picture.
+    /// Reads a capture's or a placement's image.
     ///
     /// # Errors
     /// As [`crate::read_image`].

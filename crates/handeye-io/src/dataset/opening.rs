@@ -279,7 +279,7 @@ impl Opening {
         all.into_iter().filter(|s| !s.names.is_empty()).collect()
     }
 
-    /// Names of the captures: their pictures', else what the tables call them, else their numbers.
+    /// Names of the captures: their images', else what the tables call them, else their numbers.
     fn ids(&self, series: &[Series], pairs: &[Vec<usize>]) -> Result<Vec<String>, Error> {
         let named = |s: &&Series| s.names.iter().all(Option::is_some);
         let leading = series[1..].iter().chain(&series[..1]).position(|s| named(&s));

@@ -1,4 +1,4 @@
-//! Which pose belongs to which picture: by order, or by the last number of their names.
+//! Which pose belongs to which image: by order, or by the last number of their names.
 
 use std::collections::BTreeMap;
 

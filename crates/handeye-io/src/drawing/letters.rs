@@ -1,4 +1,4 @@
-//! Letters of dots, for pictures.
+//! Letters of dots, for images.
 
 use image::{Rgb, RgbImage};
 
@@ -68,7 +68,7 @@ pub(super) fn width(text: &str) -> i64 {
     ADVANCE * text.chars().count() as i64 - (ADVANCE - COLUMNS)
 }
 
-/// Writes with the top left dot of the text at a pixel. What is outside of the picture is left out.
+/// Writes with the top left dot of the text at a pixel. What is outside of the image is left out.
 pub(super) fn write(picture: &mut RgbImage, (x, y): (i64, i64), text: &str, pen: Pen) {
     let dots: Vec<(i64, i64)> = dots(text).collect();
     for (offset, colour) in [(1, pen.rim), (0, Some(pen.colour))] {
@@ -90,7 +90,7 @@ fn dots(text: &str) -> impl Iterator<Item = (i64, i64)> {
     })
 }
 
-/// Fills a square; what is outside of the picture is left out.
+/// Fills a square; what is outside of the image is left out.
 pub(super) fn square(picture: &mut RgbImage, (x, y): (i64, i64), side: i64, colour: Rgb<u8>) {
     let (width, height) = (i64::from(picture.width()), i64::from(picture.height()));
     for y in y.max(0)..(y + side).min(height) {

@@ -1,9 +1,9 @@
-//! A picture with the corners that were found in it, and how far each is from where the board has
+//! An image with the corners that were found in it, and how far each is from where the board has
 //! it.
 //!
-//! Where corners are close together the picture is enlarged, so that crosses, ids and arrows do not
+//! Where corners are close together the image is enlarged, so that crosses, ids and arrows do not
 //! hide each other. Arrows begin at the corners and are residuals (detected minus predicted), all
-//! magnified by the factor that the line below the picture tells.
+//! magnified by the factor that the line below the image tells.
 
 use std::io::Cursor;
 
@@ -47,7 +47,7 @@ pub struct Marks<'a> {
     pub residuals: Option<&'a [Vector2<f64>]>,
 }
 
-/// The picture as PNG: a cross on each corner, blue on corner 0, its id beside it, and its residual
+/// The image as PNG: a cross on each corner, blue on corner 0, its id beside it, and its residual
 /// as an arrow. The name of a target stands before the first id.
 pub fn marked(image: &GrayImage, targets: &[Marks]) -> Vec<u8> {
     let all: Vec<Mark> = targets.iter().flat_map(marks).collect();
@@ -89,13 +89,13 @@ fn residuals(marks: &[Mark]) -> Vec<Vector2<f64>> {
     marks.iter().filter_map(|mark| mark.residual).collect()
 }
 
-/// How a picture is drawn.
+/// How an image is drawn.
 struct Sheet {
-    /// Pixels of the drawing for one of the picture.
+    /// Pixels of the drawing for one of the image.
     enlarged: u32,
     /// Arrows are longer than residuals by this factor.
     magnified: f64,
-    /// Size of the picture in the drawing, px.
+    /// Size of the image in the drawing, px.
     width: i64,
     height: i64,
     /// Width of lines, and side of the letters' dots, px.
@@ -120,7 +120,7 @@ impl Sheet {
         }
     }
 
-    /// The picture with room for the legend.
+    /// The image with room for the legend.
     fn enlarged(&self, image: &GrayImage) -> RgbImage {
         let grey = image.to_u8();
         let factor = i64::from(self.enlarged);
@@ -157,7 +157,7 @@ impl Sheet {
         letters::write(picture, (4 * dot, self.height + 4 * dot), &text, pen);
     }
 
-    /// Centre of a pixel of the picture, in the drawing.
+    /// Centre of a pixel of the image, in the drawing.
     fn at(&self, pixel: &Vector2<f64>) -> Vector2<f64> {
         (pixel.add_scalar(0.5) * f64::from(self.enlarged)).add_scalar(-0.5)
     }
@@ -201,7 +201,7 @@ impl Sheet {
         letters::write(picture, (corner.x.round() as i64, corner.y.round() as i64), text, pen);
     }
 
-    /// A straight line; what is outside of the picture is left out.
+    /// A straight line; what is outside of the image is left out.
     fn stroke(
         &self,
         picture: &mut RgbImage,

@@ -1,4 +1,4 @@
-//! Targets on paper in true scale, and pictures with what was found in them.
+//! Targets on paper in true scale, and images with what was found in them.
 
 mod letters;
 mod marked;

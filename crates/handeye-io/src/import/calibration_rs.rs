@@ -205,7 +205,7 @@ impl Set<'_> {
         Ok((None, names.map(|name| Column::Name(name.into())).collect()))
     }
 
-    /// The pattern of the pictures.
+    /// The pattern of the images.
     fn images(&mut self, camera: &Tree) -> Result<String, Error> {
         let images = camera.get("images").unwrap_or(&Tree::Null);
         if let Some(pattern) = images.get("pattern").and_then(Tree::text) {

@@ -1,5 +1,5 @@
 //! A folder of HALCON's poses: a `.dat` for each capture of the robot, and perhaps of the board, which HALCON's own
-//! detector found; pictures beside them. `P1InP2` takes points of P1 into P2: `ToolInBasePose` is `base_from_flange`.
+//! detector found; images beside them. `P1InP2` takes points of P1 into P2: `ToolInBasePose` is `base_from_flange`.
 
 use std::{collections::BTreeMap, path::Path};
 

@@ -1,5 +1,5 @@
 //! Tabb and Ahmad Yousef's layout: `robot_cali.txt` (a count, then 4 x 4 matrices in millimetres, `flange_from_base`),
-//! `calibration_object.txt` (a checkerboard), pictures in `images/camera0` (and `camera1` ...).
+//! `calibration_object.txt` (a checkerboard), images in `images/camera0` (and `camera1` ...).
 
 use std::path::Path;
 

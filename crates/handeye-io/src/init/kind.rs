@@ -80,7 +80,7 @@ const CAMERAS: [&str; 5] = ["yaml", "yml", "json", "xml", "npz"];
 const DEPTH: [&str; 5] = ["depth", "scan", "range", "disp", "xyz"];
 /// Most files of one group that may each be a camera's calibration.
 const MOST_CAMERAS: usize = 8;
-/// An array of more rows and columns than this is a picture of depths, no table.
+/// An array of more rows and columns than this is an image of depths, no table.
 const LARGEST_TABLE: usize = 64;
 /// So many lines of three numbers are the points of a scan.
 const FEWEST_POINTS: usize = 1000;
@@ -111,7 +111,7 @@ fn is_depth(path: &Path) -> bool {
 }
 
 fn is_camera(group: &Group, root: &Path) -> bool {
-    // a size that the file leaves open comes from the pictures; any will do here
+    // a size that the file leaves open comes from the images; any will do here
     let any_size = Some((640, 480));
     let reads = |p: &PathBuf| {
         let path = root.join(p);
@@ -120,7 +120,7 @@ fn is_camera(group: &Group, root: &Path) -> bool {
     group.members.len() <= MOST_CAMERAS && group.members.iter().all(reads)
 }
 
-/// Width and height of a group's pictures.
+/// Width and height of a group's images.
 pub(super) fn size_of(group: &Group, root: &Path) -> Option<(u32, u32)> {
     image_size(&root.join(&group.members[0])).ok()
 }

@@ -26,7 +26,7 @@ pub struct FirstManifest {
 /// A first manifest for the files of a folder.
 ///
 /// # Errors
-/// [`Error::Read`] if the folder cannot be listed, [`Error::NothingFound`] if it holds no pictures,
+/// [`Error::Read`] if the folder cannot be listed, [`Error::NothingFound`] if it holds no images,
 /// scans, corners or poses.
 pub fn first_manifest(folder: &Path) -> Result<FirstManifest, Error> {
     let groups = groups::groups(folder)?;

@@ -12,7 +12,7 @@ use crate::{
     export::{self, CameraPose, Format},
 };
 
-/// Most pictures in a report; of more captures, those left out come first, then the others evenly.
+/// Most images in a report; of more captures, those left out come first, then the others evenly.
 const MOST_PICTURES: usize = 36;
 
 /// The whole page of a calibrated dataset.
@@ -28,7 +28,7 @@ pub fn dataset_html(dataset: &Dataset, calibration: &Calibration, session: &Sess
     })
 }
 
-/// The page of a result without its dataset: no pictures, no touched places.
+/// The page of a result without its dataset: no images, no touched places.
 pub fn calibration_html(title: &str, calibration: &Calibration) -> String {
     html(&Report {
         title: title.into(),
@@ -107,7 +107,7 @@ fn caption(c: &CaptureResult) -> String {
     }
 }
 
-/// Corners with their residuals against the target seen from the picture's own pose.
+/// Corners with their residuals against the target seen from the image's own pose.
 fn marked(session: &Session, o: &Observation, result: &CaptureResult) -> Vec<MarkedCorner> {
     let predicted = |id: u32| {
         let (target, camera) = (session.target.as_ref()?, session.camera.as_ref()?);

@@ -49,7 +49,7 @@ pub struct Report<'a> {
     pub touched: Vec<Point<Base>>,
     /// The transform in notations the user knows: name and text.
     pub notations: Vec<(String, String)>,
-    /// Pictures with their corners.
+    /// Images with their corners.
     pub pictures: Vec<Picture>,
 }
 

@@ -1,4 +1,4 @@
-//! A small picture with its corners and residuals drawn over it.
+//! A small image with its corners and residuals drawn over it.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use handeye::GrayImage;
 
 use super::{base64::base64, escape};
 
-/// A corner to draw, in pixels of the full picture.
+/// A corner to draw, in pixels of the full image.
 #[derive(Debug, Clone, Copy)]
 pub struct MarkedCorner {
     /// Where it was found.
@@ -19,7 +19,7 @@ pub struct MarkedCorner {
     pub dy: f64,
 }
 
-/// A small copy of a capture's picture.
+/// A small copy of a capture's image.
 pub struct Picture {
     id: String,
     caption: String,
@@ -36,7 +36,7 @@ const WIDTH: usize = 480;
 pub const BAR_PX: f64 = 40.0;
 
 impl Picture {
-    /// Shrinks a picture (area average) and keeps its corners.
+    /// Shrinks an image (area average) and keeps its corners.
     pub fn new(
         id: &str,
         caption: String,

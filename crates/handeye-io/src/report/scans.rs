@@ -1,4 +1,4 @@
-//! What the scans say: depth by colour, the flatness of the board, pictures against scans.
+//! What the scans say: depth by colour, the flatness of the board, images against scans.
 
 use std::fmt::Write;
 

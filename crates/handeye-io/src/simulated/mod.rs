@@ -1,6 +1,6 @@
 //! A simulated cell as a folder of captures, with its truth beside it.
 //!
-//! The folder is what a user would have recorded: manifest, pictures or corners, scans, robot
+//! The folder is what a user would have recorded: manifest, images or corners, scans, robot
 //! poses, touches. `truth.json` holds what nobody would know, and the list of all files with their
 //! fingerprints, by which a later run knows its own folder again. Everything is written aside first,
 //! and moved into its place when it is complete.
@@ -32,7 +32,7 @@ const ARM: &str = "arm.json";
 /// What a dataset is written as.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Writing {
-    /// Pictures and scans; otherwise lists of corners.
+    /// Images and scans; otherwise lists of corners.
     pub images: bool,
     /// Format of the scans.
     pub scans: ScanFormat,
@@ -60,7 +60,7 @@ impl ScanFormat {
 }
 
 /// Writes everything into a folder, made if need be, in place of an earlier simulation, and returns
-/// the names of the files; one picture at a time is in memory.
+/// the names of the files; one image at a time is in memory.
 ///
 /// # Errors
 /// What cannot be written; an earlier simulation stays until all of the new one is written.

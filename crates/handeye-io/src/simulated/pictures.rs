@@ -1,4 +1,4 @@
-//! Pictures and scans as cameras write them.
+//! Images and scans as cameras write them.
 
 use std::io::Cursor;
 
@@ -10,7 +10,7 @@ use super::ScanFormat;
 /// Metres per unit of the depth images: 0.1 mm, up to 6.5 m.
 pub(super) const DEPTH_SCALE: f64 = 1e-4;
 
-/// A grey picture as PNG.
+/// A grey image as PNG.
 pub(super) fn picture(image: &GrayImage) -> Vec<u8> {
     png_of(
         &image.to_u8(),

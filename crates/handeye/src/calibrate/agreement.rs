@@ -1,4 +1,4 @@
-//! Which captures agree with each other, and on which reading of each picture.
+//! Which captures agree with each other, and on which reading of each image.
 
 use nalgebra::Vector3;
 

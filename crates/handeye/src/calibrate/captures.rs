@@ -25,7 +25,7 @@ use crate::{
 };
 
 /// Which symmetry of the board the chosen pose stands for: the one that brings the corners of the
-/// picture's first reading onto those of the chosen one.
+/// image's first reading onto those of the chosen one.
 pub fn relabelling(o: &Observation, pose: &Pose<Camera, Target>, target: &TargetModel) -> Vec<u32> {
     relabelling_of(&o.candidates, pose, target)
 }
@@ -229,7 +229,7 @@ fn answer(choice: &Choice, views: &Views) -> Option<HandEye> {
     Some(stored.retarget(views.target_from_corner))
 }
 
-/// RMS distance (px) of corners to the target model seen from the picture's own best pose.
+/// RMS distance (px) of corners to the target model seen from the image's own best pose.
 fn picture_residual(
     o: &Observation,
     pose: &Pose<Camera, Target>,

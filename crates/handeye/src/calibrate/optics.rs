@@ -324,7 +324,7 @@ fn sight_of(
     detect::sighted(&corners, &surface, target, camera, excess, pose).map(|(_, sight)| sight)
 }
 
-/// What the picture of a placement knows of camera and depth.
+/// What the image of a placement knows of camera and depth.
 pub(super) fn sight_of_placement(
     session: &Session,
     excess: Option<f64>,
@@ -357,8 +357,8 @@ pub(super) struct MeasuredBy {
 }
 
 /// Covariance (m²), in camera axes, of where a point of the camera lands, for a covariance of `X`,
-/// `Y` and the extras. What pictures locate moves with the lens: a point keeps its pixel, and its
-/// distance follows its size in the picture. What scans locate moves with their depth, and all with
+/// `Y` and the extras. What images locate moves with the lens: a point keeps its pixel, and its
+/// distance follows its size in the image. What scans locate moves with their depth, and all with
 /// the unit of distances where that is free (the size of the calibration target is not the unit of
 /// what is measured later). These errors go along with that of `X`, as do `more`:
 /// numbers of unknowns, and how the point moves with them.
@@ -414,7 +414,7 @@ pub(super) fn spread(
     s.iter().all(|x| x.is_finite()).then_some(s)
 }
 
-/// Whether a point of the camera lies in its picture.
+/// Whether a point of the camera lies in its image.
 pub(super) fn in_picture(camera: &Intrinsics, p: &Vector3<f64>) -> bool {
     let inside = |x: f64, size: u32| (-0.5..=f64::from(size) - 0.5).contains(&x);
     let known = camera.width > 0 && camera.height > 0;
@@ -432,7 +432,7 @@ fn comes_from(camera: &Intrinsics, pixel: &Vector2<f64>, p: &Vector3<f64>) -> bo
 }
 
 /// How a point of the camera moves with one parameter of the lens, its pixel and its size in the
-/// picture being what they are.
+/// image being what they are.
 fn by_lens(
     camera: &Intrinsics,
     p: &Vector3<f64>,

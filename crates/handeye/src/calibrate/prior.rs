@@ -149,7 +149,7 @@ impl LensPrior {
     }
 }
 
-/// Width of the pictures, px.
+/// Width of the images, px.
 fn width(camera: &Intrinsics) -> f64 {
     f64::from(camera.width.max(1)).max(camera.cx)
 }

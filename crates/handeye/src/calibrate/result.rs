@@ -92,7 +92,7 @@ pub struct CaptureResult {
     pub base_from_flange: Pose<Base, Flange>,
     /// Where the camera saw the target, in the reading that was chosen.
     pub camera_from_target: Option<Pose<Camera, Target>>,
-    /// Corners found in its picture.
+    /// Corners found in its image.
     pub corners: usize,
     /// Corners found in its scan.
     pub corners_3d: usize,

@@ -1,4 +1,4 @@
-//! A target found in a picture: which corner of it each one in the picture is.
+//! A target found in an image: which corner of it each one in the image is.
 
 use super::{
     checkerboard, circles,
@@ -14,10 +14,10 @@ use crate::{
     detect::outcome::{NotFound, Outcome, worth},
 };
 
-/// Smallest side of a picture (px) with a board of 2 x 2 corners in it.
+/// Smallest side of an image (px) with a board of 2 x 2 corners in it.
 const SMALLEST_IMAGE: usize = 24;
 
-/// The target's corners in a picture, in the order of their ids. Pixels; the centre of the top-left
+/// The target's corners in an image, in the order of their ids. Pixels; the centre of the top-left
 /// pixel is (0, 0).
 ///
 /// Of a board with markers a part is enough; of a checkerboard a part that can lie on it in one way
@@ -29,7 +29,7 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     detect_with(image, target, None)
 }
 
-/// The same, with the camera that took the picture, if it is known: centres of circles are then right
+/// The same, with the camera that took the image, if it is known: centres of circles are then right
 /// for strong distortion and large circles, too. Corners do not need it.
 ///
 /// # Errors
@@ -61,7 +61,7 @@ pub fn detect_with(
     without_strays(found, target, (width, height), camera)
 }
 
-/// Looks for a board among the grids of corners of the picture, as far as `free` leaves them.
+/// Looks for a board among the grids of corners of the image, as far as `free` leaves them.
 pub(super) fn search(
     image: &GrayImage,
     target: &TargetModel,
@@ -79,7 +79,7 @@ pub(super) fn search(
         if improved {
             best = found;
         }
-        // in the smallest pictures markers and small squares may be hard to read
+        // in the smallest images markers and small squares may be hard to read
         let fine = level.image.width().max(level.image.height()) > FINE;
         if is_complete(&best) || (best.is_ok() && !improved && fine) {
             break;
@@ -93,12 +93,12 @@ pub(super) fn search(
 
 /// Longest side of the smallest level, px, at most.
 const COARSEST: usize = 450;
-/// A board of which a part is found is looked for in larger pictures up to this side, px, at least.
+/// A board of which a part is found is looked for in larger images up to this side, px, at least.
 const FINE: usize = 900;
-/// Larger pictures (px) are not doubled: their squares are large enough, and memory is finite.
+/// Larger images (px) are not doubled: their squares are large enough, and memory is finite.
 const MOST_TO_DOUBLE: usize = 4_000_000;
 
-/// The picture at half sizes, the smallest first, and last doubled.
+/// The image at half sizes, the smallest first, and last doubled.
 fn levels(image: &GrayImage) -> impl Iterator<Item = Scaled<'_>> {
     let halves = Scaled::halves(image, |half| half.width().max(half.height()) <= COARSEST);
     let small = image.width() * image.height() <= MOST_TO_DOUBLE;
@@ -160,7 +160,7 @@ mod tests {
         TargetModel::Checkerboard { columns, rows, square_mm: 20.0 }
     }
 
-    /// The board in the middle of the picture, turned in its plane by `roll` and tilted a little.
+    /// The board in the middle of the image, turned in its plane by `roll` and tilted a little.
     fn scene(target: &TargetModel, roll: f64, depth: f64) -> Scene {
         let corners = target.corners();
         let centre =

@@ -2,7 +2,7 @@
 //!
 //! It is turned so that the square outside of corner 0 is black if that can be (OpenCV's
 //! findChessboardCorners does so, its findChessboardCornersSB the opposite), and else so that corner 0
-//! is the one nearest to the picture's top left.
+//! is the one nearest to the image's top left.
 
 use std::collections::BTreeMap;
 

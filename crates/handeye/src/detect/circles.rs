@@ -1,7 +1,7 @@
 //! Grids of circles: which circle is which, where their centres are, and how sure that is.
 //!
 //! Patches with the outline of an ellipse (`blobs`) are joined into lattices (`lattice`), and a
-//! lattice is the target if its labels fill it. Each circle's ellipse is then fitted to the picture
+//! lattice is the target if its labels fill it. Each circle's ellipse is then fitted to the image
 //! (`ellipse`), and the centres of the ellipses are turned into images of the circles' centres by the
 //! view of the board. A wrong labelling is worse than none: all circles must be found (of a grid with a
 //! larger circle, half of them and that one), they must lie where one view of the board puts them,
@@ -27,9 +27,9 @@ use blobs::Blob;
 use ellipse::{Ellipse, Rough};
 use lattice::{Board, Lattice};
 
-/// Larger pictures (px) are looked at halved first.
+/// Larger images (px) are looked at halved first.
 const LARGE: usize = 1_600_000;
-/// Radii of the means that patches are compared with, as shares of the picture's longer side: for
+/// Radii of the means that patches are compared with, as shares of the image's longer side: for
 /// boards far away and near.
 const MEANS: [f64; 2] = [0.02, 0.06];
 /// Least radius of a mean, px.
@@ -56,7 +56,7 @@ pub fn detect(image: &GrayImage, target: &TargetModel) -> Result<Vec<ImageCorner
     detect_with(image, target, None)
 }
 
-/// The same, with the camera that took the picture: the centres are then right for strong
+/// The same, with the camera that took the image: the centres are then right for strong
 /// distortion and large circles, too.
 ///
 /// # Errors

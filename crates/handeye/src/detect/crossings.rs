@@ -1,12 +1,12 @@
 //! Points where two edges cross as on a checkerboard, and the directions of their edges.
 //!
-//! In the smoothed picture `L` such a point is a saddle, however the edges are turned or slanted:
+//! In the smoothed image `L` such a point is a saddle, however the edges are turned or slanted:
 //!
 //! ```text
 //! D = L_xy² - L_xx L_yy > 0,    ∇L = 0
 //! ```
 //!
-//! Local maxima of `D` are candidates. On a ring around a crossing the picture is above and below the
+//! Local maxima of `D` are candidates. On a ring around a crossing the image is above and below the
 //! centre's grey twice each, with edges on opposite sides; what has no such ring is none.
 //!
 //! After P. Beaudet, *Rotationally invariant image operators*, ICPR 1978 (the determinant), and
@@ -19,7 +19,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::GrayImage;
 
-/// A crossing of two edges. Angles grow clockwise in the picture (y points down).
+/// A crossing of two edges. Angles grow clockwise in the image (y points down).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crossing {
     /// Where, px, to about half a pixel.
@@ -64,7 +64,7 @@ const SHALLOWEST: f64 = 0.22;
 /// A saddle lies this near to its candidate, px.
 const NEAR: f64 = 1.5;
 
-/// All crossings of a smoothed picture, by rows.
+/// All crossings of a smoothed image, by rows.
 pub(super) fn crossings(smooth: &GrayImage) -> Vec<Crossing> {
     let circle = Circle::default();
     let all = candidates(smooth);
@@ -224,7 +224,7 @@ fn angle(k: f64) -> f64 {
     k * (TAU / SAMPLES as f64)
 }
 
-/// Whether the picture goes far enough up or down between all neighbouring edges.
+/// Whether the image goes far enough up or down between all neighbouring edges.
 fn sectors_are_clear(grey: &[f64; SAMPLES], edges: &[f64; 4], least: f64) -> bool {
     let index = |edge: f64| (edge / angle(1.0)).ceil() as usize;
     (0..4).all(|k| {

@@ -16,7 +16,7 @@ pub(super) type Fitted = BTreeMap<(i32, i32), FittedCorner>;
 /// A corner this many times farther from where its neighbours have it than they are themselves, and
 /// than its own error is, is none.
 const STRAY: f64 = 7.0;
-/// But no nearer than this, px: prints and pictures of whole pixels are rounded.
+/// But no nearer than this, px: prints and images of whole pixels are rounded.
 const NOT_STRAY_PX: f64 = 0.75;
 
 /// A prediction whose variance is this many times that of the neighbours is none.
@@ -24,7 +24,7 @@ const UNSURE: f64 = 30.0;
 /// A predicted corner may be off by this share of a cell: lenses bend boards.
 const OFF_SHARE: f64 = 0.12;
 
-/// Sub-pixel fits in one picture.
+/// Sub-pixel fits in one image.
 pub(super) struct Fits<'a> {
     pub image: &'a GrayImage,
     /// As in [`RoughCorner`].
@@ -151,7 +151,7 @@ impl Fits<'_> {
         (predicted.spread < UNSURE).then_some(predicted.pixel)
     }
 
-    /// The corner that the neighbours predict, if the picture has one there.
+    /// The corner that the neighbours predict, if the image has one there.
     pub fn predicted(&self, grid: &Grid, label: (i32, i32)) -> Option<Vector2<f64>> {
         let there = self.predict(grid, label)?;
         let mut with = grid.clone();

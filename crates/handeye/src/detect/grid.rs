@@ -1,4 +1,4 @@
-//! Grids of checkerboard corners in a picture: rough positions with integer labels.
+//! Grids of checkerboard corners in an image: rough positions with integer labels.
 //!
 //! Labels start anywhere and may be turned: what they mean on the board is decided later.
 
@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector2};
 
 use super::homography;
 
-/// Corners of one grid by (column, row); columns to rows turn clockwise in the picture.
+/// Corners of one grid by (column, row); columns to rows turn clockwise in the image.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Grid {
     /// Where each labelled corner is, px.
@@ -111,7 +111,7 @@ impl Grid {
         (even && free && moved.corners.keys().any(near)).then_some(moved)
     }
 
-    /// Every position moved, e.g. back from a scaled picture.
+    /// Every position moved, e.g. back from a scaled image.
     pub fn map(&self, f: impl Fn(&Vector2<f64>) -> Vector2<f64>) -> Self {
         Self { corners: self.corners.iter().map(|(k, p)| (*k, f(p))).collect() }
     }

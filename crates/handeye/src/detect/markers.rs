@@ -1,11 +1,11 @@
-//! Reading the cells of ArUco and AprilTag markers in a picture.
+//! Reading the cells of ArUco and AprilTag markers in an image.
 
 use nalgebra::Vector2;
 
 use crate::GrayImage;
 pub use crate::model::dictionary::{Dictionary, Reading};
 
-/// What the cells of a marker, border included, look like in a picture.
+/// What the cells of a marker, border included, look like in an image.
 #[derive(Debug, Clone)]
 pub(crate) struct Cells {
     /// The inner bits.
@@ -35,7 +35,7 @@ pub(crate) struct Greys {
 
 impl Greys {
     /// Of a marker of `side` bits with a border, `border` bits wide, that covers the unit square of
-    /// `pixel_at`. `None` when a part lies outside the picture.
+    /// `pixel_at`. `None` when a part lies outside the image.
     pub fn of(
         image: &GrayImage,
         (side, border): (usize, usize),

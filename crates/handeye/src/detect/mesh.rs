@@ -1,7 +1,7 @@
 //! Crossings joined into grids along their edges.
 //!
 //! From a crossing its four edges are followed until black and white change sides: there the next
-//! crossing lies. So every connection of a grid has been seen as an edge in the picture, and lens
+//! crossing lies. So every connection of a grid has been seen as an edge in the image, and lens
 //! distortion or slant do not matter. Two crossings are joined when each is found from the other, and
 //! a connection counts when it borders a square whose four sides are all joined.
 
@@ -32,7 +32,7 @@ const ALIGNED: f64 = 0.5;
 /// Side of a cell of the map of crossings, px.
 const CELL: f64 = 8.0;
 
-/// All grids in a smoothed picture, the largest first.
+/// All grids in a smoothed image, the largest first.
 pub(super) fn grids(smooth: &GrayImage) -> Vec<Grid> {
     let mesh = Mesh::new(smooth);
     let mut grids = mesh.grids();
@@ -136,7 +136,7 @@ struct Label {
     turns: usize,
 }
 
-/// Steps in the four directions, clockwise in the picture.
+/// Steps in the four directions, clockwise in the image.
 const DIRECTIONS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
 impl Label {

@@ -1,6 +1,6 @@
 //! What the camera saw of the target.
 //!
-//! A picture goes through three steps: `crossings` and `mesh` find grids of corners, [`board`] decides
+//! An image goes through three steps: `crossings` and `mesh` find grids of corners, [`board`] decides
 //! which corner of the target each one is, and `subpixel` measures where exactly they are; grids
 //! of [`circles`], single tags and boards of tags have ways of their own. From the corners,
 //! `planar_pose` has the target's pose, and [`surface`] their places on a scan. A ball is found in

@@ -6,7 +6,7 @@ use crate::ImageCorner;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotFound {
-    /// Nothing fits into such a picture.
+    /// Nothing fits into such an image.
     #[error("the image is {width} x {height} pixels, smaller than a board can be")]
     SmallImage {
         /// Pixels per row.

@@ -30,7 +30,7 @@ use crate::{
     Error, ImageCorner, Intrinsics, SurfaceCorner, TargetModel, TargetPose, math::linalg::median,
 };
 
-/// A pose of the target and how well it explains the picture.
+/// A pose of the target and how well it explains the image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PosedTarget {
     /// Pose and covariance.
@@ -64,7 +64,7 @@ pub fn target_poses(
     target_poses_with(corners, surface, target, intrinsics, None)
 }
 
-/// As [`target_poses`], with what other pictures of the same camera and target say about lens model
+/// As [`target_poses`], with what other images of the same camera and target say about lens model
 /// and print: the typical `excess_px` of [`PosedTarget`]. A few corners tell little about it
 /// themselves.
 ///
@@ -100,11 +100,11 @@ pub fn target_poses_with(
     Ok(kept)
 }
 
-/// Fewest pictures that tell what is typical.
+/// Fewest images that tell what is typical.
 const FEWEST_TYPICAL: usize = 4;
 
-/// What lens model and print leave in the corners of all pictures of one camera, px: the median.
-/// `None` where the pictures are too few to tell.
+/// What lens model and print leave in the corners of all images of one camera, px: the median.
+/// `None` where the images are too few to tell.
 pub fn typical_excess<'a>(
     pictures: impl IntoIterator<Item = &'a [ImageCorner]>,
     target: &TargetModel,

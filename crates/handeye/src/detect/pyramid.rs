@@ -1,4 +1,4 @@
-//! Pictures made easier to read: halved, doubled, smoothed, stretched.
+//! Images made easier to read: halved, doubled, smoothed, stretched.
 
 use std::borrow::Cow;
 
@@ -7,15 +7,15 @@ use nalgebra::Vector2;
 
 use crate::GrayImage;
 
-/// A picture and how its pixels map back: `original = (at + 0.5) * factor - 0.5`.
+/// An image and how its pixels map back: `original = (at + 0.5) * factor - 0.5`.
 pub(crate) struct Scaled<'a> {
-    /// The new picture.
+    /// The new image.
     pub image: Cow<'a, GrayImage>,
     factor: f64,
 }
 
 impl<'a> Scaled<'a> {
-    /// The picture itself.
+    /// The image itself.
     pub fn same(image: &'a GrayImage) -> Self {
         Self { image: Cow::Borrowed(image), factor: 1.0 }
     }
@@ -34,7 +34,7 @@ impl<'a> Scaled<'a> {
         Self { image: Cow::Owned(image), factor: 2.0 * self.factor }
     }
 
-    /// The picture and its halves, halves of these and so on, until one is `small_enough`; the
+    /// The image and its halves, halves of these and so on, until one is `small_enough`; the
     /// smallest first.
     pub fn halves(
         image: &'a GrayImage,
@@ -65,12 +65,12 @@ impl<'a> Scaled<'a> {
         Self { image: Cow::Owned(draw(2 * width, 2 * height, linear)), factor: 0.5 }
     }
 
-    /// A pixel of this picture, in the original.
+    /// A pixel of this image, in the original.
     pub(crate) fn original(&self, at: &Vector2<f64>) -> Vector2<f64> {
         at.add_scalar(0.5) * self.factor - Vector2::repeat(0.5)
     }
 
-    /// A pixel of the original, in this picture.
+    /// A pixel of the original, in this image.
     pub(crate) fn reduced(&self, at: &Vector2<f64>) -> Vector2<f64> {
         at.add_scalar(0.5) / self.factor - Vector2::repeat(0.5)
     }

@@ -20,7 +20,7 @@ const HUBER: f64 = 2.0;
 /// What the view does not know of: paper that is not flat, lenses (px²).
 const VIEW_VARIANCE: f64 = 1e-4;
 
-/// Detected minus predicted pixel of each corner, px, in the order of `corners`, in a picture of
+/// Detected minus predicted pixel of each corner, px, in the order of `corners`, in an image of
 /// `size` (width, height). `None` where the corners are too few or do not tell.
 pub fn residuals(
     corners: &[ImageCorner],

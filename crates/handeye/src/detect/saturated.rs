@@ -1,6 +1,6 @@
-//! Pixels that are as bright, or as dark, as a picture can have them.
+//! Pixels that are as bright, or as dark, as an image can have them.
 
-/// White and black of a picture.
+/// White and black of an image.
 const LIMITS: (f32, f32) = (254.5, 0.5);
 /// A pixel this near to a limit may be on it but for noise: if only those that noise takes off it
 /// counted, all would err to the same side.

@@ -1,4 +1,4 @@
-//! Several targets in one picture.
+//! Several targets in one image.
 
 use nalgebra::Vector2;
 

@@ -2,7 +2,7 @@
 //!
 //! Around a corner at `c` two straight edges cross; with `d₁, d₂` the signed distances of a pixel
 //! `p` to them, a lens that blurs with a Gaussian of width `s` and light that changes linearly with
-//! `g`, the picture is
+//! `g`, the image is
 //!
 //! ```text
 //! I(p) = (a + b erf(d₁/(√2 s)) erf(d₂/(√2 s))) (1 + g·(p - p₀)),    dᵢ = nᵢ(θᵢ)·(p - c)
@@ -66,7 +66,7 @@ pub(crate) struct FittedCorner {
 /// Why a corner was left out.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(crate) enum Unfit {
-    /// The picture ends too close to it.
+    /// The image ends too close to it.
     #[error("too close to the image's edge")]
     AtTheEdge,
     /// The squares are too small to tell their edges apart.
@@ -95,7 +95,7 @@ const STEP_PX: f64 = 5e-3;
 /// The small disc's fit ends when the corner moves less than this, px.
 const NEAR_STEP_PX: f64 = 0.05;
 /// Where light changes by more than this share from the middle of the disc to its rim, it may lie over
-/// the picture rather than multiply it.
+/// the image rather than multiply it.
 const SLOPED: f64 = 0.03;
 /// A disc smaller than this, in blurs, does not tell that from the edges beside it.
 const LIGHT_BLURS: f64 = 7.0;

@@ -2,7 +2,7 @@
 //!
 //! Pixels darker than their surroundings form patches; the convex hull of a tag's black border is a
 //! quadrilateral (`quads`), and the bits inside say which tag it is, and how it is turned. That
-//! happens in the picture made small first. In the picture itself the four sides are measured
+//! happens in the image made small first. In the image itself the four sides are measured
 //! (`edge`); they meet in the corners (`sides`). Where blur does not leave the sides alone, the tag is
 //! measured with all its bits (`whole`).
 
@@ -41,7 +41,7 @@ const ROUNDS_WHEN_NEAR: usize = 2;
 const WHITE_AROUND_ONE: f64 = 1.0;
 /// Blur of a tag whose sides were not found, in cells.
 const BLURRED_CELLS: f64 = 0.25;
-/// Longest side of the smallest picture that is searched, px, at most.
+/// Longest side of the smallest image that is searched, px, at most.
 const COARSEST: usize = 900;
 
 /// The corners of tag `id` (top left, top right, bottom right, bottom left as printed).
@@ -72,7 +72,7 @@ fn best(tags: Vec<SeenTag>) -> Option<SeenTag> {
         .min_by(|a, b| a.errors.cmp(&b.errors).then(area(&b.quad).total_cmp(&area(&a.quad))))
 }
 
-/// A tag in a picture.
+/// A tag in an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SeenTag {
     /// Which marker.
@@ -164,7 +164,7 @@ impl Print {
         whole::fit(image, &quad, &self.pattern(tag.id)?, bows, blur_px)
     }
 
-    /// All tags with one of `ids` in a picture, once for each dark patch. Patches are looked for in
+    /// All tags with one of `ids` in an image, once for each dark patch. Patches are looked for in
     /// `clear`.
     pub fn read_all(
         &self,
@@ -205,7 +205,7 @@ impl Print {
     }
 }
 
-/// A picture and its halves, halves of these and so on.
+/// An image and its halves, halves of these and so on.
 pub(super) struct Levels<'a> {
     /// The smallest first.
     all: Vec<Scaled<'a>>,
@@ -217,8 +217,8 @@ impl<'a> Levels<'a> {
         Self { all: Scaled::halves(image, small).collect() }
     }
 
-    /// What is found first: in the smallest picture, or else in a larger one, or else with the
-    /// pictures smoothed and stretched, where patches are looked for in the second picture.
+    /// What is found first: in the smallest image, or else in a larger one, or else with the
+    /// images smoothed and stretched, where patches are looked for in the second image.
     pub fn search<T>(&self, mut find: impl FnMut(&Level, &GrayImage) -> Option<T>) -> Option<T> {
         let levels = || (0..self.all.len()).map(|at| Level { levels: self, at });
         let plain = levels().find_map(|level| find(&level, level.image()));
@@ -228,7 +228,7 @@ impl<'a> Levels<'a> {
     }
 }
 
-/// One of the pictures.
+/// One of the images.
 pub(super) struct Level<'a> {
     levels: &'a Levels<'a>,
     at: usize,
@@ -239,29 +239,29 @@ impl Level<'_> {
         &self.levels.all[self.at]
     }
 
-    /// This picture and the larger ones.
+    /// This image and the larger ones.
     pub(crate) fn and_larger(&self) -> impl Iterator<Item = Level<'_>> {
         (self.at..self.levels.all.len()).map(|at| Level { levels: self.levels, at })
     }
 
-    /// The picture.
+    /// The image.
     pub fn image(&self) -> &GrayImage {
         &self.scaled().image
     }
 
     /// The corners of a quadrilateral found here, in the original: to some tenths of this
-    /// picture's pixel where its sides are clear.
+    /// image's pixel where its sides are clear.
     pub(crate) fn approached(&self, quad: &Quad, print: &Print) -> Quad {
         let near = approached(self.image(), quad, &print.surroundings());
         self.original(&near.unwrap_or(*quad))
     }
 
-    /// A quadrilateral of this picture, in the original.
+    /// A quadrilateral of this image, in the original.
     fn original(&self, quad: &Quad) -> Quad {
         quad.each_ref().map(|p| self.scaled().original(p))
     }
 
-    /// A quadrilateral of the original, in this picture.
+    /// A quadrilateral of the original, in this image.
     pub(crate) fn reduced(&self, quad: &Quad) -> Quad {
         quad.each_ref().map(|p| self.scaled().reduced(p))
     }
@@ -302,7 +302,7 @@ impl Level<'_> {
     }
 }
 
-/// A quadrilateral of the original; from picture to picture it comes nearer to the truth.
+/// A quadrilateral of the original; from image to image it comes nearer to the truth.
 fn nearer(quad: &Quad, levels: &[Scaled], print: &Print) -> Quad {
     let around = print.surroundings();
     let step = |quad: Quad, level: &Scaled| {

@@ -1,6 +1,6 @@
 //! Boards of tags: grids of markers, and AprilGrids.
 //!
-//! All tags in the picture are read one by one. Which of them are the board's, their places say: from
+//! All tags in the image are read one by one. Which of them are the board's, their places say: from
 //! a tag the next ones are predicted by the homography of the nearest, and those that are where they
 //! should be belong together. The largest such group is the board; what the others read does not
 //! count. Tags of the board that were not read are looked for where they should be. A tag that stands
@@ -35,7 +35,7 @@ const FEWEST_FOR_LENS: usize = 4;
 const NEIGHBOURS: usize = 4;
 /// Tags are beside one another at this distance, in steps of the board: as far as across a corner.
 const BESIDE: f64 = 1.5;
-/// Most tags that are read in a picture beyond those of the board: the others are chance.
+/// Most tags that are read in an image beyond those of the board: the others are chance.
 const MOST_OTHERS: usize = 100;
 /// Most groups that are tried.
 const MOST_GROUPS: usize = 20;
@@ -106,8 +106,8 @@ impl<'a> Board<'a> {
         found.unwrap_or_default()
     }
 
-    /// What becomes of the group in the smallest picture that shows one; a tag alone counts when no
-    /// picture shows more.
+    /// What becomes of the group in the smallest image that shows one; a tag alone counts when no
+    /// image shows more.
     fn search<T>(&self, levels: &Levels, then: impl Fn(&Level, &Group) -> T) -> Option<T> {
         let mut alone = None;
         let found = levels.search(|level, clear| {
@@ -122,7 +122,7 @@ impl<'a> Board<'a> {
         found.or(alone)
     }
 
-    /// The board's tags in one picture: at least two, or one that is beyond doubt.
+    /// The board's tags in one image: at least two, or one that is beyond doubt.
     fn group(&self, level: &Level, clear: &GrayImage) -> Option<Group> {
         let mut seen = self.print.read_all(level.image(), clear, self.tags.keys().copied());
         seen.sort_by(|a, b| a.errors.cmp(&b.errors).then(b.area().total_cmp(&a.area())));
@@ -213,7 +213,7 @@ impl<'a> Board<'a> {
         self.tags[&id].corners.map(place)
     }
 
-    /// Adds the tags beside those of the group that can be read where they should be, in this picture
+    /// Adds the tags beside those of the group that can be read where they should be, in this image
     /// or in a larger one.
     fn complete(&self, level: &Level, group: &mut Group) {
         for level in level.and_larger() {

@@ -1,4 +1,4 @@
-//! How the board's plane is seen, and where a circle's centre is in the picture.
+//! How the board's plane is seen, and where a circle's centre is in the image.
 //!
 //! The image of a circle's centre is not the centre of the circle's image. Seen at an angle the far
 //! half of the circle is shorter than the near one; under perspective alone the image of the centre
@@ -9,12 +9,12 @@
 //! ```
 //!
 //! A lens that bends lines moves the two apart further. Both are taken into account at once: the
-//! circle is drawn through the map from the board to the picture, an ellipse is laid through the
+//! circle is drawn through the map from the board to the image, an ellipse is laid through the
 //! points (for a homography exactly), and the difference between its centre and the image of the
 //! circle's centre is taken off what was measured.
 //!
 //! The map is a homography followed by the lens. Without a camera's intrinsics the lens is one
-//! coefficient of radial distortion about the middle of the picture, fitted to the circles
+//! coefficient of radial distortion about the middle of the image, fitted to the circles
 //! themselves: that is enough for the bias, which is small.
 //!
 //! J. Heikkilä, *Geometric camera calibration using circular control points*, PAMI 22(10), 2000;
@@ -25,7 +25,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, SMatrix, SVector, Vector2};
 
 use crate::{Intrinsics, detect::homography};
 
-/// A corner, or a circle's centre, on the board and in the picture.
+/// A corner, or a circle's centre, on the board and in the image.
 #[derive(Debug, Clone, Copy)]
 pub struct Sighting {
     /// On the board, in units of its pitch.
@@ -45,7 +45,7 @@ enum Lens<'a> {
     Known(&'a Intrinsics),
 }
 
-/// From the board's plane to the picture.
+/// From the board's plane to the image.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
     h: Matrix3<f64>,
@@ -54,7 +54,7 @@ pub struct View<'a> {
 
 /// Fewer circles do not determine a distortion beside the homography.
 const FEWEST_FOR_LENS: usize = 9;
-/// Prior standard deviation of the distortion at the picture's corner, as a share of the distance.
+/// Prior standard deviation of the distortion at the image's corner, as a share of the distance.
 const LENS_PRIOR: f64 = 0.2;
 /// Steps of the fit: it is nearly linear.
 const STEPS: usize = 6;
@@ -82,7 +82,7 @@ impl<'a> View<'a> {
         start.refined(sightings)
     }
 
-    /// Gauss-Newton on the distances in the picture.
+    /// Gauss-Newton on the distances in the image.
     fn refined(self, sightings: &[Sighting]) -> Option<Self> {
         let free = match self.lens {
             Lens::Radial { .. } if sightings.len() >= FEWEST_FOR_LENS => 9,

@@ -16,7 +16,7 @@ pub struct RmsResidual {
     pub rotation_rms_deg: Option<f64>,
     /// Root mean square distance at the target's first corner.
     pub translation_rms_mm: Option<f64>,
-    /// Over all corners, by projecting them through the robot poses; null without pictures.
+    /// Over all corners, by projecting them through the robot poses; null without images.
     #[serde(default)]
     pub reprojection_rms_px: Option<f64>,
 }
@@ -129,7 +129,7 @@ pub fn in_sample(answer: &HandEye, views: &[View]) -> RmsResidual {
     rms(&all)
 }
 
-/// RMS distance (px) of a picture's corners to where answer and robot pose put them. The target
+/// RMS distance (px) of an image's corners to where answer and robot pose put them. The target
 /// frame of `answer` is the target's own.
 pub fn reprojection_px(
     answer: &HandEye,

@@ -1,7 +1,7 @@
 //! The joint maximum-likelihood fit: views, touches and whatever else is free, in one.
 //!
 //! Unknowns are `X = mount_from_camera`, `Y = anchor_from_target` and a list of extras `x` with
-//! priors. Every robot pose, and every pose of the target in a picture, is an unknown of its own
+//! priors. Every robot pose, and every pose of the target in an image, is an unknown of its own
 //! as well; to first order these leave the problem in closed form, and what remains are residuals
 //! with covariances that are sums over sources of error:
 //!
@@ -64,7 +64,7 @@ pub(super) const PRIOR_TOUCHES: f64 = 2.0;
 /// m per rad.
 const FIRST_WEIGHT: f64 = 0.3;
 /// Prior share of the residual in rotation that is the robot's: a robot reports its orientation
-/// several times better than one picture tells a board's tilt.
+/// several times better than one image tells a board's tilt.
 const ROBOT_ROTATION_SHARE: f64 = 0.3;
 /// The same in position: the camera's depth and what rotations do at a distance are in it as well.
 const ROBOT_POSITION_SHARE: f64 = 0.85;

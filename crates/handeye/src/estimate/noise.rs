@@ -8,7 +8,7 @@
 //! ```
 //!
 //! with known factors `B_i` and unknown `θ` (rad² or m², or a pure factor on a covariance that came
-//! with the picture).
+//! with the image).
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, SMatrix};
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ pub enum Source {
     RobotPosition,
     /// Factor on the covariance of target poses that came from corners.
     Picture,
-    /// Rotation of a target pose of unknown covariance, out of the picture plane.
+    /// Rotation of a target pose of unknown covariance, out of the image plane.
     CameraTilt,
     /// Rotation of such a pose about the optical axis.
     CameraRoll,

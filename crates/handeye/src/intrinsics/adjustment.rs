@@ -32,7 +32,7 @@ const MOST_STEPS: usize = 60;
 const CONVERGED: f64 = 1e-10;
 /// Half of all squared lengths of a 2-vector of unit normal deviates are below this.
 const CHI2_2_MEDIAN: f64 = 1.386_294_361;
-/// A picture whose rms exceeds this multiple of the others' median is worth a warning.
+/// An image whose rms exceeds this multiple of the others' median is worth a warning.
 const CONSPICUOUS: f64 = 3.0;
 
 pub(super) type Shared = SVector<f64, LENS_PARAMETERS>;

@@ -69,7 +69,7 @@ pub fn bend(views: &[Vec<ImageCorner>], target: &TargetModel, given: &Intrinsics
     })
 }
 
-/// Given without any distortion: not measured, or pictures straightened beforehand.
+/// Given without any distortion: not measured, or images straightened beforehand.
 fn is_straight(camera: &Intrinsics) -> bool {
     match camera.distortion {
         Distortion::None => true,
@@ -150,7 +150,7 @@ mod tests {
         TargetModel::Tag { dictionary: "DICT_APRILTAG_36h11".into(), id: 1, size_mm: 48.0 }
     }
 
-    /// Twelve views of a tag in all parts of the picture.
+    /// Twelve views of a tag in all parts of the image.
     fn views(camera: &Intrinsics, seed: u64) -> Vec<Vec<ImageCorner>> {
         let mut random = Random::new(seed);
         let mut view = |_| {

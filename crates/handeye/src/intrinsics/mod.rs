@@ -1,4 +1,4 @@
-//! The camera's own parameters, from pictures of a flat target.
+//! The camera's own parameters, from images of a flat target.
 //!
 //! The start is closed: with `B = K⁻ᵀ K⁻¹`, each view's homography `H = (h₁ h₂ h₃)` gives
 //! `h₁ᵀ B h₂ = 0` and `h₁ᵀ B h₁ = h₂ᵀ B h₂`, linear in `B`. Then all views' poses and the parameters
@@ -76,7 +76,7 @@ pub(crate) const PRICE: f64 = 4.0;
 /// Below this rms (px) the first start was good enough.
 const GOOD_RMS_PX: f64 = 1.0;
 
-/// Calibrates a camera from the target's corners in several pictures of `width x height` pixels.
+/// Calibrates a camera from the target's corners in several images of `width x height` pixels.
 ///
 /// Of `lens` those terms are used that the views pay for. The labelling of a symmetric board does
 /// not matter.

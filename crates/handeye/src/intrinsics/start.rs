@@ -5,11 +5,11 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector2};
 use super::LensModel;
 use crate::{ImageCorner, Intrinsics, TargetModel, detect::homography};
 
-/// Focal length of a common lens, in picture widths: the start when there is no closed one.
+/// Focal length of a common lens, in image widths: the start when there is no closed one.
 const COMMON_FOCAL: f64 = 1.2;
-/// Focal lengths of lenses that see more and more, in picture widths.
+/// Focal lengths of lenses that see more and more, in image widths.
 const FISHEYE_FOCALS: [f64; 3] = [0.5, 0.33, 0.8];
-/// Focal lengths outside of this range, in picture widths, are no start.
+/// Focal lengths outside of this range, in image widths, are no start.
 const FOCAL_RANGE: (f64, f64) = (0.3, 10.0);
 
 /// Zhang's closed form, if it gives a camera, and a common lens.
@@ -42,7 +42,7 @@ pub(super) fn starts(
     fisheye.chain(all).map(of_lens).collect()
 }
 
-/// Homography from the target to pixels from the centre, in picture widths.
+/// Homography from the target to pixels from the centre, in image widths.
 fn view_homography(
     view: &[ImageCorner],
     target: &TargetModel,

@@ -22,7 +22,7 @@ fn camera(k: [f64; 12]) -> Intrinsics {
     Intrinsics { distortion: Distortion::BrownConrady(k), ..pinhole }
 }
 
-/// The board all over the picture, tilted by up to `tilt` rad.
+/// The board all over the image, tilted by up to `tilt` rad.
 fn views(n: usize, camera: &Intrinsics, tilt: f64, sigma: f64, seed: u64) -> Vec<Vec<ImageCorner>> {
     let mut random = Random::new(seed);
     let mut view = || loop {

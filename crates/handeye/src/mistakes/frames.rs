@@ -198,7 +198,7 @@ fn moved(m: &Vector3<f64>, by: &SVector<f64, 7>) -> Vector3<f64> {
     rotated / (1.0 + by[0] + rotated.dot(&by.fixed_rows::<3>(4)))
 }
 
-/// The plane of a board in the pose that a image tells; `None` without covariance.
+/// The plane of a board in the pose that an image tells; `None` without covariance.
 pub fn plane_of_pose(pose: &TargetPose) -> Option<(Vector3<f64>, Matrix3<f64>)> {
     let p: &Pose<Camera, Target> = &pose.camera_from_target;
     let (r, t) = (p.rotation(), p.translation());
@@ -245,7 +245,7 @@ mod tests {
     use crate::math::random::Random;
     use nalgebra::Matrix6;
 
-    /// Boards seen by a image and a scan whose frame differs by `x`.
+    /// Boards seen by an image and a scan whose frame differs by `x`.
     fn captures(x: &SVector<f64, 7>, count: usize, seed: u64) -> Vec<TwoPlanes> {
         let mut random = Random::new(seed);
         let turn = Rotation3::new(Vector3::new(x[1], x[2], x[3]));

@@ -48,7 +48,7 @@ pub struct Dictionary {
 pub struct Reading {
     /// Which marker.
     pub id: u32,
-    /// Quarter turns, clockwise in the picture, by which the marker is turned.
+    /// Quarter turns, clockwise in the image, by which the marker is turned.
     pub turns: usize,
     /// Bits that were read wrong.
     pub errors: u32,

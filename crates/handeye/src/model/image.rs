@@ -1,4 +1,4 @@
-//! A grey picture in memory.
+//! A grey image in memory.
 
 /// Grey values, row by row from the top; 0 is black, 255 white, whatever the file's depth was.
 #[derive(Debug, Clone, PartialEq)]

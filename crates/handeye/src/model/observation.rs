@@ -56,7 +56,7 @@ impl Setup {
     }
 }
 
-/// A corner of the target in a picture.
+/// A corner of the target in an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImageCorner {
     /// Which corner of the target.
@@ -132,18 +132,18 @@ impl Observation {
 }
 
 /// A board lying still, seen once by the camera and then touched (eye-to-hand), or the fixed board
-/// of the views (eye-in-hand, where it carries no picture of its own).
+/// of the views (eye-in-hand, where it carries no image of its own).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placement {
     /// Its name.
     pub id: String,
-    /// Corners in its picture.
+    /// Corners in its image.
     pub corners: Vec<ImageCorner>,
     /// Corners in its scan.
     pub surface: Vec<SurfaceCorner>,
-    /// The target's possible poses in its picture, as in [`Observation::candidates`].
+    /// The target's possible poses in its image, as in [`Observation::candidates`].
     pub candidates: Vec<TargetPose>,
-    /// Why its picture shows no target, where it does not.
+    /// Why its image shows no target, where it does not.
     pub not_seen: Option<String>,
 }
 

@@ -43,7 +43,7 @@ impl Scan {
     pub fn height(&self) -> usize {
         self.height
     }
-    /// One point per pixel of a picture.
+    /// One point per pixel of an image.
     pub(crate) fn is_organised(&self) -> bool {
         self.height > 1
     }

@@ -17,7 +17,7 @@ pub struct Session {
     pub target: Option<TargetModel>,
     /// How well the target's size is known.
     pub target_size: TargetSize,
-    /// The camera, where pictures were used.
+    /// The camera, where images were used.
     pub camera: Option<Intrinsics>,
     /// How well the camera's lens is known, where that was stated.
     pub lens_sigma: Option<LensSigma>,

@@ -119,7 +119,7 @@ impl TargetModel {
         self.family(|family| family.tags())
     }
 
-    /// Relabelings under which a picture of the board looks the same, the identity first:
+    /// Relabelings under which an image of the board looks the same, the identity first:
     /// `symmetries()[k][id]` is the id that corner `id` has after turning the board.
     pub fn symmetries(&self) -> Vec<Vec<u32>> {
         let (columns, _) = self.grid();

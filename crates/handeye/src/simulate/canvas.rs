@@ -18,7 +18,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// A picture of `size`, and `margin` more on every side.
+    /// An image of `size`, and `margin` more on every side.
     pub(super) fn whole((width, height): (u32, u32), margin: i64) -> Self {
         let (right, bottom) = (i64::from(width) + margin, i64::from(height) + margin);
         Self { left: -margin, top: -margin, right, bottom }
@@ -76,7 +76,7 @@ impl Canvas {
         self.window
     }
 
-    /// Draws the cells of pixel `(u, v)` of the picture, whose corners see `square` of the print.
+    /// Draws the cells of pixel `(u, v)` of the image, whose corners see `square` of the print.
     pub(super) fn draw(
         &mut self,
         texture: &Texture,
@@ -98,13 +98,13 @@ impl Canvas {
         }
     }
 
-    /// Paints cells by the place of their centres in the picture (px); `None` leaves what is there.
+    /// Paints cells by the place of their centres in the image (px); `None` leaves what is there.
     pub(super) fn paint(&mut self, grey: impl Fn(&Vector2<f64>) -> Option<f64>) {
         let all = self.window;
         self.paint_in(&all, grey);
     }
 
-    /// The same, within `part` of the picture.
+    /// The same, within `part` of the image.
     pub(super) fn paint_in(&mut self, part: &Window, grey: impl Fn(&Vector2<f64>) -> Option<f64>) {
         let (all, part) = (self.window, part.within(&self.window));
         let (cells, side) = (CELLS as i64, 1.0 / CELLS as f64);
@@ -121,7 +121,7 @@ impl Canvas {
         }
     }
 
-    /// Gathers what reaches the pixels of the rows `from..to` of the picture `grey`.
+    /// Gathers what reaches the pixels of the rows `from..to` of the image `grey`.
     pub(super) fn gather(
         &self,
         kernel: &Kernel,
@@ -152,7 +152,7 @@ struct Pixel<'a> {
     square: &'a [Vector2<f64>; 4],
     /// No point of it is farther from its middle, m.
     reach: f64,
-    /// A cell's sides along the picture's rows and columns, in the print, m.
+    /// A cell's sides along the image's rows and columns, in the print, m.
     sides: [Vector2<f64>; 2],
 }
 

@@ -34,7 +34,7 @@ pub struct CellNoise {
     pub robot_systematic_m: f64,
     /// The same: rotation (rad, about each axis).
     pub robot_systematic_rad: f64,
-    /// Corners in the picture (px, each axis), where they are not detected in rendered pictures.
+    /// Corners in the image (px, each axis), where they are not detected in rendered images.
     pub corner_px: f64,
     /// How well the tip is led onto a corner (m, 3-D RMS).
     pub touch_m: f64,
@@ -106,15 +106,15 @@ pub struct Cell {
     pub arm: Option<ArmErrors>,
     /// The 3D camera, where there is one.
     pub depth: Option<DepthSensor>,
-    /// Pixels of a scan per pixel of a picture, along each side.
+    /// Pixels of a scan per pixel of an image, along each side.
     pub scan_scale: f64,
     /// How far the ends of the board's x lie behind its middle, mm.
     pub bow_mm: f64,
     /// By which share it was printed too large, along x and along y.
     pub print_scale: [f64; 2],
-    /// What lens and sensor do to pictures.
+    /// What lens and sensor do to images.
     pub optics: Optics,
-    /// Robot poses with a picture.
+    /// Robot poses with an image.
     pub captures: usize,
     /// Boards laid into the cell to be touched (eye-to-hand).
     pub placements: usize,
@@ -126,9 +126,9 @@ pub struct Cell {
     pub seed: u64,
 }
 
-/// Views are drawn until the board is in the picture, this many times at most.
+/// Views are drawn until the board is in the image, this many times at most.
 const MOST_DRAWS: usize = 20_000;
-/// The board must be in the picture with this many pitches more on every side.
+/// The board must be in the image with this many pitches more on every side.
 const MARGIN_PITCHES: f64 = 0.6;
 /// A board that lies in the cell is tilted against the camera by no more than this, rad.
 const LYING_TILT_RAD: f64 = 0.3;
@@ -406,7 +406,7 @@ fn spread_corners(target: &TargetModel, count: usize) -> Vec<u32> {
 pub struct Truth {
     /// Where camera and target sit.
     pub hand_eye: HandEye,
-    /// Where the target is in every picture: captures first, then placements.
+    /// Where the target is in every image: captures first, then placements.
     pub camera_from_target: Vec<Pose<Camera, Target>>,
     /// Where the flange is in every capture.
     pub base_from_flange: Vec<Pose<Base, Flange>>,

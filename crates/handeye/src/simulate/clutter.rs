@@ -23,7 +23,7 @@ const SMALL_CHECKER: (f64, f64) = (3.0, 5.99);
 const LETTER: (i64, i64) = (6, 9);
 
 impl Clutter {
-    /// A picture of nothing else.
+    /// An image of nothing else.
     pub fn picture(&self, (width, height): (u32, u32), optics: &Optics, seed: u64) -> GrayImage {
         let margin = super::render::margin(optics);
         let window = Window::whole((width, height), margin);
@@ -32,7 +32,7 @@ impl Clutter {
         develop((&window, paint), (width, height), light, optics, seed)
     }
 
-    /// Paints all of `canvas`, a part of a picture of `size`.
+    /// Paints all of `canvas`, a part of an image of `size`.
     pub(super) fn paint(&self, canvas: &mut Canvas, size: (u32, u32)) {
         let mut random = Random::new(self.seed ^ 0xc1a7);
         let (width, height) = (f64::from(size.0), f64::from(size.1));

@@ -1,4 +1,4 @@
-//! What, besides lens and sensor, makes a picture of a board hard.
+//! What, besides lens and sensor, makes an image of a board hard.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -40,7 +40,7 @@ pub struct PrintErrors {
 /// Light that falls off along one direction.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Slope {
-    /// Share of the light that is missing where the picture ends.
+    /// Share of the light that is missing where the image ends.
     pub share: f64,
     /// Direction in which it falls off, rad, from x to y.
     pub towards_rad: f64,
@@ -49,7 +49,7 @@ pub struct Slope {
 /// A smooth bright blob on the board, too bright for the sensor in its middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Glare {
-    /// Share of the board's area where even black is white in the picture.
+    /// Share of the board's area where even black is white in the image.
     pub share: f64,
     /// Middle of the blob: from 0 to 1 across the corners along x and y.
     pub at: [f64; 2],
@@ -66,7 +66,7 @@ pub struct Occlusion {
     pub seed: u64,
 }
 
-/// An outline in the picture.
+/// An outline in the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
     /// All on one side of a straight line.
@@ -85,7 +85,7 @@ pub enum Shape {
     },
 }
 
-/// A corner of the board as it is in a picture.
+/// A corner of the board as it is in an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrueCorner {
     /// Which corner of the target.
@@ -232,7 +232,7 @@ impl Glow {
 pub(super) const WHITEST: f64 = 255.0;
 
 impl Slope {
-    /// Share of the light at a place, given in halves of the picture's size from its middle.
+    /// Share of the light at a place, given in halves of the image's size from its middle.
     pub(super) fn light(&self, at: &Vector2<f64>) -> f64 {
         let along = Vector2::new(self.towards_rad.cos(), self.towards_rad.sin());
         let farthest = along.abs().sum();

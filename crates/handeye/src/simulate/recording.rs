@@ -13,7 +13,7 @@ use crate::{
     simulate::cell::{ROBOT, TOOL, Truth, direction, out_of_reach, placement_name},
 };
 
-/// What the robot says in a cell, and the truth behind it. Pictures and scans are made when asked
+/// What the robot says in a cell, and the truth behind it. Images and scans are made when asked
 /// for, one at a time.
 #[derive(Debug, Clone)]
 pub struct Recording<'a> {
@@ -39,7 +39,7 @@ impl Cell {
     /// Sends the robot to all captures and touches; errors come from `seed`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] when the board does not fit into the picture, or is no board.
+    /// [`Error::Invalid`] when the board does not fit into the image, or is no board.
     pub fn record(&self, seed: u64) -> Result<Recording<'_>, Error> {
         self.target.check()?;
         self.intrinsics.check()?;
@@ -58,7 +58,7 @@ impl Cell {
         Ok(Recording { cell: self, base_from_flange: reported, joints, touches, truth, seed })
     }
 
-    /// A session with corners that are projected, not detected in pictures: quick.
+    /// A session with corners that are projected, not detected in images: quick.
     ///
     /// # Errors
     /// As [`Cell::record`].
@@ -74,7 +74,7 @@ impl Recording<'_> {
         Point::from_vector(self.cell.tip_in_flange.vector() - self.truth.tip_error)
     }
 
-    /// The scene of picture `k`: captures first, then placements.
+    /// The scene of image `k`: captures first, then placements.
     pub fn scene(&self, k: usize) -> Scene {
         Scene {
             target: self.cell.target.clone(),
@@ -87,20 +87,20 @@ impl Recording<'_> {
         Conditions { print: self.cell.print_errors(), ..Conditions::default() }
     }
 
-    /// Renders picture `k`.
+    /// Renders image `k`.
     pub fn picture(&self, k: usize) -> GrayImage {
         let seed = random(self.seed, PICTURES, k).bits();
         self.scene(k).picture_under(&self.conditions(), &self.cell.optics, seed)
     }
 
-    /// Renders scan `k`, pixel-aligned with the picture; `None` without a 3D camera.
+    /// Renders scan `k`, pixel-aligned with the image; `None` without a 3D camera.
     pub fn scan(&self, k: usize) -> Option<Scan> {
         let sensor = self.cell.depth?;
         let scene = Scene { intrinsics: self.cell.scan_intrinsics(), ..self.scene(k) };
         Some(scene.scan_under(&self.conditions(), &sensor, random(self.seed, SCANS, k).bits()))
     }
 
-    /// Corners of picture `k`, projected, with their noise.
+    /// Corners of image `k`, projected, with their noise.
     pub fn corners(&self, k: usize) -> Vec<ImageCorner> {
         let mut random = random(self.seed, CORNERS, k);
         let sigma = self.cell.noise.corner_px;
@@ -114,7 +114,7 @@ impl Recording<'_> {
         seen.into_iter().map(&mut corner).collect()
     }
 
-    /// Corners of scan `k`: the depth, with its noise, on the rays of the corners in the picture.
+    /// Corners of scan `k`: the depth, with its noise, on the rays of the corners in the image.
     pub fn surface(&self, k: usize, corners: &[ImageCorner]) -> Vec<SurfaceCorner> {
         let Some(sensor) = self.cell.depth else { return vec![] };
         let mut random = random(self.seed, SCANS, k);

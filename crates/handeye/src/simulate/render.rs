@@ -1,4 +1,4 @@
-//! Pictures and scans of a board whose pose is known exactly.
+//! Images and scans of a board whose pose is known exactly.
 //!
 //! A pixel is the scene, filtered by the optics' point spread `h` and integrated over the pixel's
 //! square: `I = ∫∫ (scene * h)(u, v) du dv + noise`, rounded to what the sensor resolves. The scene is
@@ -30,7 +30,7 @@ pub struct Scene {
     pub intrinsics: Intrinsics,
 }
 
-/// What lens and sensor do to a picture.
+/// What lens and sensor do to an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Optics {
     /// Standard deviation of the Gaussian point spread, px.
@@ -39,7 +39,7 @@ pub struct Optics {
     pub defocus_px: f64,
     /// Length of the streak that a motion leaves while the shutter is open, px; 0 at rest.
     pub motion_px: f64,
-    /// Direction of that motion in the picture, rad, from x to y.
+    /// Direction of that motion in the image, rad, from x to y.
     pub motion_rad: f64,
     /// Side of the square of a pixel that is sensitive, px: 1 for the whole of it.
     pub aperture_px: f64,
@@ -55,7 +55,7 @@ pub struct Optics {
     pub white: f64,
     /// Grey of everything behind the board.
     pub background: f64,
-    /// Share of the light that is missing in the picture's outermost corner.
+    /// Share of the light that is missing in the image's outermost corner.
     pub vignetting: f64,
 }
 
@@ -112,9 +112,9 @@ pub struct DepthSensor {
     pub black_step_m: f64,
     /// All distances are too large by this share.
     pub scale: f64,
-    /// The scan's frame is turned against the picture's by this rotation vector (rad) ...
+    /// The scan's frame is turned against the image's by this rotation vector (rad) ...
     pub turn_rad: Vector3<f64>,
-    /// ... and moved by this (m): a point `p` of the picture's frame is read at `R p + shift`.
+    /// ... and moved by this (m): a point `p` of the image's frame is read at `R p + shift`.
     pub shift_m: Vector3<f64>,
 }
 
@@ -134,7 +134,7 @@ impl Default for DepthSensor {
 }
 
 impl DepthSensor {
-    /// Where the scan's own frame has what the picture's has at `camera_from_target`.
+    /// Where the scan's own frame has what the image's has at `camera_from_target`.
     pub(super) fn sees(&self, camera_from_target: &Pose<Camera, Target>) -> Pose<Camera, Target> {
         let moved: Pose<Camera, Camera> =
             Pose::from_parts(Rotation3::new(self.turn_rad).matrix(), self.shift_m);
@@ -154,7 +154,7 @@ impl Scene {
         corners.filter_map(|(id, c)| Some((id as u32, self.pixel_in_picture(&c)?))).collect()
     }
 
-    /// Pixel of a point, unless it is outside of the picture.
+    /// Pixel of a point, unless it is outside of the image.
     pub(super) fn pixel_in_picture(&self, in_target: &Point<Target>) -> Option<Vector2<f64>> {
         let (width, height) = (f64::from(self.intrinsics.width), f64::from(self.intrinsics.height));
         let inside =
@@ -163,12 +163,12 @@ impl Scene {
         self.intrinsics.project(&in_camera.vector()).filter(inside)
     }
 
-    /// The picture, with noise from `seed`.
+    /// The image, with noise from `seed`.
     pub fn picture(&self, optics: &Optics, seed: u64) -> GrayImage {
         self.picture_under(&Conditions::default(), optics, seed)
     }
 
-    /// The picture under `conditions`, with noise from `seed`.
+    /// The image under `conditions`, with noise from `seed`.
     pub fn picture_under(&self, conditions: &Conditions, optics: &Optics, seed: u64) -> GrayImage {
         let size = (self.intrinsics.width, self.intrinsics.height);
         let glow = conditions.glare.map(|g| Glow::new(self, &g, optics));
@@ -344,17 +344,17 @@ impl Scene {
     }
 }
 
-/// Pixels beyond the picture whose light spreads into it.
+/// Pixels beyond the image whose light spreads into it.
 pub(super) fn margin(optics: &Optics) -> i64 {
     let spread = 4.0 * (optics.blur_px + optics.defocus_px) + optics.motion_px;
     2 + (spread + (optics.aperture_px - 1.0).max(0.0)).ceil() as i64
 }
 
-/// Rows of pixels that are drawn at a time: memory for all cells of a large picture would be much.
+/// Rows of pixels that are drawn at a time: memory for all cells of a large image would be much.
 const STRIP: i64 = 128;
 
 /// Lens, light and sensor: what becomes of the scene in front of the camera, which `paint` draws
-/// wherever it can reach the picture: in `window`.
+/// wherever it can reach the image: in `window`.
 pub(super) fn develop(
     (window, paint): (&Window, impl Fn(&mut Canvas)),
     (width, height): (u32, u32),

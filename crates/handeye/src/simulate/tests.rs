@@ -1,4 +1,4 @@
-//! Pictures against what geometry and optics say of them.
+//! Images against what geometry and optics say of them.
 
 use std::f64::consts::{FRAC_PI_3, PI};
 

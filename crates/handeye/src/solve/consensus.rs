@@ -26,7 +26,7 @@ use crate::{
     },
 };
 
-/// One capture with every reading of its picture.
+/// One capture with every reading of its image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Readings {
     /// Where the robot was.
@@ -46,7 +46,7 @@ pub struct Consensus {
     pub agrees: Vec<bool>,
 }
 
-/// Angles of one motion, seen by robot and camera, that are still taken for the same. Pictures of
+/// Angles of one motion, seen by robot and camera, that are still taken for the same. Images of
 /// a tilted board are good to 3 degrees even when the lens is not calibrated. 8 degrees.
 const SAME_ANGLE: f64 = 0.14;
 /// Rotation that counts as one unit of residual in the score: 0.3 degrees.
@@ -284,7 +284,7 @@ mod tests {
     use crate::solve::tests::{assert_same, exact_pairs, pose, truths};
     use std::f64::consts::PI;
 
-    /// Exact captures whose picture may also be read turned by half a turn about the board's
+    /// Exact captures whose image may also be read turned by half a turn about the board's
     /// middle; the wrong reading comes first in every third capture.
     fn symmetric(count: usize) -> Vec<Readings> {
         let turned: Pose<Target, Target> = pose([0.2, 0.15, 0.0], [0.0, 0.0, PI]);

@@ -4,7 +4,7 @@
 //! follows how the target will look, and from that its share in the information on `(X, Y)`,
 //!
 //! ```text
-//! H = Σ J_iᵀ V_i⁻¹ J_i        V_i = picture (all corners) + robot        S_X = [H⁻¹]_XX
+//! H = Σ J_iᵀ V_i⁻¹ J_i        V_i = image (all corners) + robot        S_X = [H⁻¹]_XX
 //! ```
 //!
 //! which adds up over captures. So the next pose is the one that improves the sum most. The first
@@ -57,7 +57,7 @@ pub struct ExpectedNoise {
     pub robot_rotation_rad: f64,
     /// Position that the robot reports, m.
     pub robot_position_m: f64,
-    /// A corner in the picture, px.
+    /// A corner in the image, px.
     pub corner_px: f64,
     /// Depth of a corner in the scan at a distance of 1 m, growing with its square (m); `None`
     /// without scans.
@@ -107,7 +107,7 @@ const ALIKE: (f64, f64) = (0.05, 0.02);
 const STEEPEST: f64 = 0.34;
 
 /// Chooses `count` of the `reachable` poses (`base_from_flange`), to be taken beside those that are
-/// `taken` already. Poses from where the whole target is not in the picture are passed over, and so
+/// `taken` already. Poses from where the whole target is not in the image are passed over, and so
 /// are poses too like one that is taken.
 ///
 /// ```

@@ -11,7 +11,7 @@ pub struct ScanResult {
     /// Whether the board is flat.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flatness: Option<FlatnessResult>,
-    /// Whether pictures and scans put the board at one place.
+    /// Whether images and scans put the board at one place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frames: Option<FramesResult>,
     /// How the scans were placed without a board.
@@ -146,7 +146,7 @@ pub struct CaptureFlatness {
     pub chance: f64,
 }
 
-/// Where the scans put the board, against where the pictures put it: what a picture has at `p`, the
+/// Where the scans put the board, against where the images put it: what an image has at `p`, the
 /// scan has at `(1 + scale) R p + shift`, in the camera frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FramesResult {

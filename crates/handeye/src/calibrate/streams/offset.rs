@@ -19,7 +19,7 @@
 use super::stream::Stream;
 use crate::math::lie;
 
-/// Turn (rad) that a window should hold on average: 10 degrees, far above a picture's noise.
+/// Turn (rad) that a window should hold on average: 10 degrees, far above an image's noise.
 const WINDOW_TURN: f64 = 0.175;
 /// The long window over the short one.
 const LONG: f64 = 4.0;
@@ -35,7 +35,7 @@ const STEPS_PER_INTERVAL: f64 = 2.0;
 const LEAST_COMMON: f64 = 0.25;
 /// Fewest common times that say anything.
 const FEWEST_COMMON: usize = 8;
-/// Difference of angles (rad) that is taken for noise: what pictures and interpolation do at best.
+/// Difference of angles (rad) that is taken for noise: what images and interpolation do at best.
 const NOISE: f64 = 1e-3;
 /// Minima of the score that are followed up: motions that repeat have several.
 const MOST_CANDIDATES: usize = 4;

@@ -253,7 +253,7 @@ fn streams_of_different_motions_are_not_accepted() {
     assert_ne!(found.verdict, Verdict::Accepted);
 }
 
-/// Stations at which the robot rests, quick moves between them; pictures at rest only.
+/// Stations at which the robot rests, quick moves between them; images at rest only.
 #[test]
 fn pictures_at_rest_need_no_offset() {
     fn stations(t: f64) -> Pose<Base, Flange> {

@@ -1,4 +1,4 @@
-//! Patches of a picture that could be circles: about where they are, how large and how bent.
+//! Patches of an image that could be circles: about where they are, how large and how bent.
 //!
 //! A pixel belongs to a patch where it differs from the mean of the square around it. Patches are
 //! runs of such pixels that touch from row to row. Only a patch's outline counts, so a circle wider
@@ -39,7 +39,7 @@ const MOST_OBLONG: f64 = 6.0;
 /// An outline may leave its ellipse by this much (root mean square): px, and share of the shorter
 /// half axis.
 const ROUGH: (f64, f64) = (0.4, 0.05);
-/// More patches than this are no picture of a board; the largest are kept.
+/// More patches than this are no image of a board; the largest are kept.
 const MOST_BLOBS: usize = 4000;
 
 /// All patches that could be circles; means are taken over squares of `2 radius + 1` pixels.
@@ -141,7 +141,7 @@ struct Run {
     parent: u32,
 }
 
-/// Runs of a picture, patches joined (union by path halving).
+/// Runs of an image, patches joined (union by path halving).
 #[derive(Default)]
 struct Runs {
     all: Vec<Run>,
@@ -233,7 +233,7 @@ impl Runs {
     }
 }
 
-/// The ellipse of an outline, if it is one that lies inside the picture.
+/// The ellipse of an outline, if it is one that lies inside the image.
 fn blob(rows: &[(u32, u32, u32)], dark: bool, (width, height): (usize, usize)) -> Option<Blob> {
     let (top, bottom) = (rows.first()?.0, rows.last()?.0);
     let left = rows.iter().map(|r| r.1).min()?;

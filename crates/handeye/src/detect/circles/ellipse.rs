@@ -2,7 +2,7 @@
 //!
 //! The image of a disc is bounded by an ellipse `|A (p - c)| = 1`, `A` symmetric. With `d(p)` the
 //! distance of a pixel from it, positive inside, a lens that blurs with a Gaussian of width `s`
-//! (the pixel's own square included) and light that changes linearly with `g`, the picture is
+//! (the pixel's own square included) and light that changes linearly with `g`, the image is
 //!
 //! ```text
 //! I(p) = (a + b erf((d(p) - κ s²/2) / (√2 s))) (1 + g·p),    d(p) = (1 - ρ) / |∇ρ|,  ρ = |A (p - c)|
@@ -140,7 +140,7 @@ impl Ring {
         let half = Vector2::new(rough.shape[(0, 0)].sqrt(), rough.shape[(1, 1)].sqrt());
         let (right, bottom) = (image.width() as f64 - 1.0, image.height() as f64 - 1.0);
         let edge = Vector2::new(right, bottom);
-        // the ellipse must be in the picture, the ring around it is cut off where that ends
+        // the ellipse must be in the image, the ring around it is cut off where that ends
         let inside = (centre - half).min() >= 0.0 && (edge - centre - half).min() >= 0.0;
         if !inside {
             return None;

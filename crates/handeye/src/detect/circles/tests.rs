@@ -127,7 +127,7 @@ fn noise_blur_light_and_polarity_cost_little() {
             let errors = views_of(&target, &pinhole(), &optics, depth);
             let ratio = expected_ratio(&errors);
             assert!(rms(&errors) < goal, "{name}, {target:?}: {}", rms(&errors));
-            // a sharp picture's rounding is less than its covariance takes it for
+            // a sharp image's rounding is less than its covariance takes it for
             assert!((0.7..1.25).contains(&ratio), "{name}, {target:?}: {ratio}");
         }
     }
@@ -201,7 +201,7 @@ fn circles_just_inside_the_picture_are_found() {
     for target in [symmetric(7, 5), modified(7, 5)] {
         let mut scene = scene(&target, pinhole(), (0.0, 0.0, 0.0), 18.0);
         let left = scene.corners().iter().map(|c| c.1.x).fold(f64::INFINITY, f64::min);
-        // 50 px to a pitch: the edge of the widest circle comes to 2 px from the picture's
+        // 50 px to a pitch: the edge of the widest circle comes to 2 px from the image's
         let radius = if target == symmetric(7, 5) { 12.5 } else { 20.0 };
         let aside = (radius + 2.0 - left) / 900.0 * 18.0 * target.pitch_m();
         let shift = Pose::from_parts(&Matrix3::identity(), Vector3::new(aside, 0.0, 0.0));

@@ -37,7 +37,7 @@ fn scene(tag_px: f64, border_bits: u32, random: &mut Random) -> Scene {
     }
 }
 
-/// Errors (px) of all corners of six pictures, and their covariances.
+/// Errors (px) of all corners of six images, and their covariances.
 fn errors(tag_px: f64, border_bits: u32, optics: &Optics) -> Vec<(Vector2<f64>, Matrix2<f64>)> {
     let mut random = Random::new(42);
     let mut all = vec![];

@@ -1,4 +1,4 @@
-//! The robust fit of a pose to corners in a picture and on a scan.
+//! The robust fit of a pose to corners in an image and on a scan.
 
 use nalgebra::{
     Isometry3, Matrix2, Matrix2x6, Matrix3, Matrix3x6, Matrix6, Rotation3, UnitQuaternion, Vector2,
@@ -28,7 +28,7 @@ const ROUNDS: usize = 4;
 const MOST_STEPS: usize = 50;
 /// A step this small (rad and m alike) ends the run.
 const STEP: f64 = 1e-11;
-/// Equations' worth of belief in what other pictures say about lens model and print.
+/// Equations' worth of belief in what other images say about lens model and print.
 const TYPICAL_EQUATIONS: f64 = 20.0;
 /// Four corners determine a pose.
 const FEWEST: usize = 4;
@@ -37,7 +37,7 @@ const CHI2_2_MEDIAN: f64 = 1.386_294_361;
 /// Half of all lengths of a 3-vector of unit normal deviates are below this.
 const FELT_MEDIAN: f64 = 1.538_17;
 
-/// A corner in the picture, with its place on the board.
+/// A corner in the image, with its place on the board.
 pub(in crate::detect) struct Seen {
     pub id: u32,
     pub in_target: Vector3<f64>,
@@ -60,7 +60,7 @@ pub(in crate::detect) struct Fit<'a> {
     pub intrinsics: &'a Intrinsics,
     /// `τ²`, px².
     excess: f64,
-    /// What other pictures say it is.
+    /// What other images say it is.
     pub typical_excess: Option<f64>,
     /// Factor on the covariances of the 3D corners.
     pub felt_scale: f64,
@@ -143,7 +143,7 @@ impl<'a> Fit<'a> {
         self.felt.iter_mut().for_each(|c| c.weight = weight(0.0));
     }
 
-    /// Weights by distance in standard deviations; `scale` multiplies those of the picture.
+    /// Weights by distance in standard deviations; `scale` multiplies those of the image.
     fn reweight_by(&mut self, pose: &Isometry3<f64>, scale: f64, weight: impl Fn(f64) -> f64) {
         let seen: Vec<f64> = self.seen.iter().map(|c| self.distance(pose, c)).collect();
         for (corner, d) in self.seen.iter_mut().zip(seen) {

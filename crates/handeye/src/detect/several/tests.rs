@@ -26,7 +26,7 @@ fn charuco(first_id: u32) -> TargetModel {
     ))
 }
 
-/// The board in the middle of a picture, `depth` metres away.
+/// The board in the middle of an image, `depth` metres away.
 fn scene(target: &TargetModel, depth: f64) -> Scene {
     let corners = target.corners();
     let centre = corners.iter().map(|c| c.vector()).sum::<Vector3<f64>>() / corners.len() as f64;
@@ -40,7 +40,7 @@ fn scene(target: &TargetModel, depth: f64) -> Scene {
     }
 }
 
-/// A picture of all boards, each in a tile of its own, two to a row; and where their corners are.
+/// An image of all boards, each in a tile of its own, two to a row; and where their corners are.
 fn picture(boards: &[(TargetModel, f64)]) -> (GrayImage, Vec<BTreeMap<u32, Vector2<f64>>>) {
     let scenes: Vec<Scene> = boards.iter().map(|(t, depth)| scene(t, *depth)).collect();
     let tiles: Vec<GrayImage> = scenes.iter().map(|s| s.picture(&Optics::default(), 5)).collect();
@@ -72,7 +72,7 @@ fn each_board_is_found_beside_the_others() {
         r#"{"kind":"aprilgrid","tags_x":4,"tags_y":3,"tag_mm":24,"spacing":0.3,"family":"36h11"}"#,
     );
     let tag = target(r#"{"kind":"tag","dictionary":"DICT_6X6_250","id":7,"size_mm":60}"#);
-    // the ChArUco board has as many corners as the first checkerboard, and is larger in the picture
+    // the ChArUco board has as many corners as the first checkerboard, and is larger in the image
     let boards = [
         (checkerboard(9, 6), 0.5),
         (charuco(50), 0.4),

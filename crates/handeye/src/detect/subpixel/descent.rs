@@ -16,7 +16,7 @@ use crate::{
 const MOST_ACROSS: i32 = 16;
 /// Columns and rows of a square that holds any disc.
 const ACROSS: usize = 2 * MOST_ACROSS as usize + 1;
-/// In a sharpened picture the fit may creep to and fro between pixels, by less than this, px.
+/// In a sharpened image the fit may creep to and fro between pixels, by less than this, px.
 const SETTLED_PX: f64 = 0.03;
 /// Residuals above this share of the contrast are not a corner's.
 const WORST_RESIDUAL: f64 = 0.25;
@@ -46,7 +46,7 @@ impl Disc {
         (found.settled || length(&found.step) < SETTLED_PX).then_some(found)
     }
 
-    /// Where the corner of these parameters is in the picture.
+    /// Where the corner of these parameters is in the image.
     pub fn place(&self, at: &Parameters) -> Vector2<f64> {
         self.centre + Vector2::new(at[0], at[1])
     }

@@ -135,7 +135,7 @@ fn markers_around(
     }))
 }
 
-/// How the slope of the light gets into the picture.
+/// How the slope of the light gets into the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Light {
     /// Black and white reflect it: lamps, vignetting.

@@ -1,4 +1,4 @@
-//! The picture of a crossing, its derivatives, and their products over a disc.
+//! The image of a crossing, its derivatives, and their products over a disc.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -33,7 +33,7 @@ impl Model {
         Self { p, multiplies, n1: normal(at[2]), n2: normal(at[3]), scale }
     }
 
-    /// Picture minus model; NaN where both are beyond what a picture can have.
+    /// Image minus model; NaN where both are beyond what an image can have.
     #[inline(always)]
     fn residual(&self, pixels: &Pixels) -> Lane {
         let [cx, cy, _, _, a, b, _, gx, gy] = self.p;
@@ -53,7 +53,7 @@ impl Model {
         residual
     }
 
-    /// Derivatives and residual at pixels; of a `PLAIN` picture nothing is saturated, and light
+    /// Derivatives and residual at pixels; of a `PLAIN` image nothing is saturated, and light
     /// multiplies.
     #[inline(always)]
     pub fn rows<const PLAIN: bool>(&self, pixels: &Pixels) -> Rows {
@@ -118,7 +118,7 @@ pub(super) fn products(model: &Model, disc: &Disc) -> [[f32; SUMS]; PRODUCTS] {
     products
 }
 
-/// Picture minus model at every pixel, NaN where both are beyond what a picture can have.
+/// Image minus model at every pixel, NaN where both are beyond what an image can have.
 #[multiversion(targets("x86_64+avx2"))]
 pub(super) fn residuals(model: &Model, disc: &Disc) -> Vec<f32> {
     let mut all = Vec::with_capacity(disc.x.len());

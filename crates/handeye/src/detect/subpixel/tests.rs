@@ -33,7 +33,7 @@ fn the_jacobian_matches_central_differences() {
     }
 }
 
-/// Fits every corner of six pictures from starts 0.5 px off: errors and their covariances.
+/// Fits every corner of six images from starts 0.5 px off: errors and their covariances.
 fn errors(cell_px: f64, optics: &Optics) -> Vec<(Vector2<f64>, Matrix2<f64>)> {
     let mut random = Random::new(42);
     let mut all = vec![];

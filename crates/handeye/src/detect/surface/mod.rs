@@ -1,4 +1,4 @@
-//! Corners of the picture as 3D points on the scan.
+//! Corners of the image as 3D points on the scan.
 //!
 //! Around a corner the board is flat, so the inverse depth and the ray are linear in the pixel,
 //!
@@ -85,9 +85,9 @@ pub struct Lifted {
     pub coloured: Option<Coloured>,
 }
 
-/// Lifts corners of a picture of `width x height` pixels onto its scan.
+/// Lifts corners of an image of `width x height` pixels onto its scan.
 ///
-/// An organised scan must be pixel-aligned with the picture, as large or evenly scaled. An
+/// An organised scan must be pixel-aligned with the image, as large or evenly scaled. An
 /// unorganised one is projected with `intrinsics`. Points are in the camera frame, in metres.
 pub fn lift(
     corners: &[ImageCorner],
@@ -111,7 +111,7 @@ pub fn lift_coloured(
     Lifted { found, missing, coloured: colours::lift(corners, &windows, target) }
 }
 
-/// A corner of the picture, and what the scan has around it.
+/// A corner of the image, and what the scan has around it.
 type Windows<'a> = Vec<(&'a ImageCorner, Result<Window, Reason>)>;
 
 fn windows<'a>(
@@ -164,7 +164,7 @@ fn on_plane(
     Ok(plane.corner(corner.id, &rays, &covariance, window.inflation(samples, plane)))
 }
 
-/// Distance to the nearest other corner, picture px.
+/// Distance to the nearest other corner, image px.
 fn spacing(corner: &ImageCorner, corners: &[ImageCorner]) -> f64 {
     let others = corners.iter().filter(|c| c.id != corner.id);
     others.map(|c| (c.pixel - corner.pixel).norm()).fold(f64::INFINITY, f64::min)

@@ -1,4 +1,4 @@
-//! The points of a scan around the corners of a picture.
+//! The points of a scan around the corners of an image.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ const REACH: f64 = 0.5;
 pub(super) const FEWEST_POINTS: usize = 12;
 /// Less than this share of the window measured is a hole.
 const HOLE: f64 = 0.5;
-/// Sizes of picture and scan that agree in ratio to this are aligned pixel by pixel.
+/// Sizes of image and scan that agree in ratio to this are aligned pixel by pixel.
 const SAME_RATIO: f64 = 0.01;
 /// Side of the buckets (px) that sort an unorganised scan.
 const BUCKET_PX: f64 = 16.0;
@@ -35,7 +35,7 @@ pub(super) struct Window {
     pub centre: Vector2<f64>,
     /// Of the window, scan px.
     pub radius: f64,
-    /// Scan pixels per picture pixel.
+    /// Scan pixels per image pixel.
     pub scale: f64,
     /// Whether neighbours in the scan are known.
     is_grid: bool,
@@ -53,7 +53,7 @@ type Buckets = BTreeMap<(i64, i64), Vec<(Vector2<f64>, Vector3<f64>)>>;
 
 /// Where the points around a pixel come from.
 pub(super) enum Source<'a> {
-    /// One point per scan pixel; scan pixels per picture pixel.
+    /// One point per scan pixel; scan pixels per image pixel.
     Grid(&'a Scan, f64),
     /// Points with their pixels, in buckets.
     Cloud(Buckets),
@@ -81,7 +81,7 @@ impl<'a> Source<'a> {
         Some(Self::Cloud(buckets))
     }
 
-    /// Everything measured around a corner; `spacing` is the distance to the next one, picture px.
+    /// Everything measured around a corner; `spacing` is the distance to the next one, image px.
     pub fn window(&self, corner: &ImageCorner, spacing: f64) -> Result<Window, Reason> {
         let scale = if let Self::Grid(_, scale) = self { *scale } else { 1.0 };
         let centre = corner.pixel.add_scalar(0.5) * scale - Vector2::repeat(0.5);

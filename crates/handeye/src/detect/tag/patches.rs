@@ -8,7 +8,7 @@ use crate::GrayImage;
 const DARKER: u32 = 5;
 
 /// Hulls of the connected dark patches at least `least` px wide and high that do not touch the
-/// picture's edge. Dark is what is darker than the mean of a square of half width `radius`; with
+/// image's edge. Dark is what is darker than the mean of a square of half width `radius`; with
 /// `shrunk`, dark pixels beside bright ones do not count, so that patches that touch come apart.
 pub(super) fn hulls(
     image: &GrayImage,
@@ -175,7 +175,7 @@ impl Joined {
     }
 }
 
-/// Convex hull, clockwise in the picture (A. Andrew, *Another efficient algorithm for convex hulls
+/// Convex hull, clockwise in the image (A. Andrew, *Another efficient algorithm for convex hulls
 /// in two dimensions*, 1979).
 fn hull(rows: &[Run]) -> Vec<Vector2<f64>> {
     let ends = |&(y, left, right): &Run| [left, right].map(|x| Vector2::new(x as f64, y as f64));

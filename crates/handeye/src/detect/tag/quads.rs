@@ -5,10 +5,10 @@ use nalgebra::Vector2;
 use super::patches;
 use crate::GrayImage;
 
-/// A quadrilateral, clockwise in the picture, px.
+/// A quadrilateral, clockwise in the image, px.
 pub(crate) type Quad = [Vector2<f64>; 4];
 
-/// Radii of the means, as shares of the picture's longer side: a small one for tags in shadow or
+/// Radii of the means, as shares of the image's longer side: a small one for tags in shadow or
 /// with little white around them, a large one for blurred ones.
 const MEANS: [f64; 2] = [0.01, 0.04];
 /// Least radius of a mean, px.

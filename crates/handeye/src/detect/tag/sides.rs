@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{GrayImage, ImageCorner};
 
-/// Blur of a common picture, px, before it is measured.
+/// Blur of a common image, px, before it is measured.
 const USUAL_BLUR_PX: f64 = 0.6;
 /// A corner with a larger variance (px², both axes) was not measured.
 const UNKNOWN_PX2: f64 = 1.0;
@@ -114,7 +114,7 @@ pub(super) fn seen_in_part(
     corners.map(|corner| corner.filter(|c| is_inside(image, &c.pixel)))
 }
 
-/// Whether a pixel is in the picture.
+/// Whether a pixel is in the image.
 pub(super) fn is_inside(image: &GrayImage, p: &Vector2<f64>) -> bool {
     let (right, bottom) = (image.width() as f64 - 1.0, image.height() as f64 - 1.0);
     p.x > 0.0 && p.y > 0.0 && p.x < right && p.y < bottom

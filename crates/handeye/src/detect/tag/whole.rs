@@ -10,7 +10,7 @@
 //! I(p) = a + b T + g·(p - m)
 //! ```
 //!
-//! which is exact along edges. Where edges meet that are not at right angles in the picture, so that `u` and
+//! which is exact along edges. Where edges meet that are not at right angles in the image, so that `u` and
 //! `v` are blurred with the correlation `ρ = ∇u·∇v / (|∇u||∇v|)`, the share of a cell is, by Mehler's
 //! expansion of the bivariate normal distribution with `φ` the normal density,
 //!
@@ -20,7 +20,7 @@
 //!
 //! The four corners, `a, b, ln s, g` are fitted to
 //! the pixels in and around the tag by Levenberg-Marquardt. With the homography from the unit square in
-//! which a pixel is at `(x, y)`, a corner at `c` that moves by `ε J c` moves the picture there by
+//! which a pixel is at `(x, y)`, a corner at `c` that moves by `ε J c` moves the image there by
 //! `ε [w, ±x(1-x); ±y(1-y), w] J c`, `w` being its bilinear weight and the sign that of two corners on a
 //! diagonal.
 
@@ -310,7 +310,7 @@ fn row(view: &View, tag: &Tag, d: &Vector2<f64>, grey: f64) -> Row {
     let [t, tu, tv, ts] = seen(tag.pattern, &u, &v, rho as f32).map(f64::from);
     let model = a + b * t + gx * d.x + gy * d.y;
     let weight = f64::from(share_within(grey as f32, model as f32));
-    // the picture at a place loses what moves there from before it
+    // the image at a place loses what moves there from before it
     let flow = RowVector2::new(tu, tv) * (-b * cells);
     let (x, y) = (at.x, at.y);
     let weights = [(1.0 - x) * (1.0 - y), x * (1.0 - y), x * y, (1.0 - x) * y];
@@ -353,7 +353,7 @@ fn sizes(quad: &Quad) -> (f64, f64) {
     (fold(f64::min, &height), fold(f64::max, &side))
 }
 
-/// First and last pixel of a quadrilateral and a margin, as far as it is in the picture.
+/// First and last pixel of a quadrilateral and a margin, as far as it is in the image.
 fn bounds(image: &GrayImage, quad: &Quad, margin: f64) -> Option<(Vector2<f64>, Vector2<f64>)> {
     let last = Vector2::new(image.width() as f64 - 1.0, image.height() as f64 - 1.0);
     let fold = |f: fn(f64, f64) -> f64| quad.iter().skip(1).fold(quad[0], |a, b| a.zip_map(b, f));

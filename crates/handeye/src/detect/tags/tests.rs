@@ -112,7 +112,7 @@ fn away(x: f64, y: f64, depth: f64) -> Pose<Camera, Target> {
 #[test]
 fn a_tag_that_lies_beside_the_board_is_not_the_boards() {
     let board = grid("DICT_4X4_50", 3, 2);
-    // the picture shows tags 4 and 5 twice: on the board and beside it
+    // the image shows tags 4 and 5 twice: on the board and beside it
     let scene = placed(&board, Vector3::new(0.1, 0.0, 0.1), 0.4, (-0.06, 0.0));
     let tags = [(4, 0.0), (5, 0.05)].map(|(id, y)| (tag("DICT_4X4_50", id), away(0.1, y, 0.4)));
     let conditions = Conditions { others: tags.into(), ..Conditions::default() };
@@ -195,7 +195,7 @@ fn pictures_without_tags_have_none() {
     assert_eq!(detect(&broken, &target), none);
 }
 
-/// The picture with grey discs on the left and right side of every tag.
+/// The image with grey discs on the left and right side of every tag.
 fn with_broken_sides(scene: &Scene) -> GrayImage {
     let picture = scene.picture(&Optics::default(), 4);
     let at: BTreeMap<u32, Vector2<f64>> = scene.corners().into_iter().collect();

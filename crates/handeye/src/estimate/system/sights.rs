@@ -11,7 +11,7 @@ pub(super) struct Sights {
     pub gradient: DVector<f64>,
 }
 
-/// A picture's noise is not less than this part of what its corners state (variance): exact data
+/// An image's noise is not less than this part of what its corners state (variance): exact data
 /// would leave nothing to divide by.
 const LEAST_PICTURE: f64 = 1e-6;
 

@@ -15,7 +15,7 @@ fn board() -> TargetModel {
     TargetModel::Checkerboard { columns: 11, rows: 8, square_mm: 25.0 }
 }
 
-/// Views of the board from all sides, all of it in the picture.
+/// Views of the board from all sides, all of it in the image.
 fn views(count: usize, noise_px: f64, shift_px: f64, seed: u64) -> Vec<Vec<ImageCorner>> {
     let mut random = Random::new(seed);
     let mut all = vec![];

@@ -111,7 +111,7 @@ fn moving_the_target_moves_only_the_answer() {
     let start = off(&truth, &mut Random::new(7));
     let plain = register(&source, &target, &start, &DenseConfig::default()).unwrap();
     let turn = Isometry3::new(Vector3::zeros(), [0.0, 0.0, PI / 2.0].into());
-    // a quarter turn of the picture: rows become columns
+    // a quarter turn of the image: rows become columns
     let (width, height) = (target.width(), target.height());
     let point = |k: usize| {
         let (x, y) = (k % height, k / height);

@@ -1,4 +1,4 @@
-//! The picture of an edge, its derivatives, and their products over a band.
+//! The image of an edge, its derivatives, and their products over a band.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -68,7 +68,7 @@ impl Model {
         Self { rho, sine, cosine, a, b, g, scale }
     }
 
-    /// Derivatives and residual at pixels, `d = v cos θ + u sin θ - ρ`; of a `PLAIN` picture nothing is
+    /// Derivatives and residual at pixels, `d = v cos θ + u sin θ - ρ`; of a `PLAIN` image nothing is
     /// saturated.
     #[inline(always)]
     pub fn rows<const PLAIN: bool>(&self, pixels: &Pixels) -> Rows {
