@@ -73,7 +73,7 @@ fn full() -> Calibration {
                 slices: vec![TreSlice { axes: [0, 1], p95_mm: vec![vec![Some(1.0)]] }],
             }),
         }),
-        residual: residual,
+        residual,
         held_out: residual,
         captures: vec![CaptureResult {
             id: "01".into(),
