@@ -368,10 +368,8 @@ def codes_of_the_program():
         found.update(code for code in direct if code)
         if "" in direct:  # a variable, whose values stand as the first of a pair
             found.update(re.findall(r'[(\s]\(?"([a-z0-9]+(?:-[a-z0-9]+)+)",\s', text))
-    faults = (ROOT / "crates/handeye-io/src/checkup/words.rs").read_text(encoding="utf-8")
-    found.update(re.findall(rf"Fault::\w+(?:\([^)]*\))? => {word},", faults))
     for file in sorted((ROOT / "crates/handeye-io/src/checkup").glob("*.rs")):
-        found.update(re.findall(rf"\bcode: {word}", file.read_text(encoding="utf-8")))
+        found.update(re.findall(rf"(?:\bFinding::.* =>|\bExplanation::new\() ?{word}", file.read_text(encoding="utf-8")))
     return found
 
 

@@ -8,7 +8,7 @@
 //! registration of touches, each judged on what it has not seen; the choice by predicted error; methods by name: `named`;
 //! `size`, `arm`, `known_position`) → `captures` (residual of every capture) → `movement` → `verdict`.
 //!
-//! Every stage returns its value and its `notes`; `evidence` gathers them, and [`verdict`] alone makes a [`Calibration`] of
+//! Every stage returns its value and its `notes`; `evidence` gathers them, and `verdict` alone makes a [`Calibration`] of
 //! it. What looks at the result as a whole makes a new one: `sequence` (do errors drift?), `sources` (images and scans
 //! apart), `moved`, `scans`, and `beside` (what was noticed while files were read). Point pairs alone take the short way
 //! through `points`, captures of a ball through `balls`.

@@ -3,15 +3,15 @@
 //!
 //! In this order:
 //!
-//! 1. mistakes about all captures: another [`convention`] of the robot's numbers, another [`order`] of images against robot
-//!    poses, another [`size`] of the target. They are compared with each other, and the best explain alike or alone;
-//! 2. poses that stood still ([`frozen`]), whatever else is wrong;
-//! 3. where neither explains, captures that do not agree with the others: [`exchanged`], taken while something was
-//!    [`moved`], or [`disagreeing`].
+//! 1. mistakes about all captures: another `convention` of the robot's numbers, another `order` of images against robot
+//!    poses, another `size` of the target. They are compared with each other, and the best explain alike or alone;
+//! 2. poses that stood still (`frozen`), whatever else is wrong;
+//! 3. where neither explains, captures that do not agree with the others: `exchanged`, taken while something was
+//!    `moved`, or `disagreeing`.
 //!
-//! A calibration asks for 1 with [`rejecting`] where most captures disagree, for poses that are [`inverted`] and lengths in
-//! another [`unit`], and for the [`cause`] of every capture that it rejects: a [`flipped`] board, an exchange, the robot pose
-//! of another one ([`other_pose`]). Scans are judged by [`flatness`] (a bent board) and [`frames`] (another frame than that
+//! A calibration asks for 1 with `rejecting` where most captures disagree, for poses that are `inverted` and lengths in
+//! another `unit`, and for the `cause` of every capture that it rejects: a `flipped` board, an exchange, the robot pose
+//! of another one (`other_pose`). Scans are judged by `flatness` (a bent board) and `frames` (another frame than that
 //! of the images).
 
 pub(crate) mod cause;
