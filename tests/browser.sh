@@ -54,8 +54,12 @@ failed() { echo "$page: $*"; exit 1; }
 open_page() { # further flags
   sed -e "/<\/body>/{s///;r $work/probe.html
 }" "$page" > "$work/page.html"
-  "$browser" "${flags[@]}" "$@" --virtual-time-budget=5000 --dump-dom "file://$work/page.html" \
-    > "$work/dom.html" 2> "$work/log"
+  # a browser that falls over on a busy machine says nothing of the page
+  for attempt in 1 2 3; do
+    "$browser" "${flags[@]}" "$@" --virtual-time-budget=5000 --dump-dom "file://$work/page.html" \
+      > "$work/dom.html" 2> "$work/log" && break
+    if [ "$attempt" = 3 ]; then failed "the browser ended with an error: $(tail -3 "$work/log")"; fi
+  done
   if grep -E 'Uncaught|SyntaxError|CONSOLE.*(rror|WebGL)' "$work/log"; then failed "a script failed"; fi
   probe=$(grep -o 'id="probe">[^<]*' "$work/dom.html" | tail -1 | cut -d'>' -f2)
   [ -n "$probe" ] || failed "the page did not come to its end"

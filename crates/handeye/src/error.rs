@@ -1,6 +1,6 @@
 //! What can be wrong with the data.
 
-/// Why a computation has no answer. Every variant carries the numbers that decided.
+/// Why a computation has no answer, with what decided.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

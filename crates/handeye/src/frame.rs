@@ -80,7 +80,7 @@ pub struct Point<F> {
 }
 
 impl<A, B> Pose<A, B> {
-    /// States, unchecked, that `iso` takes `B` to `A`. The only door in from untyped numbers.
+    /// States, unchecked, that `iso` takes `B` to `A`. The way in from untyped numbers.
     pub fn claim(iso: Isometry3<f64>) -> Self {
         Self { iso, frames: PhantomData }
     }

@@ -30,9 +30,9 @@
 //!
 //! Images, scans and touches make better answers than poses alone: [`detect`] finds boards to a hundredth of a pixel and
 //! lifts their corners onto scans, and an [`Observation`] takes both. Frames are types: [`Pose`]`<A, B>` takes points of `B`
-//! to `A`, and only poses that fit can be multiplied. Lengths are metres, angles radians.
+//! to `A`, and a product compiles only where the inner frames match. Lengths are metres, angles radians.
 //!
-//! The rooms, from the ground up: [`math`], [`frame`], [`model`] (what there is), [`findings`] (what is noticed),
+//! Modules, lowest layer first: [`math`], [`frame`], [`model`] (what there is), [`findings`] (what is noticed),
 //! [`detect`], [`intrinsics`], [`solve`] (closed forms), [`register`] (points, scans, parts), [`estimate`] (the joint fit),
 //! [`mistakes`], [`calibrate`](mod@calibrate), [`tools`], [`simulate`].
 

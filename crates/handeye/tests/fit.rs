@@ -50,11 +50,11 @@ fn fitted_with_arm(setup: Setup, seed: u64) -> (Problem, JointFit) {
                 -DMatrix::from_column_slice(6, 6, carry.as_slice()) * flange
             }
         };
-        view.by_arm = Some(by.into());
+        view.by_robot = Some(by.into());
     }
     let corners = problem.boards.iter_mut().flat_map(|b| &mut b.corners);
     for (corner, touch) in corners.zip(&session.touches) {
-        corner.by_arm = Some(arm.by_deviations(&touch.joints, which).into());
+        corner.by_robot = Some(arm.by_deviations(&touch.joints, which).into());
     }
     let fit = fit_joint(&problem, &start(&session, Method::Shah), &KnownNoise::default()).unwrap();
     (problem, fit)
@@ -83,7 +83,8 @@ fn moved(fit: &JointFit, step: &DVector<f64>) -> (HandEye, Vector3<f64>) {
 
 fn view_residual(at: &HandEye, view: &handeye::solve::View, arm: &DVector<f64>) -> DVector<f64> {
     let HandEye { mount_from_camera, anchor_from_target } = *at;
-    let anchor_from_mount = view.pair.anchor_from_mount.retract(&twist(view.by_arm.as_ref(), arm));
+    let anchor_from_mount =
+        view.pair.anchor_from_mount.retract(&twist(view.by_robot.as_ref(), arm));
     let anchor_from_camera = anchor_from_mount * mount_from_camera;
     let expected = anchor_from_camera.inverse() * anchor_from_target;
     let r = lie::log((view.pair.camera_from_target.inverse() * expected).iso());
@@ -105,7 +106,7 @@ fn touch_residual(
     for (k, corner) in board.corners.iter().enumerate() {
         let flange = corner.base_from_flange.unwrap();
         let held = flange.inverse().rotation() * (corner.in_base - flange.translation());
-        let flange = flange.retract(&twist(corner.by_arm.as_ref(), arm));
+        let flange = flange.retract(&twist(corner.by_robot.as_ref(), arm));
         let touched = flange.rotation() * (held + tip) + flange.translation();
         let there = base_from_board.transform_point(&corner.in_target.into()).coords;
         e.rows_mut(3 * k, 3).copy_from(&(touched - there));

@@ -170,7 +170,7 @@ impl Look<'_> {
                     (-lie::adjoint(base_from_flange.iso()) * by).as_slice(),
                 ),
             };
-            view.by_arm = Some(by.into());
+            view.by_robot = Some(by.into());
         }
         let corners = problem.boards.iter_mut().flat_map(|b| &mut b.corners);
         for (corner, &k) in corners.zip(self.touches) {
@@ -183,7 +183,7 @@ impl Look<'_> {
             let moved = corrected(&flange, &correction(self.model, arm, &touch.joints));
             corner.in_base = (moved * (flange.inverse() * touch.in_base)).vector();
             corner.base_from_flange = Some(moved);
-            corner.by_arm = Some(arm.by_deviations(&touch.joints, which).into());
+            corner.by_robot = Some(arm.by_deviations(&touch.joints, which).into());
         }
         problem
     }

@@ -61,7 +61,7 @@ impl Boards {
         let corner = |&k: &usize| TouchedCorner {
             in_base: touches[k].in_base.vector(),
             base_from_flange: touches[k].base_from_flange,
-            by_arm: None,
+            by_robot: None,
             in_target: corner_of(&touches[k]) - target.reference().vector(),
             by_shape: by_shape(&corner_of(&touches[k]), &middle),
         };
@@ -95,6 +95,6 @@ fn seen(
         pair: PosePair { anchor_from_mount: unused, camera_from_target: about_corner },
         covariance: pose.covariance.map(|c| carry * c * carry.transpose()),
         sight: sight.map(|s| s.carried(&carry).into()),
-        by_arm: None,
+        by_robot: None,
     })
 }

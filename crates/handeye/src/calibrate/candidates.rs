@@ -11,7 +11,8 @@ use super::{
     joint::{self, Joint, held_out_views},
     known_position, named,
     optics::{self, MeasuredBy, Optics},
-    reach::Reach,
+    place::{self, ByPlace},
+    reach::{ArmReach, Reach},
     size, verdict,
     workpiece::{Workpiece, volume},
     wrong_touches,
@@ -26,7 +27,7 @@ use crate::{
         config::Config,
         evidence::{Choice, Evidence},
         notes::Notes,
-        result::{Candidate, Determined, TouchResult, WITH_ARM},
+        result::{BY_PLACE, Candidate, Determined, TouchResult, WITH_ARM},
         unknown::{self, Task},
         views::{self, Views, camera_in_words, pairs_of},
     },
@@ -112,16 +113,27 @@ fn fuse(
     let (determined, open) = name_free(views, fit, best);
     notes.add(open);
     notes.add(Notes::of(known_position::judge(whole, best, views, &config.known)));
-    let reach = arm.as_ref().and_then(|a| Reach::new(views, a, volume));
-    let (best, whole) = match (&arm, &reach) {
-        (Some(arm), Some(_)) => (&arm.fit, &arm.problem),
+    let reach = arm.as_ref().and_then(|a| ArmReach::new(views, a, volume));
+    let place = match &reach {
+        Some(_) => None,
+        None => place::look(views, whole, best, config),
+    };
+    let (best, whole) = match (&arm, &reach, &place) {
+        (Some(arm), Some(_), _) => (&arm.fit, &arm.problem),
+        (_, _, Some(ByPlace { model: Some(model), .. })) => (&model.fit, &model.problem),
         _ => (best, whole),
+    };
+    notes.add(Notes::of(place.as_ref().and_then(ByPlace::finding)));
+    let of_robot: Option<(&'static str, &dyn Reach)> = match (&reach, &place) {
+        (Some(arm), _) => Some((WITH_ARM, arm)),
+        (None, Some(place)) => Some((BY_PLACE, place)),
+        (None, None) => None,
     };
     let refined = optics.refined(views.session, best, as_declared);
     notes.add(refined.notes);
     notes.add(Notes::of(arm.as_ref().map(ArmFit::finding)));
     let measured = MeasuredBy { unit_is_free: task.unknown.scale.is_some(), as_declared };
-    let workpiece = Workpiece::new(views, volume, best, measured, reach.as_ref());
+    let workpiece = Workpiece::new(views, volume, best, measured, of_robot.map(|r| r.1));
     let has_board = views.session.target.is_some();
     let tre_of_arm = workpiece.rms_of_best_mm().filter(|_| reach.is_some());
     let evidence = Evidence {
@@ -134,7 +146,13 @@ fn fuse(
         advice: budget::advice(whole, best, &workpiece, has_board),
         ..evidence
     };
-    let judge = Judge { views, paired: &trusted, known: config.known, workpiece: &workpiece };
+    let judge = Judge {
+        views,
+        paired: &trusted,
+        known: config.known,
+        workpiece: &workpiece,
+        of_robot: of_robot.map(|r| r.0),
+    };
     let evidence = compare(&judge, (fit, joint.as_ref()), (volume, &paired), task, evidence);
     let rests_on_arm = evidence.choice.as_ref().is_some_and(|c| c.name == WITH_ARM);
     (evidence, arm.filter(|_| rests_on_arm).map(|a| a.fit))
@@ -155,7 +173,7 @@ fn compare(
     candidates.extend(of_touches);
     if config.method.is_none() {
         candidates.extend(joint.and_then(|j| judge.joint_candidate(j)));
-        candidates.extend(judge.arm_candidate(fit));
+        candidates.extend(judge.robot_candidate(fit));
     } else if candidates.is_empty() && evidence.notes.undetermined.is_empty() {
         evidence.notes.add(named::failure(views, config).unwrap_or_default());
     }
@@ -323,9 +341,10 @@ impl Judge<'_> {
 }
 
 impl Judge<'_> {
-    /// The answer that does best for a robot whose arm deviates and which does not know.
-    fn arm_candidate(&self, fit: &JointFit) -> Option<Judged> {
-        let (x, covariance) = self.workpiece.rigid()?;
+    /// The answer that does best for a robot that errs by its arm or by place, and does not know.
+    fn robot_candidate(&self, fit: &JointFit) -> Option<Judged> {
+        let (name, (x, covariance)) = self.of_robot.zip(self.workpiece.rigid())?;
+        let note = if name == BY_PLACE { NOTE_BY_PLACE } else { NOTE_WITH_ARM };
         let views = self.views;
         let tre = self.workpiece.tre(&x);
         let placed = solve::place_target(&pairs_of(views), &x);
@@ -333,22 +352,24 @@ impl Judge<'_> {
         let missed = evaluate::rms(&held_out);
         let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
         let candidate = Candidate {
-            name: WITH_ARM.into(),
+            name: name.into(),
             hand_eye: stored_registration(views, fit, &placed, Some(&covariance)),
             in_sample: evaluate::in_sample(&placed, &views.views),
             held_out: missed,
             touch_rms_mm: touch_rms,
             held_out_mm: touch_rms.or(missed.translation_rms_mm),
             predicted_tre_mm: tre.as_ref().map(|t| t.rms),
-            note: Some(
-                "the arm's deviations are found, and the answer is made for the tool as it was \
-                 held, where it is used: elsewhere views and touches may fit it worse"
-                    .into(),
-            ),
+            note: Some(note.into()),
         };
         Some(Judged { candidate, tre, held_out })
     }
 }
+
+/// What to know of such answers.
+const NOTE_WITH_ARM: &str = "the arm's deviations are found, and the answer is made for the tool as it was held, where \
+                             it is used: elsewhere views and touches may fit it worse";
+const NOTE_BY_PLACE: &str = "the robot errs by place, and the answer is the rigid one that fits best where the \
+                             captures were taken";
 
 /// The least predicted error wins; the residual has no say. With the choice comes the leave-one-out residual of each view.
 fn choose(candidates: &[Judged], volume: &Volume, config: &Config) -> Option<(Choice, HeldOut)> {

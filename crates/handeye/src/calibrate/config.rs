@@ -11,13 +11,13 @@ pub struct Config {
     pub icp: IcpConfig,
     /// Noise figures that are known.
     pub known: KnownNoise,
-    /// Error (95 %, predicted) that the job tolerates, mm.
+    /// Accept only where the predicted error (95 % of the points in the workspace) is below this, mm.
     pub max_error_mm: Option<f64>,
-    /// In which frame the answer is, where images and scans do not agree.
+    /// In which camera frame the answer is, that of images or of scans, where the two do not agree.
     pub answer_frame: AnswerFrame,
 }
 
-/// The frame of the camera in which the answer is.
+/// The camera frame in which the answer is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AnswerFrame {
     /// That of the scans, where there are any.

@@ -1,12 +1,18 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
-//! [`calibrate`] is the only way in. `streams` (where the robot moved: its pose at the moment of each capture) and
-//! `unscaled` (the unit of distances) make sessions like any other; then `repeated` and `places` (of captures of one place
-//! one counts) → `agreement` (which captures agree, and on which pose candidate: `gate`, and `masked` for those that hide
-//! one another; the others: `rejected`; whether that is a clear majority: `doubt`) → `optics` (camera, size and depth) →
-//! `candidates` (touches of other corners taken out: `wrong_touches`; closed forms, least squares, maximum likelihood,
-//! registration of touches, each judged on what it has not seen; the choice by predicted error; methods by name: `named`;
-//! `size`, `arm`, `known_position`) → `captures` (residual of every capture) → `movement` → `verdict`.
+//! [`calibrate`] is the only entry point. The stages, in the order in which they run:
+//!
+//! | stage | question |
+//! |---|---|
+//! | `streams`, `unscaled` | the robot's pose at each capture's time; the unit of distances where that is unknown |
+//! | `repeated` | captures of one robot pose that repeat one another: one of them counts |
+//! | `agreement` | which captures agree, on which pose candidate? `gate` and `masked` find them, `rejected` says why others do not, `doubt` whether the majority is clear |
+//! | `optics` | where size, intrinsics or depth move far, all target poses are computed again |
+//! | `candidates` | touches of another corner are removed (`wrong_touches`), then closed forms, least squares, maximum likelihood and registration of touches; the choice by predicted error. Beside: `size`, `arm`, `place` (does the robot err by place?), `known_position`, `named` (a method asked for by name) |
+//! | `captures` | residual of every capture |
+//! | `movement` | did anything move? |
+//! | `verdict` | accepted, rejected or undetermined |
+//! | `places` | looks at the result: captures of one place count once, and all runs again |
 //!
 //! Every stage returns its value and its `notes`; `evidence` gathers them, and `verdict` alone makes a [`Calibration`] of
 //! it. What looks at the result as a whole makes a new one: `sequence` (do errors drift?), `sources` (images and scans
@@ -41,6 +47,7 @@ mod named;
 mod notes;
 mod offset;
 mod optics;
+mod place;
 mod places;
 mod points;
 mod prior;

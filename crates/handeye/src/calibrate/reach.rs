@@ -18,6 +18,21 @@ use crate::{
     register::rigid_fit::{point_jacobian, rigid_fit},
 };
 
+/// Where a robot that does not know of its own errors must be sent, and what it misses then.
+pub(super) trait Reach {
+    /// Where the robot must be asked to go for a point, minus where it lies; camera axes, m.
+    fn shift(&self, p: &Vector3<f64>) -> Vector3<f64>;
+
+    /// How far that differs from way to way, m².
+    fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64>;
+
+    /// How that moves with the unknowns of the robot, by their number among all.
+    fn by_unknowns(&self, p: &Vector3<f64>) -> Vec<(usize, Vector3<f64>)>;
+
+    /// The answer that comes nearest, and its covariance for one of all unknowns.
+    fn rigid(&self, covariance: &DMatrix<f64>) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)>;
+}
+
 /// A point of the volume.
 struct Place {
     /// In the camera.
@@ -30,7 +45,7 @@ struct Place {
 }
 
 /// The volume as the robot reaches it.
-pub(super) struct Reach {
+pub(super) struct ArmReach {
     places: Vec<Place>,
     /// Where the deviations stand among the unknowns.
     columns: Vec<usize>,
@@ -52,7 +67,7 @@ const NEAREST: usize = 3;
 /// So many captures stand for all from which the camera looks (eye-in-hand).
 const VIEWS: usize = 4;
 
-impl Reach {
+impl ArmReach {
     /// `None` where the arm reaches no point of the volume.
     pub fn new(views: &Views, found: &ArmFit, volume: &Volume) -> Option<Self> {
         let work = Work::new(views, found)?;
@@ -75,25 +90,39 @@ impl Reach {
         self.places.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
-    /// Where the robot must be asked to go for a point, minus where it lies; camera axes.
-    pub fn shift(&self, p: &Vector3<f64>) -> Vector3<f64> {
+    /// A covariance that predicts what the robot misses all over the volume, where it is sent by a rigid motion;
+    /// `squares` are `Σ JᵀJ` over it.
+    fn missed(&self, motion: &Isometry3<f64>, squares: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+        let mut sum = Matrix6::zeros();
+        for place in &self.places {
+            let off = motion.transform_vector(&place.p) + motion.translation.vector
+                - (place.p + place.shift);
+            let j = point_jacobian(&place.p);
+            sum += j.transpose() * (off * off.transpose() + place.scatter) * j;
+        }
+        let inverse = squares.try_inverse()?;
+        // a pose of six unknowns carries each of them to points of three: half of it is their share
+        Some(inverse * sum * inverse * (0.5 * self.places.len() as f64))
+    }
+}
+
+impl Reach for ArmReach {
+    fn shift(&self, p: &Vector3<f64>) -> Vector3<f64> {
         self.near(p).map_or_else(Vector3::zeros, |k| k.shift)
     }
 
-    /// How far that differs from way to way, m².
-    pub fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64> {
+    fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64> {
         self.near(p).map_or_else(Matrix3::zeros, |k| k.scatter)
     }
 
-    /// How that moves with the unknowns of the arm, by their number among all.
-    pub fn by_arm(&self, p: &Vector3<f64>) -> Vec<(usize, Vector3<f64>)> {
+    fn by_unknowns(&self, p: &Vector3<f64>) -> Vec<(usize, Vector3<f64>)> {
         let of = |k: &Place| self.columns.iter().copied().zip(k.by_arm.iter().copied()).collect();
         self.near(p).map_or_else(Vec::new, of)
     }
 
-    /// The answer that comes nearest, and its covariance for one of all unknowns. That no rigid motion comes nearer
-    /// is in it: as if the answer were another one at every place, by as much as the robot misses it there.
-    pub fn rigid(&self, covariance: &DMatrix<f64>) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
+    /// That no rigid motion comes nearer is in the covariance: as if the answer were another one at every place, by as
+    /// much as the robot misses it there.
+    fn rigid(&self, covariance: &DMatrix<f64>) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
         let from: Vec<Vector3<f64>> = self.places.iter().map(|k| k.p).collect();
         let to: Vec<Vector3<f64>> = self.places.iter().map(|k| k.p + k.shift).collect();
         let fit = rigid_fit(&from, &to).ok()?;
@@ -113,21 +142,6 @@ impl Reach {
         let own = &carry * covariance * carry.transpose();
         let missed = self.missed(&fit.target_from_source, &squares)?;
         Some((x, own.fixed_view::<6, 6>(0, 0) + missed))
-    }
-
-    /// A covariance that predicts what the robot misses all over the volume, where it is sent by a rigid motion;
-    /// `squares` are `Σ JᵀJ` over it.
-    fn missed(&self, motion: &Isometry3<f64>, squares: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-        let mut sum = Matrix6::zeros();
-        for place in &self.places {
-            let off = motion.transform_vector(&place.p) + motion.translation.vector
-                - (place.p + place.shift);
-            let j = point_jacobian(&place.p);
-            sum += j.transpose() * (off * off.transpose() + place.scatter) * j;
-        }
-        let inverse = squares.try_inverse()?;
-        // a pose of six unknowns carries each of them to points of three: half of it is their share
-        Some(inverse * sum * inverse * (0.5 * self.places.len() as f64))
     }
 }
 

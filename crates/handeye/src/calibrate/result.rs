@@ -52,7 +52,7 @@ pub struct Answer {
     pub mount_from_camera: Option<Pose<Mount, Camera>>,
     /// Where the target sits. Anchor is the base (eye-in-hand) or the flange (eye-to-hand).
     pub anchor_from_target: Option<Pose<Anchor, Target>>,
-    /// How sure both are.
+    /// Covariance of both, 6 x 6.
     #[serde(default)]
     pub covariance: PoseCovariance,
 }
@@ -68,7 +68,8 @@ pub struct Candidate {
     pub in_sample: RmsResidual,
     /// Residual on captures left out of it.
     pub held_out: RmsResidual,
-    /// RMS distance of touches to its prediction, including touches it was made from.
+    /// RMS distance of touches to its prediction, including touches it was made from; of `joint` with the tool tip that
+    /// was found, of all others with the tip as the robot knows it.
     pub touch_rms_mm: Option<f64>,
     /// The error on what it has not seen: touches where there are any, captures otherwise.
     pub held_out_mm: Option<f64>,
@@ -121,7 +122,7 @@ pub struct TouchResult {
     pub residual_mm: f64,
     /// That difference in the base frame, tip minus prediction.
     pub difference_mm: Vector3<f64>,
-    /// Whether candidates were made with it.
+    /// Whether the chosen answer was made with it.
     pub used: bool,
 }
 
@@ -291,6 +292,9 @@ pub struct ArmHeldOut {
 /// Name of the candidate that knows of the arm's deviations.
 pub const WITH_ARM: &str = "joint-with-arm";
 
+/// Name of the candidate that is made for a robot that errs by place.
+pub const BY_PLACE: &str = "joint-by-place";
+
 /// A finished calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
@@ -344,8 +348,8 @@ pub struct Calibration {
     /// Its standard deviation, where it was estimated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_offset_sigma_s: Option<f64>,
-    /// Factor that was taken out of the measured distances, `measured = scale * metric`: one where
-    /// the target's size is trusted, the method's own where one was asked for that finds it, null where the factor is free and the motions do not tell it.
+    /// Measured over metric distances to the target: 1 where the target's size is trusted, null where the factor is
+    /// unknown and the motions do not determine it.
     pub scale: Option<f64>,
     /// Its standard deviation, where it was estimated.
     #[serde(default, skip_serializing_if = "Option::is_none")]

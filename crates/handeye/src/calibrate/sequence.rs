@@ -107,7 +107,10 @@ pub(super) fn with_drift(
         return Ok(None);
     }
     let mut sequence = sequence(&session, task, &start);
-    let Some(found) = fit(&mut sequence, &mut used, task, &start)? else { return Ok(None) };
+    let least = GAIN.max(gain_by_place(plain));
+    let Some(found) = fit(&mut sequence, &mut used, task, (&start, least))? else {
+        return Ok(None);
+    };
     let free = mistakes::free_directions(&found.fit);
     let held_out = held_out(&found, &used);
     if held_out.translation_rms_mm.is_none() || !verdict::is_believable(&held_out) {
@@ -184,12 +187,12 @@ fn sequence(session: &Session, task: &Task, at: &HandEye) -> Sequence {
 }
 
 /// The fit with drift on the side where it gains most, and the captures that are no outliers to it;
-/// `None` where it gains little on either.
+/// `None` where it gains less than `least_gain` on either.
 fn fit(
     sequence: &mut Sequence,
     used: &mut Vec<bool>,
     task: &Task,
-    start: &HandEye,
+    (start, least_gain): (&HandEye, f64),
 ) -> Result<Option<DriftFit>, Error> {
     let known = &task.config.known;
     let mut near = drift::without_drift(sequence, used, start, known)?;
@@ -202,7 +205,7 @@ fn fit(
         let white = drift::fit_drift(sequence, used, &near, known, Free::Nothing)?;
         let found = drift::fit_drift(sequence, used, &near, known, Free::Pose)?;
         let least =
-            best.as_ref().map_or(white.fit.log_likelihood + GAIN, |b| b.1.fit.log_likelihood);
+            best.as_ref().map_or(white.fit.log_likelihood + least_gain, |b| b.1.fit.log_likelihood);
         if found.fit.log_likelihood > least {
             best = Some((side, found));
         }
@@ -231,6 +234,15 @@ fn fit(
         found = fit(used, &near, free)?;
     }
     Ok(Some(found))
+}
+
+/// What errors by place gain, where they are part of the plain calibration: drift must gain more.
+fn gain_by_place(plain: &Calibration) -> f64 {
+    let gain = |w: &Warning| match w.finding.as_deref() {
+        Some(Finding::Robot(RobotFinding::ErrsByPlace { gain, .. })) => Some(*gain),
+        _ => None,
+    };
+    plain.warnings.iter().find_map(gain).unwrap_or(0.0)
 }
 
 /// Whether residuals of neighbouring views, each in units of its own noise and in the axes of what may

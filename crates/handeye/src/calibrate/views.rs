@@ -62,7 +62,7 @@ impl Captures<'_> {
             pair: self.pair(i, reading),
             covariance: covariance.map(|c| carry * c * carry.transpose()),
             sight: None,
-            by_arm: None,
+            by_robot: None,
         }
     }
 

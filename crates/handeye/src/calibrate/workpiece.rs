@@ -68,7 +68,7 @@ pub(super) struct Workpiece<'a> {
     best: &'a JointFit,
     measured: MeasuredBy,
     /// How a robot reaches it that does not know of its arm's deviations.
-    reach: Option<&'a Reach>,
+    reach: Option<&'a dyn Reach>,
     /// Covariance of each point of the volume under the best answer, m².
     spread: Option<Vec<Matrix3<f64>>>,
     /// The answer for a robot that does not know of its arm's deviations, and its covariance.
@@ -81,7 +81,7 @@ impl<'a> Workpiece<'a> {
         volume: &'a Volume,
         best: &'a JointFit,
         measured: MeasuredBy,
-        reach: Option<&'a Reach>,
+        reach: Option<&'a dyn Reach>,
     ) -> Self {
         let (spread, rigid) = (None, None);
         let mut workpiece = Self { views, volume, best, measured, reach, spread, rigid };
@@ -92,7 +92,7 @@ impl<'a> Workpiece<'a> {
 
     /// Covariance (m²) of where a point of the camera lands, for a covariance of all unknowns.
     fn spread_at(&self, covariance: &DMatrix<f64>, p: &Vector3<f64>) -> Option<Matrix3<f64>> {
-        let more = self.reach.map_or_else(Vec::new, |r| r.by_arm(p));
+        let more = self.reach.map_or_else(Vec::new, |r| r.by_unknowns(p));
         let covariance = covariance * inflation(self.best)?;
         optics::spread((self.views, self.measured), &self.best.extras, &covariance, p, more)
     }

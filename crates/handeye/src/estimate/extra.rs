@@ -2,6 +2,7 @@
 
 use nalgebra::{DVector, Vector6};
 
+use super::noise::{Source, Variances};
 use crate::{PosePair, solve::least_squares::View};
 
 /// What the unknown changes.
@@ -14,8 +15,32 @@ pub enum ExtraKind {
     Tip(usize),
     /// A deviation of the arm from its model, by its number among those that are free (rad, m).
     Arm(usize),
+    /// Strength of one wave of the robot's rotation error over the places it goes to, by its column in
+    /// `View::by_robot` (rad); the level of all of them is [`Source::PlaceRotation`].
+    PlaceTurn(usize),
+    /// The same of its position error (m), with the level [`Source::PlacePosition`].
+    PlaceShift(usize),
     /// Systematic difference between the views and the touched places, in units of its own size.
     Systematic(usize),
+}
+
+impl ExtraKind {
+    /// The noise that says how large the unknown is believed to be, where that is estimated.
+    pub fn level(self) -> Option<Source> {
+        match self {
+            Self::PlaceTurn(_) => Some(Source::PlaceRotation),
+            Self::PlaceShift(_) => Some(Source::PlacePosition),
+            _ => None,
+        }
+    }
+
+    /// Its column in [`View::by_robot`], where it is an error of the robot.
+    pub(crate) fn of_robot(self) -> Option<usize> {
+        match self {
+            Self::Arm(which) | Self::PlaceTurn(which) | Self::PlaceShift(which) => Some(which),
+            _ => None,
+        }
+    }
 }
 
 /// One unknown beside `X` and `Y`.
@@ -25,11 +50,17 @@ pub struct Extra {
     pub kind: ExtraKind,
     /// What is believed of it beforehand.
     pub prior_mean: f64,
-    /// Standard deviation of that belief.
+    /// Standard deviation of that belief; a factor on it, where the kind has a [level](ExtraKind::level).
     pub prior_sigma: f64,
 }
 
 impl Extra {
+    /// Variance of what is believed of it.
+    pub(super) fn prior_variance(&self, variances: &Variances) -> f64 {
+        let level = self.kind.level().map_or(1.0, |source| variances[source.index()]);
+        self.prior_sigma.powi(2) * level
+    }
+
     /// An unknown that is believed to be zero.
     pub fn about_zero(kind: ExtraKind, prior_sigma: f64) -> Self {
         Self { kind, prior_mean: 0.0, prior_sigma }
@@ -62,19 +93,22 @@ impl View {
     /// The pair at other values of the camera's parameters and of the arm's.
     pub(crate) fn with(&self, extras: &[Extra], values: &DVector<f64>) -> PosePair {
         let mut pair = self.pair;
-        if self.sight.is_none() && self.by_arm.is_none() {
+        if self.sight.is_none() && self.by_robot.is_none() {
             return pair;
         }
         let (mut of_target, mut of_robot) = (Vector6::zeros(), Vector6::zeros());
         for (extra, value) in extras.iter().zip(values) {
             match extra.kind {
                 ExtraKind::Camera(which) => of_target += self.by_camera(which) * *value,
-                ExtraKind::Arm(which) => of_robot += self.by_arm(which) * *value,
-                _ => {}
+                kind => {
+                    if let Some(which) = kind.of_robot() {
+                        of_robot += self.by_robot(which) * *value;
+                    }
+                }
             }
         }
         pair.camera_from_target = pair.camera_from_target.retract(&of_target);
-        if self.by_arm.is_some() {
+        if self.by_robot.is_some() {
             pair.anchor_from_mount = pair.anchor_from_mount.retract(&of_robot);
         }
         pair

@@ -25,6 +25,12 @@
 //! and Fisher's scoring divides it by `θ_k θ_l/2 Σ tr(V⁻¹ G_k V⁻¹ G_l)`. Few captures tell little
 //! about the noise, so each component carries a prior worth two captures.
 //!
+//! Errors of the robot by place are unknowns like any other ([`super::place`]), believed to be about as large as
+//! their level says. Levels are estimated along with the noise: with `b` the `n` unknowns of one level and `C_b`
+//! their covariance, the score of `log θ` is `½ (bᵀb/θ - n + tr C_b/θ)`. A level is as likely to be zero as any
+//! other number: its prior falls off exponentially, over the rms residual of the first fit (D. Simpson and others,
+//! *Penalising model component complexity*, Statistical Science 32, 2017).
+//!
 //! D. Harville, *Maximum likelihood approaches to variance component estimation*, JASA 72, 1977;
 //! M. Ulrich and M. Hillemann, *Uncertainty-aware hand-eye calibration*, IEEE T-RO 40, 2024.
 
@@ -32,7 +38,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::{
     extra::{Extra, ExtraKind},
-    noise::{KnownNoise, NoiseModel, Source},
+    noise::{KnownNoise, NoiseModel, Sigma, Source},
     system::Steps,
     touched::{self, TouchRows, TouchedBoard},
 };
@@ -54,6 +60,8 @@ const SIGMA_CHANGE: f64 = 1e-3;
 /// The unknowns have converged when the squared step, in units of their own information, is below
 /// this. One more step follows, which squares the rest.
 const STEP: f64 = 1e-6;
+/// The same where unknowns are as large as a level that is estimated: it moves them all a little.
+const STEP_WITH_LEVELS: f64 = 1e-3;
 /// A step longer than this, in the same units, comes from a start and not from noise.
 const FAR: f64 = 1.0;
 /// Captures' worth of prior belief in the first noise level.
@@ -111,8 +119,10 @@ pub fn fit_views(
 /// Fits the unknowns again for other problem, from an answer that is near: noise starts at, and
 /// is drawn towards, what `near` found.
 pub fn refit(problem: &Problem, near: &JointFit, known: &KnownNoise) -> JointFit {
-    let state = near.state(problem, &near.noise);
+    let mut state = near.state(problem, &near.noise);
     let prior = first_noise(problem, &state, known);
+    let found = |s: &Sigma| near.noise.sigmas.iter().find(|n| n.source == s.source).copied();
+    state.noise.sigmas = prior.sigmas.iter().map(|s| found(s).unwrap_or(*s)).collect();
     climb(problem, state, &prior, known)
 }
 
@@ -143,6 +153,10 @@ fn climb(problem: &Problem, mut state: State, prior: &NoiseModel, known: &KnownN
     let mut system = System::at(problem, &state);
     for round in 0..MOST_ROUNDS {
         let moved = system.advance(problem, &mut state);
+        // how large unknowns of a level are follows from the level: its score is that at its own answer
+        if system.has_levels() {
+            system = System::at(problem, &state);
+        }
         // far from the answer the residual is not noise
         let changed = if round == 0 && moved > FAR {
             f64::INFINITY
@@ -150,7 +164,8 @@ fn climb(problem: &Problem, mut state: State, prior: &NoiseModel, known: &KnownN
             system.update_noise(&mut state.noise, prior, known)
         };
         system = System::at(problem, &state);
-        if moved < STEP && changed < SIGMA_CHANGE {
+        let step = if system.has_levels() { STEP_WITH_LEVELS } else { STEP };
+        if moved < step && changed < SIGMA_CHANGE {
             break;
         }
     }
@@ -205,7 +220,8 @@ fn levelled(
     let dof = 6.0 * problem.views.len() as f64 - 12.0;
     let level = (cost.max(0.0) / dof.max(6.0)).sqrt().max(1e-6);
     for s in &mut noise.sigmas {
-        if !matches!(s.source, Source::Picture | Source::Touch) && known.sigma(s.source).is_none() {
+        let has_own = matches!(s.source, Source::Picture | Source::Touch) || s.source.is_level();
+        if !has_own && known.sigma(s.source).is_none() {
             s.sigma *= level;
         }
     }
@@ -253,6 +269,7 @@ fn acting(problem: &Problem) -> impl Iterator<Item = Source> {
         Source::RobotRotation | Source::RobotPosition => true,
         Source::Picture => pictured,
         Source::Touch => touched,
+        level if level.is_level() => problem.extras.iter().any(|e| e.kind.level() == Some(*level)),
         _ => bare,
     })
 }

@@ -1,9 +1,12 @@
-//! Refinement of both unknowns from a start, with covariance.
+//! Estimates `X = mount_from_camera` and `Y = anchor_from_target`, with covariance, from a start value.
 //!
-//! [`joint`] is the estimator: one maximum-likelihood fit of everything that was measured, the
-//! noise of every source estimated alongside, `system` its equations. `drift` is the same for views
-//! taken one after the other, whose errors may change slowly. Plain least squares, for starts and for
-//! comparison, are in [`crate::solve::least_squares`].
+//! [`joint`] is the estimator: one maximum-likelihood fit of everything that was measured, with the noise of every
+//! source ([`noise`]) and further unknowns ([`extra`]); `system` holds its equations, [`touched`] those of touches.
+//! [`place`] adds errors of the robot that belong to where it stands, `projection` makes the rigid answer from such a
+//! fit; `drift` is for views taken one after the other, whose errors change slowly. [`evaluate`] leaves captures out,
+//! [`predict`] states the error at the workpiece, `observability` names what the data leave free, [`certify`] proves an
+//! optimum global, [`touches`] registers touches by point pairs. Plain least squares are in
+//! [`crate::solve::least_squares`].
 
 pub mod certify;
 pub mod drift;
@@ -12,8 +15,10 @@ pub mod extra;
 pub mod joint;
 pub mod noise;
 pub(crate) mod observability;
+pub mod place;
 pub mod predict;
 pub mod problem;
+pub(crate) mod projection;
 mod system;
 pub mod touched;
 pub mod touches;

@@ -34,13 +34,17 @@ pub enum Source {
     CameraDepth,
     /// How well the tip is led onto a corner.
     Touch,
+    /// Rotation error of the robot that is alike at places near one another, at the flange.
+    PlaceRotation,
+    /// Position error of that kind.
+    PlacePosition,
 }
 
 pub(crate) type Variances = [f64; Source::ALL.len()];
 
 impl Source {
     /// Every source, in the order of their numbers.
-    pub const ALL: [Source; 8] = [
+    pub const ALL: [Source; 10] = [
         Source::RobotRotation,
         Source::RobotPosition,
         Source::Picture,
@@ -49,6 +53,8 @@ impl Source {
         Source::CameraLateral,
         Source::CameraDepth,
         Source::Touch,
+        Source::PlaceRotation,
+        Source::PlacePosition,
     ];
 
     /// Its number.
@@ -67,12 +73,22 @@ impl Source {
             Source::CameraLateral => "camera lateral",
             Source::CameraDepth => "camera depth",
             Source::Touch => "touch",
+            Source::PlaceRotation => "robot rotation by place",
+            Source::PlacePosition => "robot position by place",
         }
     }
 
     /// Whether the standard deviation is an angle.
     pub fn is_rotation(self) -> bool {
-        matches!(self, Source::RobotRotation | Source::CameraTilt | Source::CameraRoll)
+        matches!(
+            self,
+            Source::RobotRotation | Source::CameraTilt | Source::CameraRoll | Source::PlaceRotation
+        )
+    }
+
+    /// Whether it is the level of unknowns, and not noise of a measurement.
+    pub fn is_level(self) -> bool {
+        matches!(self, Source::PlaceRotation | Source::PlacePosition)
     }
 
     /// How many axes share this standard deviation.
@@ -80,6 +96,7 @@ impl Source {
         match self {
             Source::Picture => 6.0,
             Source::RobotRotation | Source::RobotPosition | Source::Touch => 3.0,
+            Source::PlaceRotation | Source::PlacePosition => 3.0,
             Source::CameraTilt | Source::CameraLateral => 2.0,
             Source::CameraRoll | Source::CameraDepth => 1.0,
         }

@@ -41,7 +41,7 @@ pub struct TouchedCorner {
     pub base_from_flange: Option<Pose<Base, Flange>>,
     /// How the flange moved with the arm's deviations: 6 rows, rotation first, perturbed on the
     /// right; it carries the tip along.
-    pub by_arm: Option<Arc<DMatrix<f64>>>,
+    pub by_robot: Option<Arc<DMatrix<f64>>>,
     /// The corner, about the point at which views state their residual (m).
     pub in_target: Vector3<f64>,
     /// How it moves with the deviations of the target's shape.
@@ -58,7 +58,7 @@ impl TouchedCorner {
 
     /// Rotation of the flange and place of the tip (in the base) where the arm deviates, and how
     /// that place moves with each deviation.
-    fn by_arm_at(
+    fn by_robot_at(
         &self,
         tip_error: &Vector3<f64>,
         extras: &[Extra],
@@ -67,20 +67,20 @@ impl TouchedCorner {
         let Some(flange) = self.base_from_flange else {
             return (Matrix3::identity(), self.in_base, None);
         };
-        let Some(by_arm) = &self.by_arm else { return (flange.rotation(), self.in_base, None) };
+        let Some(by_robot) = &self.by_robot else { return (flange.rotation(), self.in_base, None) };
         let mut step = Vector6::zeros();
         for (extra, value) in extras.iter().zip(values) {
-            if let ExtraKind::Arm(which) = extra.kind
-                && which < by_arm.ncols()
+            if let Some(which) = extra.kind.of_robot()
+                && which < by_robot.ncols()
             {
-                step += by_arm.column(which) * *value;
+                step += by_robot.column(which) * *value;
             }
         }
         let tip = flange.rotation().transpose() * (self.in_base - flange.translation());
         let moved = flange.retract(&step);
         let rotation = moved.rotation();
         let place = rotation * tip + moved.translation();
-        (rotation, place, Some(carried(&rotation, &(tip + tip_error)) * &**by_arm))
+        (rotation, place, Some(carried(&rotation, &(tip + tip_error)) * &**by_robot))
     }
 }
 
@@ -195,7 +195,7 @@ fn fill(
     jacobian: &mut DMatrix<f64>,
 ) {
     let tip = Vector3::from_fn(|k, _| super::extra::value(extras, values, ExtraKind::Tip(k)));
-    let (flange, touched, by_arm) = corner.by_arm_at(&tip, extras, values);
+    let (flange, touched, by_robot) = corner.by_robot_at(&tip, extras, values);
     let r = carrier.base_from_board.rotation.to_rotation_matrix().into_inner();
     let in_target = corner.deviating(extras, values);
     let in_base = r * in_target + carrier.base_from_board.translation.vector;
@@ -213,8 +213,8 @@ fn fill(
     for (k, extra) in extras.iter().enumerate() {
         let column: Vector3<f64> = match extra.kind {
             ExtraKind::Tip(axis) => flange.column(axis).into(),
-            ExtraKind::Arm(which) => {
-                by_arm.as_ref().map_or_else(Vector3::zeros, |m| m.column(which).into())
+            ExtraKind::Arm(which) | ExtraKind::PlaceTurn(which) | ExtraKind::PlaceShift(which) => {
+                by_robot.as_ref().map_or_else(Vector3::zeros, |m| m.column(which).into())
             }
             ExtraKind::Systematic(axis) => match &frame {
                 Some(by_systematic) => {

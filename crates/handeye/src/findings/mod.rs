@@ -1,9 +1,9 @@
 //! What is found beside the answer, with its numbers: the one room in which a finding gets its code, its sentence, what
 //! it does to the answer, and what to do about it.
 //!
-//! A stage that notices something makes a variant; nobody else writes words. Who has to know whether something was
-//! found asks for the variant, never for its words. A new finding is a variant in the file of its subject, with its
-//! code and sentence there, and a row in [`severity`] where it changes the answer or leaves none.
+//! A stage that notices something makes a variant, and code matches on the variant, never on the text. A new finding is
+//! a variant in the file of its subject, with its code and sentence there, a row in [`severity`] where it changes the
+//! answer or invalidates it, and an entry in the book's list of codes (`book/src/trouble/codes.md`).
 
 pub mod camera;
 pub mod captures;

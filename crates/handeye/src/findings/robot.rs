@@ -45,6 +45,17 @@ pub enum RobotFinding {
         /// With the corrected one, mm.
         after_mm: f64,
     },
+    /// It errs alike at places near one another.
+    ErrsByPlace {
+        /// How far its position is off at a place, mm.
+        position_mm: f64,
+        /// How far its rotation is off, degrees.
+        rotation_deg: f64,
+        /// What it misses at the captures with the best rigid transform, mm.
+        missed_mm: f64,
+        /// By how much the logarithm of the likelihood gains.
+        gain: f64,
+    },
     /// Joint values do not lead to the flange pose beside them.
     JointsAndPosesDiffer {
         /// Where, in words.
@@ -115,6 +126,9 @@ impl RobotFinding {
             Self::ArmDeviates { parameters, before_mm, after_mm } => format!(
                 "the arm differs from its model: with {parameters} parameters corrected, the error of the robot's position is {after_mm:.2} mm per axis instead of {before_mm:.2} mm. The result contains the corrected model (key `arm`), and the camera's pose for a robot that uses it; the answer itself is for the robot as it is"
             ),
+            Self::ErrsByPlace { position_mm, rotation_deg, missed_mm, .. } => format!(
+                "this robot errs from place to place, by about {position_mm:.2} mm and {rotation_deg:.3} degrees: at the captures, no fixed transform does better than {missed_mm:.2} mm RMS. More captures do not change that; a robot whose joints are calibrated, or captures only where it works, do"
+            ),
             Self::JointsAndPosesDiffer { at } => format!(
                 "{at}: the joint values do not lead to the flange pose beside them by the model of the arm; check its \
                  parameters, their units, and the order of the joints. The arm was not examined"
@@ -139,6 +153,7 @@ impl Found for RobotFinding {
             Self::LengthUnit { .. } => "robot-length-unit",
             Self::TargetLengthUnit { .. } => "target-length-unit",
             Self::ArmDeviates { .. } => "arm-deviates",
+            Self::ErrsByPlace { .. } => "robot-errs-by-place",
             Self::JointsAndPosesDiffer { .. } => "joints-and-poses-differ",
             Self::DeterminedByKnownPosition { .. } => "determined-by-known-position",
             Self::KnownPositionDisagrees { .. } => "known-position-disagrees",
@@ -161,6 +176,12 @@ impl Found for RobotFinding {
             Self::ArmDeviates { before_mm, after_mm, .. } => {
                 vec![("before_mm", *before_mm), ("after_mm", *after_mm)]
             }
+            Self::ErrsByPlace { position_mm, rotation_deg, missed_mm, gain } => vec![
+                ("position_mm", *position_mm),
+                ("rotation_deg", *rotation_deg),
+                ("missed_mm", *missed_mm),
+                ("log_likelihood_gain", *gain),
+            ],
             Self::OtherConvention { .. } | Self::JointsAndPosesDiffer { .. } => vec![],
             Self::DeterminedByKnownPosition { given_mm, .. } => vec![("given_mm", *given_mm)],
             Self::KnownPositionDisagrees { given_mm, found_mm } => {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Finding;
 
-/// Something the user should know about a result that still stands.
+/// A finding about a result, or about the data that it was made from.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Warning {
     /// Short fixed name, for programs: `pose-flipped`.

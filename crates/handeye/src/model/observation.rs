@@ -18,7 +18,7 @@ pub enum Setup {
 }
 
 impl Setup {
-    /// The one place where the two setups differ.
+    /// The robot pose as the solvers take it, the same for both setups.
     pub fn anchor_from_mount(self, base_from_flange: Pose<Base, Flange>) -> Pose<Anchor, Mount> {
         match self {
             Setup::EyeInHand => base_from_flange.rename(), // anchor = base, mount = flange
@@ -83,8 +83,8 @@ pub struct SurfaceCorner {
 pub struct TargetPose {
     /// Where the target is.
     pub camera_from_target: Pose<Camera, Target>,
-    /// 6 x 6, rotation (rad) first, perturbed on the right (in the Target frame). `None` when
-    /// nobody told how sure the pose is.
+    /// 6 x 6, rotation (rad) first, perturbed on the right (in the Target frame). `None` where
+    /// it is not known.
     pub covariance: Option<Matrix6<f64>>,
 }
 
@@ -99,8 +99,8 @@ pub struct Observation {
     pub joints: Vec<f64>,
     /// When it was taken, by the camera's clock, s; `None` where that was not recorded.
     pub time_s: Option<f64>,
-    /// How the mount moved meanwhile, where the robot did not stop: velocity (rad/s, m/s) against the anchor, in the
-    /// mount frame. Where a capture has one, the offset of the two clocks is estimated, about zero.
+    /// Twist of the mount relative to the anchor, in the mount frame (rad/s, then m/s), where the robot did not stop.
+    /// Where a capture has one, the offset of the two clocks is estimated, with a prior mean of zero.
     pub velocity: Option<Vector6<f64>>,
     /// Corners in the image; empty when only the pose is known.
     pub corners: Vec<ImageCorner>,
@@ -112,7 +112,7 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// A capture of which both poses came from elsewhere, of unknown covariance.
+    /// A capture of which only both poses are given: no corners, and no covariance.
     pub fn bare(
         capture: String,
         base_from_flange: Pose<Base, Flange>,
@@ -131,8 +131,8 @@ impl Observation {
     }
 }
 
-/// A board lying still, seen once by the camera and then touched (eye-to-hand), or the fixed board
-/// of the views (eye-in-hand, where it carries no image of its own).
+/// A board lying in the cell, seen once by the camera and then touched (eye-to-hand). With eye-in-hand the views'
+/// own board is touched, and there are no placements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placement {
     /// Its name.
@@ -150,11 +150,11 @@ pub struct Placement {
 /// The tool tip on a corner of the target.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Touch {
-    /// Name of the placement that was touched.
+    /// Name of the placement that was touched (eye-to-hand).
     pub placement: String,
     /// Which corner of the target.
     pub corner: u32,
-    /// Where the tip was.
+    /// Position of the tip as the robot computes it, m.
     pub in_base: Point<Base>,
     /// Where the flange was, if it was recorded.
     pub base_from_flange: Option<Pose<Base, Flange>>,
@@ -217,7 +217,7 @@ impl HandEye {
     }
 }
 
-/// Edge lengths and centre of the box in which the robot will work.
+/// The box in which the robot will work, by two opposite corners.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Workspace {
     /// One corner, m; in the base (eye-to-hand) or the camera (eye-in-hand).

@@ -21,7 +21,7 @@ pub struct Session {
     pub camera: Option<Intrinsics>,
     /// How well the camera's lens is known, where that was stated.
     pub lens_sigma: Option<LensSigma>,
-    /// Whether the camera was calibrated from these very views.
+    /// Whether the camera was calibrated from the images of this session.
     pub camera_from_views: bool,
     /// Captures, in any order.
     pub observations: Vec<Observation>,
@@ -37,13 +37,14 @@ pub struct Session {
     pub known_position: Option<KnownPosition>,
     /// The arm as its maker describes it, where that is known.
     pub arm: Option<Arm>,
-    /// Whether distances to the target are known up to one factor only, which is then estimated: for bare target poses.
+    /// Whether distances to the target are known only up to a common scale, which is then estimated: for bare target
+    /// poses.
     pub unknown_scale: bool,
     /// Whether the captures were taken one after the other, in the order of their times or names, so that errors may
     /// drift: looked for in bare target poses.
     pub in_sequence: bool,
-    /// What the robot recorded, where it did not stop for the captures: its poses in the captures are then not looked
-    /// at, and their times count.
+    /// What the robot recorded, where it did not stop for the captures: `base_from_flange` of the captures is then
+    /// ignored, and the robot's pose is interpolated at their `time_s`.
     pub motion: Option<Motion>,
 }
 
@@ -74,7 +75,7 @@ pub struct Streams {
     pub robot: Vec<Stamped<Pose<Base, Flange>>>,
     /// Where the camera saw the target.
     pub camera: Vec<Stamped<Pose<Camera, Target>>>,
-    /// Whether distances to the target are known up to one factor only.
+    /// Whether distances to the target are known only up to a common scale.
     pub unknown_scale: bool,
 }
 
@@ -100,7 +101,7 @@ pub enum TargetSize {
     /// As declared, unless the printer scaled it or nobody measured it: the data may say otherwise.
     #[default]
     Printed,
-    /// It was measured, with this standard deviation as a share of the size: data that say otherwise are wrong.
+    /// It was measured, with this standard deviation relative to the size (0.01 is 1 %): data that say otherwise are wrong.
     Measured(f64),
 }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Use it; the uncertainty is stated.
     Accepted,
-    /// Do not: the data contradict it or themselves.
+    /// Do not: the data contradict it or one another, or it is not as exact as was asked for.
     Rejected,
     /// The data do not determine it; the missing directions are named.
     Undetermined,

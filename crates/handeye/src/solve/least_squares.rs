@@ -28,13 +28,13 @@ pub struct View {
     pub sight: Option<Arc<Sight>>,
     /// How the robot pose moves with the arm's deviations: 6 rows, rotation first, for
     /// `anchor_from_mount` perturbed on the right.
-    pub by_arm: Option<Arc<DMatrix<f64>>>,
+    pub by_robot: Option<Arc<DMatrix<f64>>>,
 }
 
 impl View {
     /// A pose that came from elsewhere, of unknown covariance.
     pub fn bare(pair: PosePair) -> Self {
-        Self { pair, covariance: None, sight: None, by_arm: None }
+        Self { pair, covariance: None, sight: None, by_robot: None }
     }
 
     /// How the target pose moves with one parameter.
@@ -43,8 +43,8 @@ impl View {
     }
 
     /// How the robot pose moves with one deviation of the arm.
-    pub(crate) fn by_arm(&self, which: usize) -> Vector6<f64> {
-        self.by_arm
+    pub(crate) fn by_robot(&self, which: usize) -> Vector6<f64> {
+        self.by_robot
             .as_ref()
             .filter(|m| which < m.ncols())
             .map_or_else(Vector6::zeros, |m| m.fixed_view::<6, 1>(0, which).into())

@@ -1,7 +1,7 @@
 //! Closed forms: hand-eye calibration without a start value, a file per paper.
 //!
 //! `A X = Y B` methods take the pairs as they are; `A X = X B` methods take relative motions
-//! between pairs and find the target's place afterwards. Every method is linear in the number of
+//! between pairs and compute `anchor_from_target` afterwards. Every method is linear in the number of
 //! captures: sums over all motions come from moments of single captures (`moments.rs`), and where
 //! they cannot, the number of motions per capture is bounded.
 

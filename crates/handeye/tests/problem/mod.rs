@@ -27,7 +27,7 @@ fn board(session: &Session, name: &str, placement: Option<&Placement>) -> Touche
     let corner = |t: &handeye::Touch| TouchedCorner {
         in_base: t.in_base.vector(),
         base_from_flange: t.base_from_flange,
-        by_arm: None,
+        by_robot: None,
         in_target: target.corner(t.corner).unwrap().vector(),
         by_shape: Default::default(),
     };

@@ -14,6 +14,8 @@ pub(super) struct Judge<'a> {
     pub(super) paired: &'a [TouchPairs],
     pub(super) known: estimate::KnownNoise,
     pub(super) workpiece: &'a Workpiece<'a>,
+    /// The candidate for a robot with errors that it does not know of.
+    pub(super) of_robot: Option<&'static str>,
 }
 
 /// A candidate with what its choice needs.

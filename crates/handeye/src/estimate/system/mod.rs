@@ -24,7 +24,7 @@ use super::{
 use crate::{
     estimate::{
         noise::Variances,
-        system::state::{BoardBlock, State, System},
+        system::state::{BoardBlock, Level, State, System},
     },
     math::linalg,
     solve::least_squares::{self},
@@ -56,16 +56,22 @@ impl System {
             residual: DVector::zeros(6 * problem.views.len()),
             views: Vec::with_capacity(problem.views.len()),
             boards: vec![],
+            levels: Level::all(problem, state, &variances),
         };
         system.add_views(problem, state, &variances);
         for board in &problem.boards {
             system.add_board(board_block(problem, board, state, &variances));
         }
         system.add_sights(state);
-        system.add_priors(problem, state);
+        system.add_priors(problem, state, &variances);
         system.add_known_position(problem, state);
         (0..12).for_each(|k| system.h[(k, k)] += FREE_SIGMA.powi(-2));
         system
+    }
+
+    /// Whether unknowns are believed to be about as large as a level that is estimated.
+    pub(crate) fn has_levels(&self) -> bool {
+        !self.levels.is_empty()
     }
 
     fn add_known_position(&mut self, problem: &Problem, state: &State) {
@@ -141,9 +147,9 @@ impl System {
         self.boards.push(block);
     }
 
-    fn add_priors(&mut self, problem: &Problem, state: &State) {
+    fn add_priors(&mut self, problem: &Problem, state: &State, variances: &Variances) {
         for (k, extra) in problem.extras.iter().enumerate() {
-            let weight = extra.prior_sigma.powi(-2);
+            let weight = extra.prior_variance(variances).recip();
             let away = state.values[k] - extra.prior_mean;
             self.h[(12 + k, 12 + k)] += weight;
             self.g[12 + k] += weight * away;
@@ -206,7 +212,8 @@ impl System {
         }
         let known = problem.known_position.as_ref();
         cost += known.map_or(0.0, |k| k.residual(&state.hand_eye.mount_from_camera).powi(2));
-        let prior = |(e, x): (&Extra, &f64)| ((x - e.prior_mean) / e.prior_sigma).powi(2);
+        let prior =
+            |(e, x): (&Extra, &f64)| (x - e.prior_mean).powi(2) / e.prior_variance(&variances);
         let priors: f64 = problem.extras.iter().zip(&state.values).map(prior).sum();
         cost + priors + self.sights.cost(&state.values)
     }
@@ -223,7 +230,8 @@ impl System {
         let log_h = Cholesky::new(self.h.clone()).map_or(f64::INFINITY, |c| {
             2.0 * c.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>()
         });
-        let log_prior: f64 = problem.extras.iter().map(|e| 2.0 * e.prior_sigma.ln()).sum();
+        let variances = state.noise.variances();
+        let log_prior: f64 = problem.extras.iter().map(|e| e.prior_variance(&variances).ln()).sum();
         let chi_squared = self.cost_of_poses();
         JointFit {
             hand_eye: state.hand_eye,

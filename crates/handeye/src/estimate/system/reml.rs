@@ -11,7 +11,7 @@ use super::super::{
 use crate::{
     estimate::{
         noise::LEAST_SIGMA,
-        system::state::{BoardBlock, System, ViewNoise},
+        system::state::{BoardBlock, Level, System, ViewNoise},
     },
     math::linalg,
 };
@@ -35,12 +35,11 @@ impl System {
         for (row, &k) in free.iter().enumerate() {
             let Sigma { source, sigma, .. } = noise.sigmas[k];
             let theta = sigma * sigma;
-            let first = prior.sigmas[k].sigma.powi(2);
-            let belief = prior_equations(source);
+            let first = prior.sigmas[k].sigma;
             let i = source.index();
-            score[row] = 0.5 * theta * (moments.found[i] - moments.expected[i])
-                + 0.5 * belief * (first / theta - 1.0);
-            information[(row, row)] += 0.5 * belief * (first / theta).max(1.0);
+            let (by_prior, of_prior) = belief(source, sigma / first);
+            score[row] = 0.5 * theta * (moments.found[i] - moments.expected[i]) + by_prior;
+            information[(row, row)] += of_prior;
             for (column, &l) in free.iter().enumerate() {
                 let other = noise.sigmas[l];
                 let t = moments.information[(i, other.source.index())];
@@ -56,7 +55,9 @@ impl System {
             s.sigma = (s.sigma * change).max(LEAST_SIGMA);
             s.uncertainty = Some(0.5 * inverse[(row, row)].max(0.0).sqrt());
             if s.sigma > LEAST_SIGMA {
-                largest = largest.max((change - 1.0).abs());
+                // a level is as uncertain as its few unknowns leave it
+                let slack = if s.source.is_level() { LEVEL_SLACK } else { 1.0 };
+                largest = largest.max((change - 1.0).abs() / slack);
             }
         }
         largest
@@ -73,6 +74,14 @@ impl System {
         let covariance = root * root.transpose();
         for block in &self.boards {
             sum.add_board(block, &covariance);
+        }
+        for level in &self.levels {
+            sum.add_level(
+                level,
+                self,
+                &(&spent * root.select_rows(&level.which).transpose()),
+                &covariance,
+            );
         }
         sum
     }
@@ -114,15 +123,27 @@ impl System {
     }
 }
 
-fn prior_equations(source: Source) -> f64 {
-    source.axes() * if source == Source::Touch { PRIOR_TOUCHES } else { PRIOR_VIEWS }
+/// Score of `log θ` by what is believed of a standard deviation that is `ratio` times the first one, and its information.
+fn belief(source: Source, ratio: f64) -> (f64, f64) {
+    if source.is_level() {
+        return (-0.5 * ratio, 0.25 * ratio);
+    }
+    let captures = if source == Source::Touch { PRIOR_TOUCHES } else { PRIOR_VIEWS };
+    let equations = source.axes() * captures;
+    let first_over_now = ratio.powi(-2);
+    (0.5 * equations * (first_over_now - 1.0), 0.5 * equations * first_over_now.max(1.0))
 }
+
+/// Levels may still change by so many times more than noise when both have converged.
+const LEVEL_SLACK: f64 = 10.0;
+
+const SOURCES: usize = Source::ALL.len();
 
 #[derive(Default)]
 struct Moments {
-    found: SVector<f64, 8>,
-    expected: SVector<f64, 8>,
-    information: SMatrix<f64, 8, 8>,
+    found: SVector<f64, SOURCES>,
+    expected: SVector<f64, SOURCES>,
+    information: SMatrix<f64, SOURCES, SOURCES>,
 }
 
 impl Moments {
@@ -147,6 +168,39 @@ impl Moments {
             self.expected[i] += traces[(c, c)] - taken;
             for (d, other) in view.columns.iter().enumerate() {
                 self.information[(i, other.index())] += traces[(c, d)].powi(2);
+            }
+        }
+    }
+
+    /// Unknowns of one level: what they are, and what they leave open, against what is believed of them; `through` is
+    /// `J C_b`.
+    fn add_level(
+        &mut self,
+        level: &Level,
+        system: &System,
+        through: &DMatrix<f64>,
+        covariance: &DMatrix<f64>,
+    ) {
+        let (i, theta) = (level.source.index(), level.variance);
+        let open: f64 = level.which.iter().map(|&k| covariance[(k, k)]).sum();
+        self.found[i] += level.squares / theta.powi(2);
+        self.expected[i] += (level.which.len() as f64 - open / theta) / theta;
+        for other in &system.levels {
+            let both = theta * other.variance;
+            let square = |k: usize, l: usize| {
+                let own = if k == l { 1.0 } else { 0.0 };
+                (own - covariance[(k, l)] / both.sqrt()).powi(2)
+            };
+            let of = |k: usize| other.which.iter().map(|&l| square(k, l)).sum::<f64>();
+            let sum: f64 = level.which.iter().map(|&k| of(k)).sum();
+            self.information[(i, other.source.index())] += sum / both;
+        }
+        for (v, view) in system.views.iter().enumerate() {
+            let by_noise = view.factor.tr_mul(&through.rows(6 * v, 6));
+            for (c, noise) in view.columns.iter().enumerate() {
+                let both = by_noise.row(c).norm_squared() / theta.powi(2);
+                self.information[(i, noise.index())] += both;
+                self.information[(noise.index(), i)] += both;
             }
         }
     }

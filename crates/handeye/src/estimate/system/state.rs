@@ -4,7 +4,7 @@ use crate::{
     HandEye,
     estimate::{
         NoiseModel, Problem, Source,
-        noise::{COLUMNS, Factor},
+        noise::{COLUMNS, Factor, Variances},
         system::sights::Sights,
         touched::TouchRows,
     },
@@ -48,6 +48,32 @@ pub(crate) struct System {
     pub(super) residual: DVector<f64>,
     pub(super) views: Vec<ViewNoise>,
     pub(super) boards: Vec<BoardBlock>,
+    pub(super) levels: Vec<Level>,
+}
+
+/// Unknowns that are believed to be about as large as their level says.
+pub(crate) struct Level {
+    pub source: Source,
+    /// Their numbers among all unknowns.
+    pub which: Vec<usize>,
+    /// What the level is now.
+    pub variance: f64,
+    /// The sum of their squares.
+    pub squares: f64,
+}
+
+impl Level {
+    pub(super) fn all(problem: &Problem, state: &State, variances: &Variances) -> Vec<Self> {
+        let one = |source: Source| {
+            let own = |k: &usize| problem.extras[*k].kind.level() == Some(source);
+            let extras: Vec<usize> = (0..problem.extras.len()).filter(own).collect();
+            let variance = variances[source.index()];
+            let squares = extras.iter().map(|&k| state.values[k].powi(2)).sum();
+            Self { source, which: extras.iter().map(|k| 12 + k).collect(), variance, squares }
+        };
+        let levels = Source::ALL.into_iter().filter(|s| s.is_level()).map(one);
+        levels.filter(|level| !level.which.is_empty() && level.variance > 0.0).collect()
+    }
 }
 
 pub(crate) struct BoardBlock {

@@ -45,10 +45,12 @@ impl System {
             for (k, extra) in problem.extras.iter().enumerate() {
                 let column = match (extra.kind, &seen.carry) {
                     (ExtraKind::Camera(which), _) => by_c * view.by_camera(which),
-                    (ExtraKind::Arm(which), _) => by_x * (camera_from_mount * view.by_arm(which)),
                     // to first order: the derivative of exp(carry δ) differs by the square of δ
                     (ExtraKind::Systematic(axis), Some(carry)) => by_x * carry.column(axis),
-                    _ => continue,
+                    (kind, _) => match kind.of_robot() {
+                        Some(which) => by_x * (camera_from_mount * view.by_robot(which)),
+                        None => continue,
+                    },
                 };
                 self.jacobian.fixed_view_mut::<6, 1>(row, 12 + k).copy_from(&column);
             }

@@ -1,0 +1,322 @@
+//! Robots that err by place: is the answer as exact as it says, for a tool on the same robot?
+//!
+//! `cargo run --release -p handeye-bench --bin places -- [TRIALS] [FIRST SEED] [CAPTURES...]`
+//!
+//! Of every cell the first captures are calibrated, as bare pose pairs and with their corners; 150 more, taken in the
+//! same way, are where the robot works afterwards. The truth is the rigid answer that fits these best.
+
+use std::env;
+
+use handeye::{
+    Anchor, Calibration, Camera, Config, HandEye, Mount, Observation, Point, Pose, PosePair,
+    Session, Setup, Target, TargetPose, calibrate,
+    simulate::{ArmErrors, Cell, CellNoise, Viewing},
+    solve::least_squares,
+};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
+
+/// Poses where the robot works.
+const FRESH: usize = 150;
+
+#[derive(Clone, Copy)]
+struct Kind {
+    setup: Setup,
+    arm: (&'static str, f64),
+    bare: bool,
+    captures: usize,
+}
+
+/// What an answer is worth.
+#[derive(Clone, Copy, Default)]
+struct Outcome {
+    accepted: bool,
+    by_place: bool,
+    tre_mm: f64,
+    plain_mm: f64,
+    white_mm: f64,
+    nees: f64,
+    covered: f64,
+    stated_mm: f64,
+}
+
+fn main() {
+    let mut arguments = env::args().skip(1).filter_map(|a| a.parse::<u64>().ok());
+    let trials = arguments.next().unwrap_or(12);
+    let first = arguments.next().unwrap_or(1);
+    let mut counts: Vec<usize> = arguments.map(|n| n as usize).collect();
+    if counts.is_empty() {
+        counts = vec![10, 15, 30];
+    }
+    println!(
+        "{:<13} {:<11} {:<8} {:>3} {:>6} {:>6} | {:>6} {:>7} {:>7} {:>7} | {:>6} {:>6} {:>6} {:>7} {:>7}",
+        "setup",
+        "arm",
+        "poses",
+        "N",
+        "acc",
+        "place",
+        "white",
+        "TRE",
+        "plain",
+        "ratio",
+        "NEES",
+        "med",
+        "cov95",
+        "within",
+        "stated"
+    );
+    for setup in [Setup::EyeToHand, Setup::EyeInHand] {
+        for bare in [true, false] {
+            for arm in [("exact", 0.0), ("industrial", 1.0), ("cobot", 4.0)] {
+                for &captures in &counts {
+                    let kind = Kind { setup, arm, bare, captures };
+                    report(kind, first..first + trials);
+                }
+            }
+        }
+    }
+}
+
+fn report(kind: Kind, seeds: std::ops::Range<u64>) {
+    let seeds: Vec<u64> = seeds.collect();
+    let (low, high) = seeds.split_at(seeds.len() / 2);
+    let of = |part: &[u64]| part.iter().filter_map(|s| run(kind, *s)).collect::<Vec<_>>();
+    let all = std::thread::scope(|scope| {
+        let other = scope.spawn(|| of(high));
+        let mut all = of(low);
+        all.extend(other.join().unwrap_or_default());
+        all
+    });
+    let n = all.len().max(1) as f64;
+    let mean = |f: &dyn Fn(&Outcome) -> f64| all.iter().map(f).sum::<f64>() / n;
+    let rms = |f: &dyn Fn(&Outcome) -> f64| mean(&|o| f(o).powi(2)).sqrt();
+    let mut nees: Vec<f64> = all.iter().map(|o| o.nees).collect();
+    nees.sort_by(f64::total_cmp);
+    let share = |f: &dyn Fn(&Outcome) -> bool| mean(&|o| f64::from(f(o)));
+    let (tre, plain) = (rms(&|o| o.tre_mm), rms(&|o| o.plain_mm));
+    println!(
+        "{:<13} {:<11} {:<8} {:>3} {:>6.2} {:>6.2} | {:>6.3} {:>7.3} {:>7.3} {:>7.2} | {:>6.1} {:>6.1} {:>6.2} {:>7.3} {:>7.3}",
+        kind.setup.name(),
+        kind.arm.0,
+        if kind.bare { "bare" } else { "corners" },
+        kind.captures,
+        share(&|o| o.accepted),
+        share(&|o| o.by_place),
+        rms(&|o| o.white_mm),
+        tre,
+        plain,
+        tre / plain,
+        mean(&|o| o.nees),
+        nees.get(nees.len() / 2).copied().unwrap_or(0.0),
+        share(&|o| o.nees < 12.59),
+        mean(&|o| o.covered),
+        rms(&|o| o.stated_mm),
+    );
+}
+
+fn errors(factor: f64) -> ArmErrors {
+    let ArmErrors { length_m, angle_rad, gear_rad, bending_rad } = ArmErrors::default();
+    let angle_rad = 0.5 * angle_rad * factor.powf(1.2);
+    ArmErrors {
+        length_m: 0.5 * length_m * factor,
+        angle_rad,
+        gear_rad: gear_rad * factor,
+        bending_rad: bending_rad * factor,
+    }
+}
+
+fn run(kind: Kind, seed: u64) -> Option<Outcome> {
+    let base = Cell::new(kind.setup, 90_000 + seed);
+    let cell = Cell {
+        captures: kind.captures + FRESH,
+        placements: 0,
+        touches: 0,
+        arm: Some(errors(kind.arm.1)),
+        noise: CellNoise {
+            robot_absolute_m: 0.0,
+            robot_absolute_rad: 0.0,
+            robot_systematic_m: 0.0,
+            robot_systematic_rad: 0.0,
+            ..CellNoise::default()
+        },
+        viewing: Viewing {
+            spin_rad: 60f64.to_radians(),
+            tilt_rad: 35f64.to_radians(),
+            ..base.viewing
+        },
+        ..base
+    };
+    let (session, truth) = cell.session(seed).ok()?;
+    let points: Vec<Vector3<f64>> =
+        session.target.as_ref()?.corners().iter().map(Point::vector).collect();
+    let middle = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
+    let centre = Pose::<Target, Target>::from_parts(&nalgebra::Matrix3::identity(), middle);
+    let pair = |k: usize| PosePair {
+        anchor_from_mount: kind.setup.anchor_from_mount(session.observations[k].base_from_flange),
+        camera_from_target: truth.camera_from_target[k] * centre,
+    };
+    let fresh: Vec<PosePair> = (kind.captures..kind.captures + FRESH).map(pair).collect();
+    let lever = (points.iter().map(|p| (p - middle).norm_squared()).sum::<f64>() * 2.0
+        / 3.0
+        / points.len() as f64)
+        .sqrt();
+    let HandEye { mount_from_camera, anchor_from_target } = cell.hand_eye;
+    let start = HandEye { mount_from_camera, anchor_from_target: anchor_from_target * centre };
+    let best = fitted(&fresh, &start, lever);
+    let mut own = Session { placements: vec![], touches: vec![], ..session.clone() };
+    own.observations.truncate(kind.captures);
+    own.in_sequence = kind.bare && env::var("ONE_BY_ONE").is_err();
+    if env::var("JOINTS").is_err() {
+        own.arm = None;
+        own.observations.iter_mut().for_each(|o| o.joints.clear());
+    }
+    let seen: Vec<PosePair> = own
+        .observations
+        .iter()
+        .map(|o| PosePair {
+            anchor_from_mount: kind.setup.anchor_from_mount(o.base_from_flange),
+            camera_from_target: o.candidates[0].camera_from_target * centre,
+        })
+        .collect();
+    let plain = fitted(&seen, &start, lever);
+    if kind.bare {
+        own = as_bare(&own, &centre);
+    }
+    let config = Config { max_error_mm: Some(50.0), ..Config::default() };
+    let found = calibrate(&own, &config).ok()?;
+    if env::var("SAY").is_ok() {
+        let codes: Vec<&str> = found.warnings.iter().map(|w| w.code.as_ref()).collect();
+        println!(
+            "    {seed} {} {:?} {codes:?}",
+            found.method,
+            found.predicted_tre_mm.as_ref().map(|t| (t.rms, t.p95))
+        );
+    }
+    judged(&found, (&best, &plain), &fresh, &points, &centre)
+}
+
+/// The session as pose pairs from elsewhere.
+fn as_bare(session: &Session, centre: &Pose<Target, Target>) -> Session {
+    let bare = |o: &Observation| Observation {
+        corners: vec![],
+        surface: vec![],
+        joints: vec![],
+        candidates: vec![TargetPose {
+            camera_from_target: o.candidates[0].camera_from_target * *centre,
+            covariance: None,
+        }],
+        ..o.clone()
+    };
+    Session {
+        target: None,
+        camera: None,
+        arm: None,
+        observations: session.observations.iter().map(bare).collect(),
+        ..session.clone()
+    }
+}
+
+fn judged(
+    found: &Calibration,
+    (best, plain): (&HandEye, &HandEye),
+    fresh: &[PosePair],
+    points: &[Vector3<f64>],
+    centre: &Pose<Target, Target>,
+) -> Option<Outcome> {
+    let x = found.hand_eye.mount_from_camera?;
+    let y = found.hand_eye.anchor_from_target?;
+    let y = if found.captures.iter().all(|c| c.corners == 0) { y } else { y * *centre };
+    let covariance = found.hand_eye.covariance.mount_from_camera?;
+    let covariance = Matrix6::from_fn(|i, j| covariance[i][j]);
+    let d = x.local(&best.mount_from_camera);
+    let nees = d.dot(&(covariance.try_inverse()? * d));
+    let stated = found.predicted_tre_mm.as_ref()?;
+    let off = |x: &Pose<Mount, Camera>| distance(x, &best.mount_from_camera, fresh, points, centre);
+    let task = |h: &HandEye| missed(h, fresh, points, centre);
+    let own = HandEye { mount_from_camera: x, anchor_from_target: y };
+    let all = task(&own);
+    let joint = found.candidates.iter().find(|c| c.name == "joint" || c.name == "views-only");
+    let white = joint.and_then(|c| c.hand_eye.mount_from_camera);
+    Some(Outcome {
+        accepted: found.verdict == handeye::Verdict::Accepted,
+        by_place: found.method.contains("place") || found.method == "drift",
+        tre_mm: off(&x),
+        white_mm: white.map_or(0.0, |x| off(&x)),
+        plain_mm: off(&plain.mount_from_camera),
+        nees,
+        covered: all.iter().filter(|e| **e <= stated.p95).count() as f64 / all.len() as f64,
+        stated_mm: stated.p95,
+    })
+}
+
+/// By how much two answers put the target's points apart, mm RMS.
+fn distance(
+    a: &Pose<Mount, Camera>,
+    b: &Pose<Mount, Camera>,
+    fresh: &[PosePair],
+    points: &[Vector3<f64>],
+    centre: &Pose<Target, Target>,
+) -> f64 {
+    let mut sum = 0.0;
+    for pair in fresh {
+        for p in points {
+            let seen = pair.camera_from_target * (centre.inverse() * Point::from_vector(*p));
+            sum += ((*a * seen).vector() - (*b * seen).vector()).norm_squared();
+        }
+    }
+    (sum / (fresh.len() * points.len()) as f64).sqrt() * 1e3
+}
+
+/// How far the robot misses each point of the target where it works, mm.
+fn missed(
+    h: &HandEye,
+    fresh: &[PosePair],
+    points: &[Vector3<f64>],
+    centre: &Pose<Target, Target>,
+) -> Vec<f64> {
+    let mut all = vec![];
+    for pair in fresh {
+        let one: Pose<Anchor, Target> =
+            pair.anchor_from_mount * h.mount_from_camera * pair.camera_from_target;
+        for p in points {
+            let p = centre.inverse() * Point::from_vector(*p);
+            all.push(((one * p).vector() - (h.anchor_from_target * p).vector()).norm() * 1e3);
+        }
+    }
+    all
+}
+
+/// Least squares of the residual, rotations weighted by `lever`.
+fn fitted(pairs: &[PosePair], start: &HandEye, lever: f64) -> HandEye {
+    let mut at = *start;
+    let residual = |h: &HandEye| {
+        let one = |p: &PosePair| {
+            let mut r = least_squares::residual(h, p);
+            r.fixed_rows_mut::<3>(0).scale_mut(lever);
+            r
+        };
+        DVector::from_iterator(
+            6 * pairs.len(),
+            pairs.iter().flat_map(|p| one(p).iter().copied().collect::<Vec<_>>()),
+        )
+    };
+    let moved = |h: &HandEye, d: &DVector<f64>| HandEye {
+        mount_from_camera: h.mount_from_camera.retract(&Vector6::from_fn(|i, _| d[i])),
+        anchor_from_target: h.anchor_from_target.retract(&Vector6::from_fn(|i, _| d[6 + i])),
+    };
+    for _ in 0..8 {
+        let r = residual(&at);
+        let mut j = DMatrix::zeros(r.len(), 12);
+        for k in 0..12 {
+            let mut d = DVector::zeros(12);
+            d[k] = 1e-6;
+            let plus = residual(&moved(&at, &d));
+            d[k] = -1e-6;
+            j.set_column(k, &((plus - residual(&moved(&at, &d))) / 2e-6));
+        }
+        let h = j.tr_mul(&j);
+        let Some(c) = h.cholesky() else { break };
+        at = moved(&at, &-c.solve(&j.tr_mul(&r)));
+    }
+    at
+}

@@ -1,0 +1,288 @@
+//! Does the robot err by place? Then no rigid answer is right everywhere, and what captures of one place share counts
+//! once.
+//!
+//! The fit is repeated with errors by place among its unknowns ([`crate::estimate::place`]), for several lengths over
+//! which they change; they are part of the model where the likelihood gains clearly. The answer is then the rigid one
+//! that fits best where the captures are ([`crate::estimate::projection`]), and what it misses there is part of its
+//! predicted error. Which model is right remains open: answer and covariance are those of the mixture of all, weighted
+//! by their likelihood. Where the gain is small the answer stays as it is, but its stated error allows for such errors.
+
+use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
+
+use super::{reach::Reach, workpiece::inflation};
+use crate::{
+    Camera, Mount, Point, Pose, Setup, Target,
+    calibrate::{config::Config, limits::MOST_PREDICTED_MM, views::Views},
+    estimate::{
+        JointFit, Problem, Source, joint,
+        place::{self, Kernel, Place, Waves},
+        projection::{self, Projection},
+    },
+    findings::RobotFinding,
+    register::rigid_fit::point_jacobian,
+};
+
+/// Fewest captures from which errors by place are told from noise.
+const FEWEST_VIEWS: usize = 8;
+/// Gain of the logarithm of the likelihood that errors by place must bring: their two levels gain as much by chance in
+/// one of twenty sets, and there are several lengths over which errors may change.
+const GAIN: f64 = 3.0;
+/// Gain from which the stated error allows for them, whether or not they are part of the model.
+const NOTICED: f64 = 0.1;
+/// So many of the lengths over which errors may change are fitted, those that promise most.
+const MOST_FITTED: usize = 2;
+/// A turn (rad) as far as this way (m).
+const WAY_OF_A_TURN: f64 = 0.5;
+/// Half the size of a target of unknown size, m: an error of the robot's rotation moves its points by so much times the
+/// angle.
+const HALF_SIZE: f64 = 0.07;
+
+/// A robot that may err by place.
+pub(super) struct ByPlace {
+    /// The fit with such errors, where they are part of the model.
+    pub model: Option<Model>,
+    /// From the fit's answer to the rigid one.
+    step: Vector6<f64>,
+    /// What is uncertain beside the fit's own covariance: the sample of places, and which model is right.
+    more: Matrix6<f64>,
+    /// Variance per axis (m²) of what the robot misses at one pose, whatever transform it is sent by.
+    missed: f64,
+    setup: Setup,
+    /// The fit's answer.
+    x: Pose<Mount, Camera>,
+}
+
+/// A fit with errors by place.
+pub(super) struct Model {
+    pub problem: Problem,
+    pub fit: JointFit,
+    projection: Projection,
+    /// By how much the logarithm of the likelihood gains.
+    gain: f64,
+}
+
+/// One model's say about the camera's pose.
+struct Say {
+    log_weight: f64,
+    x: Pose<Mount, Camera>,
+    covariance: Matrix6<f64>,
+    missed: f64,
+}
+
+/// Looks whether the robot errs by place; `None` where nothing speaks for it. Touches say themselves where the tool
+/// goes, and how far views are off there: with them, a systematic difference stands for it.
+pub(super) fn look(
+    views: &Views,
+    problem: &Problem,
+    fit: &JointFit,
+    config: &Config,
+) -> Option<ByPlace> {
+    let metric = projection::metric(&points(views));
+    let enough = problem.views.len() >= FEWEST_VIEWS && problem.boards.is_empty();
+    if !enough || !determines(fit, &metric) {
+        return None;
+    }
+    let places: Vec<Place> =
+        views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints)).collect();
+    let jointed = places.iter().all(Place::has_joints);
+    let kernels = Kernel::OF_POSES.into_iter().chain(jointed.then_some(Kernel::OF_JOINTS));
+    let kernels: Vec<Kernel> = kernels.collect();
+    let promise = |kernel: &Kernel| {
+        let waves = Waves::new(*kernel, &places);
+        let wider = with_waves(views, problem, &waves);
+        let expected = place::expected_gain(&wider, fit)?;
+        (expected > NOTICED).then_some((expected, wider))
+    };
+    let mut promising: Vec<(f64, Problem)> = kernels.iter().filter_map(promise).collect();
+    promising.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let promising = promising.into_iter().take(MOST_FITTED);
+    let models: Vec<Model> =
+        promising.filter_map(|(_, wider)| Model::new(wider, fit, &metric, config)).collect();
+    let unpromising = (kernels.len() - models.len()) as f64 / kernels.len() as f64;
+    let best = (0..models.len()).max_by(|&a, &b| models[a].gain.total_cmp(&models[b].gain))?;
+    if models[best].gain < NOTICED {
+        return None;
+    }
+    let independent = Say {
+        // what promised nothing says the same as independent errors do
+        log_weight: (1.0 + unpromising).ln(),
+        x: fit.hand_eye.mount_from_camera,
+        covariance: fit.covariance.as_ref()?.fixed_view::<6, 6>(0, 0) * inflation(fit)?,
+        missed: 0.0,
+    };
+    let weight = |m: &Model| m.gain - (kernels.len() as f64).ln();
+    let say = |m: &Model| Some(Say { log_weight: weight(m), ..m.say(&metric)? });
+    let says = std::iter::once(Some(independent)).chain(models.iter().map(say));
+    let says: Vec<Say> = says.collect::<Option<_>>()?;
+    let setup = views.session.setup;
+    if models[best].gain < GAIN {
+        let Together { step, more, missed } = Together::of(&says, 0);
+        return Some(ByPlace { x: says[0].x, model: None, step, more, missed, setup });
+    }
+    let Together { step, more, missed } = Together::of(&says, best + 1);
+    let model = models.into_iter().nth(best)?;
+    let x = model.fit.hand_eye.mount_from_camera;
+    let step = model.projection.step.fixed_rows::<6>(0) + step;
+    let more = model.sampling() + more;
+    Some(ByPlace { x, model: Some(model), step, more, missed, setup })
+}
+
+impl Model {
+    fn new(
+        problem: Problem,
+        near: &JointFit,
+        metric: &Matrix6<f64>,
+        config: &Config,
+    ) -> Option<Self> {
+        let fit = joint::refit(&problem, near, &config.known);
+        let projection = Projection::new(&problem, &fit, metric)?;
+        let gain = fit.log_likelihood - near.log_likelihood;
+        Some(Self { problem, fit, projection, gain })
+    }
+
+    /// What it says of the rigid answer.
+    fn say(&self, metric: &Matrix6<f64>) -> Option<Say> {
+        let x = self.fit.hand_eye.mount_from_camera;
+        let covariance = self.fit.covariance.as_ref()? * inflation(&self.fit)?;
+        let of = |source| self.fit.noise.sigma(source).unwrap_or(0.0).powi(2);
+        let (turn, shift) = (of(Source::RobotRotation), of(Source::RobotPosition));
+        let lever = metric.fixed_view::<3, 3>(0, 0).trace() / 3.0;
+        Some(Say {
+            log_weight: 0.0,
+            x: x.retract(&self.projection.step.fixed_rows::<6>(0).into_owned()),
+            covariance: self.projection.covariance(&covariance).fixed_view::<6, 6>(0, 0).into(),
+            missed: self.projection.missed + shift + turn * lever,
+        })
+    }
+
+    fn sampling(&self) -> Matrix6<f64> {
+        self.projection.sampling.fixed_view::<6, 6>(0, 0).into()
+    }
+}
+
+/// Several models' say, beside that of one of them.
+struct Together {
+    /// From its answer to the mean of all.
+    step: Vector6<f64>,
+    /// What all are less certain of than it.
+    more: Matrix6<f64>,
+    missed: f64,
+}
+
+impl Together {
+    /// Mean and covariance of the mixture, beside the `base`.
+    fn of(says: &[Say], base: usize) -> Self {
+        let most = says.iter().map(|s| s.log_weight).fold(f64::NEG_INFINITY, f64::max);
+        let sum: f64 = says.iter().map(|s| (s.log_weight - most).exp()).sum();
+        let weights = says.iter().map(|s| (s.log_weight - most).exp() / sum);
+        let (mut mean, mut second, mut covariance) =
+            (Vector6::zeros(), Matrix6::zeros(), Matrix6::zeros());
+        let mut missed = 0.0;
+        for (say, weight) in says.iter().zip(weights) {
+            let d = says[base].x.local(&say.x);
+            mean += d * weight;
+            second += d * d.transpose() * weight;
+            covariance += say.covariance * weight;
+            missed += say.missed * weight;
+        }
+        let more = at_least_nothing(&(covariance - says[base].covariance));
+        Self { step: mean, more: more + second - mean * mean.transpose(), missed }
+    }
+}
+
+/// The part of a symmetric matrix that adds.
+fn at_least_nothing(m: &Matrix6<f64>) -> Matrix6<f64> {
+    // rotations and positions are of different size
+    let scale = Matrix6::from_diagonal(
+        &Vector6::new(1.0, 1.0, 1.0, WAY_OF_A_TURN, WAY_OF_A_TURN, WAY_OF_A_TURN).map(f64::recip),
+    );
+    let eigen = (scale * m * scale).symmetric_eigen();
+    let values = Matrix6::from_diagonal(&eigen.eigenvalues.map(|v| v.max(0.0)));
+    let back = scale.map(|x| if x == 0.0 { 0.0 } else { x.recip() });
+    back * (eigen.eigenvectors * values * eigen.eigenvectors.transpose()) * back
+}
+
+/// Whether the target is found to within an error that could be accepted: what hardly determines an answer tells
+/// nothing of the places.
+fn determines(fit: &JointFit, metric: &Matrix6<f64>) -> bool {
+    let Some(covariance) = &fit.covariance else { return false };
+    let square = (metric * covariance.fixed_view::<6, 6>(6, 6)).trace();
+    square.sqrt() * 1e3 < MOST_PREDICTED_MM
+}
+
+/// The problem with the strengths of the waves among its unknowns.
+fn with_waves(views: &Views, problem: &Problem, waves: &Waves) -> Problem {
+    let setup = views.session.setup;
+    let mut wider = problem.clone();
+    let rows = waves.at.row_iter().map(|row| row.transpose());
+    for ((view, o), row) in wider.views.iter_mut().zip(&views.used).zip(rows) {
+        view.by_robot = Some(place::of_view(setup, &o.base_from_flange, &row).into());
+    }
+    wider.extras.extend(waves.extras(0));
+    wider
+}
+
+/// Points of the target, about the origin of the residuals.
+fn points(views: &Views) -> Vec<Vector3<f64>> {
+    match &views.session.target {
+        Some(target) => {
+            let back = views.target_from_corner.inverse();
+            let own = |c: &Point<Target>| (back * *c).vector();
+            target.corners().iter().map(own).collect()
+        }
+        None => {
+            let sides = [-HALF_SIZE, HALF_SIZE];
+            let edges = sides.iter().flat_map(|x| sides.map(|y| (*x, y)));
+            edges.flat_map(|(x, y)| sides.map(|z| Vector3::new(x, y, z))).collect()
+        }
+    }
+}
+
+impl ByPlace {
+    /// That it does, and by how much; `None` where that is open.
+    pub(super) fn finding(&self) -> Option<RobotFinding> {
+        let model = self.model.as_ref()?;
+        let sigma = |source| model.fit.noise.sigma(source).unwrap_or(0.0);
+        Some(RobotFinding::ErrsByPlace {
+            position_mm: 3f64.sqrt() * sigma(Source::PlacePosition) * 1e3,
+            rotation_deg: 3f64.sqrt() * sigma(Source::PlaceRotation).to_degrees(),
+            missed_mm: (3.0 * model.projection.missed).sqrt() * 1e3,
+            gain: model.gain,
+        })
+    }
+}
+
+impl Reach for ByPlace {
+    fn shift(&self, p: &Vector3<f64>) -> Vector3<f64> {
+        point_jacobian(p) * self.step
+    }
+
+    fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64> {
+        let j = point_jacobian(p);
+        // a camera on the flange looks from one pose, and the tool goes to another one
+        let poses = match self.setup {
+            Setup::EyeInHand => 2.0,
+            Setup::EyeToHand => 1.0,
+        };
+        j * self.more * j.transpose() + Matrix3::identity() * (poses * self.missed)
+    }
+
+    fn by_unknowns(&self, p: &Vector3<f64>) -> Vec<(usize, Vector3<f64>)> {
+        let Some(Model { fit, projection, .. }) = &self.model else { return vec![] };
+        let by = point_jacobian(p) * projection.carry.fixed_rows::<6>(0);
+        let kept = fit.extras.iter().enumerate().filter(|(_, e)| e.kind.level().is_some());
+        kept.map(|(k, _)| (12 + k, by.column(k).into_owned())).collect()
+    }
+
+    fn rigid(&self, covariance: &DMatrix<f64>) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
+        let x = self.x.retract(&self.step);
+        let own = match &self.model {
+            // the sample of places is in `more`
+            Some(model) => {
+                model.projection.covariance(covariance).fixed_view::<6, 6>(0, 0) - model.sampling()
+            }
+            None => covariance.fixed_view::<6, 6>(0, 0).into_owned(),
+        };
+        Some((x, own + self.more))
+    }
+}

@@ -1,0 +1,119 @@
+//! The rigid answer for a robot that errs by place.
+//!
+//! `X` and `Y` of a fit with errors by place are those of errors whose mean over all places is zero. No robot works
+//! at all places, and a controller that moves by one transform needs the one that fits best where it works: there
+//! errors have a mean, a slope, a turn, and these belong into the answer. Of residuals without noise,
+//! `r_w = J_w (δ' - δ) - G_w b` at poses `w`, the best answer is
+//!
+//! ```text
+//! δ* = δ + Γ b        Γ = (Σ J_wᵀ W J_w)⁻¹ Σ J_wᵀ W G_w        W = mean over the points of the target
+//! ```
+//!
+//! linear in the unknowns of the fit, so that mean and covariance follow from theirs. What no rigid answer takes away,
+//! `e_w = (J_w Γ - G_w) b`, is how far the robot misses at each pose. Where only the captures say where the robot
+//! works, they are a sample of it, and the best answer of another sample differs by
+//!
+//! ```text
+//! H (Σ s_w s_wᵀ) H        s_w = J_wᵀ W (1 - h_w)⁻¹ e_w,   h_w = J_w H J_wᵀ W,   H = (Σ J_wᵀ W J_w)⁻¹
+//! ```
+//!
+//! M. Kennedy and A. O'Hagan, *Bayesian calibration of computer models*, JRSS B 63, 2001; R. Tuo and C. Wu, *Efficient
+//! calibration for imperfect computer models*, Annals of Statistics 43, 2015; the last is HC3 of J. MacKinnon and
+//! H. White, Journal of Econometrics 29, 1985.
+
+use nalgebra::{DMatrix, Matrix6, SMatrix, Vector3, Vector6};
+
+use super::{JointFit, Problem};
+use crate::{
+    math::{lie, linalg},
+    solve::least_squares::{Matrix12, Vector12, residual_with_jacobian},
+};
+
+type Matrix6x12 = SMatrix<f64, 6, 12>;
+
+/// The rigid answer beside a fit with errors by place.
+pub(crate) struct Projection {
+    /// `Γ`, a column for each extra of the fit; zero for all but those of places.
+    pub carry: DMatrix<f64>,
+    /// `Γ b`: the step from the fit to the rigid answer.
+    pub step: Vector12,
+    /// Covariance that comes from the captures' being a sample.
+    pub sampling: Matrix12,
+    /// Mean square (m², per axis) of what the robot misses at a capture, with the rigid answer.
+    pub missed: f64,
+}
+
+/// What a residual costs: the mean square over points of the target that it moves.
+pub(crate) fn metric(points: &[Vector3<f64>]) -> Matrix6<f64> {
+    let one = |p: &Vector3<f64>| {
+        let mut j = nalgebra::Matrix3x6::zeros();
+        j.fixed_view_mut::<3, 3>(0, 0).copy_from(&-lie::hat(p));
+        j.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
+        j.transpose() * j
+    };
+    points.iter().map(one).sum::<Matrix6<f64>>() / points.len().max(1) as f64
+}
+
+/// A view's part: how its residual moves with both poses, and with the extras.
+struct Row {
+    j: Matrix6x12,
+    by_extras: DMatrix<f64>,
+}
+
+impl Projection {
+    /// `None` where the captures do not determine an answer.
+    pub fn new(problem: &Problem, fit: &JointFit, metric: &Matrix6<f64>) -> Option<Self> {
+        let rows: Vec<Row> = (0..problem.views.len()).map(|i| row(problem, fit, i)).collect();
+        let n = problem.extras.len();
+        let (mut squares, mut mixed) = (DMatrix::zeros(12, 12), DMatrix::zeros(12, n));
+        for row in &rows {
+            let jw = row.j.transpose() * metric;
+            squares += jw * row.j;
+            mixed += jw * &row.by_extras;
+        }
+        let inverse = linalg::inverse_spd(&squares)?;
+        // by_extras is ∂r/∂b, and r = J (δ' - δ) - (∂r/∂b) b without noise
+        let carry = &inverse * mixed;
+        let step = &carry * &fit.values;
+        let covariance = fit.covariance.as_ref()?;
+        let own = covariance.view((12, 12), (n, n));
+        let inverse = Matrix12::from_iterator(inverse.iter().copied());
+        let (mut sum, mut missed) = (Matrix12::zeros(), 0.0);
+        for row in &rows {
+            let left = row.j * &carry - &row.by_extras;
+            let e: Vector6<f64> = Vector6::from_iterator((&left * &fit.values).iter().copied());
+            let open = &left * own * left.transpose();
+            missed += e.dot(&(metric * e)) + (metric * open).trace();
+            let leverage = row.j * inverse * row.j.transpose() * metric;
+            let alone = (Matrix6::identity() - leverage).try_inverse().unwrap_or_default() * e;
+            let s = row.j.transpose() * (metric * alone);
+            sum += s * s.transpose();
+        }
+        let step = Vector12::from_iterator(step.iter().copied());
+        let missed = missed / (3.0 * rows.len() as f64);
+        Some(Self { carry, step, sampling: inverse * sum * inverse, missed })
+    }
+
+    /// Covariance of the rigid answer, for one of all unknowns of the fit.
+    pub fn covariance(&self, of_fit: &DMatrix<f64>) -> Matrix12 {
+        let n = self.carry.ncols();
+        let mut by_all = DMatrix::identity(12, 12 + n);
+        by_all.view_mut((0, 12), (12, n)).copy_from(&self.carry);
+        let own = &by_all * of_fit * by_all.transpose();
+        Matrix12::from_iterator(own.iter().copied()) + self.sampling
+    }
+}
+
+fn row(problem: &Problem, fit: &JointFit, i: usize) -> Row {
+    let view = &problem.views[i];
+    let (_, j) = residual_with_jacobian(&fit.hand_eye, &view.with(&fit.extras, &fit.values));
+    let by_x: Matrix6<f64> = j.fixed_view::<6, 6>(0, 0).into_owned();
+    let carried = by_x * lie::adjoint(fit.hand_eye.mount_from_camera.inverse().iso());
+    let mut by_extras = DMatrix::zeros(6, problem.extras.len());
+    for (k, extra) in problem.extras.iter().enumerate() {
+        if let (Some(_), Some(which)) = (extra.kind.level(), extra.kind.of_robot()) {
+            by_extras.set_column(k, &(carried * view.by_robot(which)));
+        }
+    }
+    Row { j, by_extras }
+}
