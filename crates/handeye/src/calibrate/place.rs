@@ -79,7 +79,9 @@ pub(super) fn look(
 ) -> Option<ByPlace> {
     let metric = projection::metric(&points(views));
     let enough = problem.views.len() >= FEWEST_VIEWS && problem.boards.is_empty();
-    if !enough || !determines(fit, &metric) {
+    // of a robot in motion, errors of place and of time are one
+    let moves = views.used.iter().any(|o| o.velocity.is_some());
+    if !enough || moves || !determines(fit, &metric) {
         return None;
     }
     let places: Vec<Place> =

@@ -164,6 +164,13 @@ impl Found for RobotFinding {
         RobotFinding::message(self)
     }
 
+    fn headline(&self) -> Option<String> {
+        let Self::ErrsByPlace { missed_mm, .. } = self else { return None };
+        Some(format!(
+            "the robot errs from place to place: no fixed transform does better than {missed_mm:.2} mm RMS at the captures"
+        ))
+    }
+
     fn data(&self) -> Vec<(&'static str, f64)> {
         match self {
             Self::Inverted { before_mm, after_mm, .. } => {

@@ -147,6 +147,11 @@ const TABLE: &[Row] = &[
         "use the corrected arm in programs that compute positions themselves",
     ),
     changes(
+        "robot-errs-by-place",
+        "the robot errs from place to place, and no fixed transform is right everywhere",
+        "take captures where the robot works, with the tool held as at work; have its joints calibrated",
+    ),
+    changes(
         "drift",
         "errors changed slowly during the session, and the answer takes that into account",
         "warm up, and look for something that gives way",
