@@ -2,6 +2,9 @@
 //!
 //! `cargo run --release -p handeye-bench --bin places -- [TRIALS] [FIRST SEED] [CAPTURES...]`
 //!
+//! Variables: `ONE_BY_ONE` takes bare pairs as taken in any order (else in sequence, where drift is looked for),
+//! `JOINTS` keeps joint values and the arm's model, `SAY` prints every answer.
+//!
 //! Of every cell the first captures are calibrated, as bare pose pairs and with their corners; 150 more, taken in the
 //! same way, are where the robot works afterwards. The truth is the rigid answer that fits these best.
 

@@ -82,8 +82,8 @@ fn a_robot_that_errs_by_place_is_named_and_the_best_rigid_answer_is_as_near_as_s
         }
     }
     assert!(named * 4 >= cells * 3, "{named} of {cells}");
-    // 6 where the stated covariance is that of the error; the best answer here weighs rotations otherwise, and the
-    // errors are large. With independent errors the mean is 60 and more
+    // 6 where the stated covariance is that of the error; the best answer here weighs rotations otherwise, and
+    // its arms err more than most
     let mean = squares / f64::from(cells);
     assert!((2.0..20.0).contains(&mean), "{mean}");
     assert!(own < 0.8 * independent, "{own} {independent}");

@@ -24,12 +24,12 @@ fn robot_sigma(calibration: &Calibration) -> (f64, f64) {
     (rotation, of("robot position").and_then(|b| b.sigma_mm).unwrap_or(0.0) * 1e-3)
 }
 
-/// What the robot's position misses from place to place, m, each axis: by the error of its reports, or by that of an
-/// arm whose deviations it does not know.
+/// What the robot's position misses from place to place, m, each axis: by the error of its reports, or by errors that it
+/// does not know of, of its arm or by place.
 fn place_sigma(calibration: &Calibration) -> f64 {
     let tre = calibration.predicted_tre_mm.as_ref().map_or(0.0, |tre| tre.rms * 1e-3);
-    let by_arm = if calibration.method == result::WITH_ARM { tre / 3.0f64.sqrt() } else { 0.0 };
-    robot_sigma(calibration).1.max(by_arm)
+    let errs = [result::WITH_ARM, result::BY_PLACE].contains(&calibration.method.as_str());
+    robot_sigma(calibration).1.max(if errs { tre / 3.0f64.sqrt() } else { 0.0 })
 }
 
 /// The test of a calibration, and what to know about its touches.

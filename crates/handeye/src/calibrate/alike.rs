@@ -30,7 +30,7 @@ const BEFOREHAND: (f64, f64) = (2.0, 3.0);
 const IN_A_GROUP: usize = 3;
 const MOST_GROUPS: usize = 8;
 /// A turn (rad) as far as this way (m): arms err with both.
-const WAY_OF_A_TURN: f64 = 0.5;
+pub(super) const WAY_OF_A_TURN: f64 = 0.5;
 
 /// Of unknowns of a fit: by which factor their variance exceeds what white noise says.
 pub(super) fn excess(problem: &Problem, fit: &JointFit, of: impl Fn(ExtraKind) -> bool) -> f64 {

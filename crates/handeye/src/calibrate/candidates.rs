@@ -368,8 +368,8 @@ impl Judge<'_> {
 /// What to know of such answers.
 const NOTE_WITH_ARM: &str = "the arm's deviations are found, and the answer is made for the tool as it was held, where \
                              it is used: elsewhere views and touches may fit it worse";
-const NOTE_BY_PLACE: &str = "the robot errs by place, and the answer is the rigid one that fits best where the \
-                             captures were taken";
+const NOTE_BY_PLACE: &str = "errors of the robot by place are allowed for: the answer is the rigid one that fits best \
+                             where the captures were taken";
 
 /// The least predicted error wins; the residual has no say. With the choice comes the leave-one-out residual of each view.
 fn choose(candidates: &[Judged], volume: &Volume, config: &Config) -> Option<(Choice, HeldOut)> {

@@ -5,11 +5,11 @@
 //! which they change; they are part of the model where the likelihood gains clearly. The answer is then the rigid one
 //! that fits best where the captures are ([`crate::estimate::projection`]), and what it misses there is part of its
 //! predicted error. Which model is right remains open: answer and covariance are those of the mixture of all, weighted
-//! by their likelihood. Where the gain is small the answer stays as it is, but its stated error allows for such errors.
+//! by their likelihood, independent errors among them. Where the gain is small that is all: nothing is said of the robot.
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 
-use super::{reach::Reach, workpiece::inflation};
+use super::{alike::WAY_OF_A_TURN, reach::Reach, workpiece::inflation};
 use crate::{
     Camera, Mount, Point, Pose, Setup, Target,
     calibrate::{config::Config, limits::MOST_PREDICTED_MM, views::Views},
@@ -27,12 +27,10 @@ const FEWEST_VIEWS: usize = 8;
 /// Gain of the logarithm of the likelihood that errors by place must bring: their two levels gain as much by chance in
 /// one of twenty sets, and there are several lengths over which errors may change.
 const GAIN: f64 = 3.0;
-/// Gain from which the stated error allows for them, whether or not they are part of the model.
+/// Gain from which answer and stated error allow for them, whether or not the robot is said to have them.
 const NOTICED: f64 = 0.1;
 /// So many of the lengths over which errors may change are fitted, those that promise most.
 const MOST_FITTED: usize = 2;
-/// A turn (rad) as far as this way (m).
-const WAY_OF_A_TURN: f64 = 0.5;
 /// Half the size of a target of unknown size, m: an error of the robot's rotation moves its points by so much times the
 /// angle.
 const HALF_SIZE: f64 = 0.07;
@@ -106,7 +104,7 @@ pub(super) fn look(
         return None;
     }
     let independent = Say {
-        // what promised nothing says the same as independent errors do
+        // what promised too little to be fitted counts as independent errors
         log_weight: (1.0 + unpromising).ln(),
         x: fit.hand_eye.mount_from_camera,
         covariance: fit.covariance.as_ref()?.fixed_view::<6, 6>(0, 0) * inflation(fit)?,

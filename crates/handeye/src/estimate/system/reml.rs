@@ -113,6 +113,11 @@ impl System {
             .iter()
             .map(|s| (Some(s.source), share(s.source, s.sigma * s.sigma)))
             .collect();
+        for level in &self.levels {
+            if let Some((_, m)) = all.iter_mut().find(|(s, _)| *s == Some(level.source)) {
+                level.which.iter().for_each(|&k| m[(k, k)] += level.variance.recip());
+            }
+        }
         if let Some((_, m)) = all.iter_mut().find(|(s, _)| *s == Some(Source::Picture)) {
             let n = self.sights.information.nrows();
             m.view_mut((12, 12), (n, n)).add_assign(&self.sights.information);
