@@ -392,7 +392,7 @@ fn captures(c: &Calibration) -> String {
     let of_pictures = "<th>corners</th><th>own pose,<br>px</th><th>through the<br>robot, px</th>";
     let content = format!(
         "{}<div class=\"scroll\"><table><tr><th>capture</th>{}<th>residual,<br>mm</th><th>residual,<br>degrees</th><th>held out,<br>mm</th><th class=\"words\">why not used</th></tr>{rows}</table></div>\
-         <p class=\"note\">RmsResidual: by how much robot and camera disagree on where the target's {} is. Left out: the \
+         <p class=\"note\">Residual: by how much robot and camera disagree on where the target's {} is. Held out: the \
          same with an answer that has not seen the capture.</p>",
         plot::bars(&bars, "mm", ("residual", "held out")),
         if has_pictures { of_pictures } else { "" },
