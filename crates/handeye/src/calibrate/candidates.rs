@@ -5,14 +5,12 @@ mod registered;
 
 use super::{
     alternatives::{Alternatives, Averaged},
-    arm::{self, ArmFit},
     boards::{self, Boards},
     budget, captures,
     joint::{self, Joint, held_out_views},
     known_position, named,
     optics::{self, MeasuredBy, Optics},
-    place::{self, ByPlace},
-    reach::{ArmReach, Reach},
+    robot::Robot,
     size, verdict,
     workpiece::{Workpiece, volume},
     wrong_touches,
@@ -105,43 +103,22 @@ fn fuse(
         evidence.target_scale = Some(scale);
         notes.add(said);
     }
-    let (arm, inconsistent) = match arm::look(views, whole, best, used, config) {
-        Ok(arm) => (arm, None),
-        Err(finding) => (None, Some(finding)),
-    };
-    notes.add(Notes::of(inconsistent));
+    let robot = Robot::look(views, (whole, best), used, volume, config);
     let (determined, open) = name_free(views, fit, best);
     notes.add(open);
     notes.add(Notes::of(known_position::judge(whole, best, views, &config.known)));
-    let reach = arm.as_ref().and_then(|a| ArmReach::new(views, a, volume));
-    let place = match &reach {
-        Some(_) => None,
-        None => place::look(views, whole, best, config),
-    };
-    let (best, whole) = match (&arm, &reach, &place) {
-        (Some(arm), Some(_), _) => (&arm.fit, &arm.problem),
-        (_, _, Some(ByPlace { model: Some(model), .. })) => (&model.fit, &model.problem),
-        _ => (best, whole),
-    };
-    notes.add(Notes::of(place.as_ref().and_then(ByPlace::finding)));
-    let of_robot: Option<(&'static str, &dyn Reach)> = match (&reach, &place) {
-        (Some(arm), _) => Some((WITH_ARM, arm)),
-        (None, Some(place)) => Some((BY_PLACE, place)),
-        (None, None) => None,
-    };
+    let (whole, best) = robot.best((whole, best));
     let refined = optics.refined(views.session, best, as_declared);
-    notes.add(refined.notes);
-    notes.add(Notes::of(arm.as_ref().map(ArmFit::finding)));
+    notes.add(robot.notes().then(refined.notes));
     let measured = MeasuredBy { unit_is_free: task.unknown.scale.is_some(), as_declared };
-    let workpiece = Workpiece::new(views, volume, best, measured, of_robot.map(|r| r.1));
+    let workpiece = Workpiece::new(views, volume, best, measured, robot.reach());
     let has_board = views.session.target.is_some();
-    let tre_of_arm = workpiece.rms_of_best_mm().filter(|_| reach.is_some());
     let evidence = Evidence {
         determined,
         tip,
         camera: refined.camera,
         depth: refined.depth,
-        arm: arm.as_ref().map(|a| a.as_result(views, tre_of_arm)),
+        arm: robot.arm(views, &workpiece),
         error_budget: budget::budget(whole, best, &workpiece, has_board),
         advice: budget::advice(whole, best, &workpiece, has_board),
         ..evidence
@@ -151,11 +128,11 @@ fn fuse(
         paired: &trusted,
         known: config.known,
         workpiece: &workpiece,
-        of_robot: of_robot.map(|r| r.0),
+        of_robot: robot.name(),
     };
     let evidence = compare(&judge, (fit, joint.as_ref()), (volume, &paired), task, evidence);
     let rests_on_arm = evidence.choice.as_ref().is_some_and(|c| c.name == WITH_ARM);
-    (evidence, arm.filter(|_| rests_on_arm).map(|a| a.fit))
+    (evidence, rests_on_arm.then_some(robot).and_then(Robot::into_fit_of_arm))
 }
 
 /// Makes all candidates and chooses one; a method asked for by name is judged alone.
@@ -188,7 +165,7 @@ fn compare(
     }
     if let Some((choice, held_out)) = &mut chosen {
         evidence.captures = captures::held_out(views, held_out, evidence.captures);
-        evidence.touches = touches_at(choice, views, paired, joint);
+        evidence.touches = touches_at(choice, judge, paired, joint);
         let x = choice.hand_eye.mount_from_camera.as_ref();
         if let (Some(tre), Some(x)) = (&mut choice.predicted_tre_mm, x) {
             tre.map = judge.workpiece.map(x);
@@ -413,22 +390,23 @@ fn why(best: &Judged, all: &[Judged], volume: &Volume, config: &Config) -> Strin
 /// Where the chosen answer puts each touched corner.
 fn touches_at(
     choice: &Choice,
-    views: &Views,
+    judge: &Judge,
     paired: &[TouchPairs],
     joint: Option<&Joint>,
 ) -> Vec<TouchResult> {
     let Some(x) = choice.hand_eye.mount_from_camera else { return vec![] };
     let (registered, fused) =
         (choice.name.starts_with("two-step"), choice.name.starts_with("joint"));
+    let trusted = |touch: usize| judge.paired.iter().any(|p| p.touch == touch);
     let taken = |touch: usize| joint.is_some_and(|j| j.used.contains(&touch));
     let one = |p: &TouchPairs| {
         let difference_mm = touches::touch_error(p, &x) * 1e3;
         TouchResult {
             capture: p.placement.clone(),
-            corner: views.session.touches[p.touch].corner,
+            corner: judge.views.session.touches[p.touch].corner,
             residual_mm: difference_mm.norm(),
             difference_mm,
-            used: registered || fused && taken(p.touch),
+            used: registered && trusted(p.touch) || fused && taken(p.touch),
         }
     };
     paired.iter().map(one).collect()

@@ -8,7 +8,7 @@
 //! | `repeated` | captures of one robot pose that repeat one another: one of them counts |
 //! | `agreement` | which captures agree, on which pose candidate? `gate` and `masked` find them, `rejected` says why others do not, `doubt` whether the majority is clear |
 //! | `optics` | where size, intrinsics or depth move far, all target poses are computed again |
-//! | `candidates` | touches of another corner are removed (`wrong_touches`), then closed forms, least squares, maximum likelihood and registration of touches; the choice by predicted error. Beside: `size`, `arm`, `place` (does the robot err by place?), `known_position`, `named` (a method asked for by name) |
+//! | `candidates` | touches of another corner are removed (`wrong_touches`), then closed forms, least squares, maximum likelihood and registration of touches; the choice by predicted error. Beside: `size`, `robot` (`arm`: is it as its model says? `place`: does it err by place?), `known_position`, `named` (a method asked for by name) |
 //! | `captures` | residual of every capture |
 //! | `movement` | did anything move? |
 //! | `verdict` | accepted, rejected or undetermined |
@@ -55,6 +55,7 @@ mod reach;
 mod rejected;
 pub(crate) mod repeated;
 pub mod result;
+mod robot;
 mod scans;
 mod sequence;
 pub(crate) mod settle;
@@ -142,7 +143,8 @@ fn of_captures(mut session: Session, task: &Task) -> Result<Calibration, Error> 
 
 /// The same of captures in the order of their names, each of which counts.
 fn of_distinct(mut session: Session, task: &Task) -> Calibration {
-    let touched_twice = touches::each_once(&mut session.touches);
+    let mut of_touches = touches::each_once(&mut session.touches);
+    of_touches.extend(touches::placements_ignored(&session));
     let judged = |found: Evidence| verdict::judge(session.setup, task.config, found);
     if session.observations.is_empty() {
         return judged(points::from_points(&session));
@@ -165,7 +167,7 @@ fn of_distinct(mut session: Session, task: &Task) -> Calibration {
     let scans = scans::look(&session, &result);
     let result = Calibration { scans: scans.result, ..result.noting(scans.warnings) };
     let result = moved::reported(result, scans.is_bent);
-    of_one_place.put_back(result).noting(touched_twice)
+    of_one_place.put_back(result).noting(of_touches)
 }
 
 /// Refuses a session that holds nothing, or too much.

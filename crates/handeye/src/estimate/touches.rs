@@ -13,8 +13,8 @@
 use nalgebra::{Matrix6, Vector3};
 
 use crate::{
-    Camera, Correspondence, Error, Mount, Observation, Placement, Point, Pose, Setup, TargetModel,
-    Touch,
+    Camera, Correspondence, Error, Mount, Observation, Placement, Point, Pose, Session, Setup,
+    TargetModel, Touch,
     estimate::predict,
     findings::TouchFinding,
     math::linalg,
@@ -56,6 +56,17 @@ pub fn each_once(touches: &mut Vec<Touch>) -> Vec<TouchFinding> {
     let findings = kept.iter().filter(|(_, count)| *count > 1).map(repeated).collect();
     touches.extend(kept.into_iter().map(|(touch, _)| touch));
     findings
+}
+
+/// Placements that touches name, and boards in the cell, where the one board of the views is touched.
+pub fn placements_ignored(session: &Session) -> Option<TouchFinding> {
+    let mut names: Vec<String> = session.touches.iter().map(|t| t.placement.clone()).collect();
+    names.extend(session.placements.iter().map(|p| p.id.clone()));
+    names.sort();
+    names.dedup();
+    let several = names.len() > 1 || !session.placements.is_empty();
+    let ignored = session.setup == Setup::EyeInHand && !session.touches.is_empty() && several;
+    ignored.then_some(TouchFinding::PlacementsIgnored { names })
 }
 
 /// Pairs every touch with what the camera measured. Touches whose corner no view shows are left

@@ -127,7 +127,12 @@ impl RobotFinding {
                 "the arm differs from its model: with {parameters} parameters corrected, the error of the robot's position is {after_mm:.2} mm per axis instead of {before_mm:.2} mm. The result contains the corrected model (key `arm`), and the camera's pose for a robot that uses it; the answer itself is for the robot as it is"
             ),
             Self::ErrsByPlace { position_mm, rotation_deg, missed_mm, .. } => format!(
-                "this robot errs from place to place, by about {position_mm:.2} mm and {rotation_deg:.3} degrees: at the captures, no fixed transform does better than {missed_mm:.2} mm RMS. More captures do not change that; a robot whose joints are calibrated, or captures only where it works, do"
+                "this robot errs from place to place, by about {position_mm:.2} mm{}: at the captures, no fixed transform does better than {missed_mm:.2} mm RMS. More captures do not change that; a robot whose joints are calibrated, or captures only where it works, do",
+                if *rotation_deg < 5e-4 {
+                    String::new()
+                } else {
+                    format!(" and {rotation_deg:.3} degrees")
+                }
             ),
             Self::JointsAndPosesDiffer { at } => format!(
                 "{at}: the joint values do not lead to the flange pose beside them by the model of the arm; check its \

@@ -84,6 +84,11 @@ pub enum TouchFinding {
         /// Spread across the line over that along it.
         ratio: f64,
     },
+    /// They name placements, where the one board of the views was touched (eye-in-hand).
+    PlacementsIgnored {
+        /// The placements.
+        names: Vec<String>,
+    },
     /// They alone determine what views do not.
     AloneDetermine {
         /// What, in words.
@@ -140,6 +145,11 @@ impl TouchFinding {
                 "the points lie nearly on one line (their spread across it is {:.0} % of that along it): the rotation about that line is poorly determined; add points away from it",
                 ratio * 100.0
             ),
+            Self::PlacementsIgnored { names } => format!(
+                "with eye-in-hand, touches are of the one board that the views show, and placements ({}) are ignored: if \
+                 another board was touched, leave its touches out",
+                names.join(", ")
+            ),
             Self::AloneDetermine { what } => format!(
                 "the views do not determine {what}: only the touches do, and nothing checks them; tilt the robot \
                  about a second axis if it can"
@@ -159,6 +169,7 @@ impl Found for TouchFinding {
             Self::WithoutView { .. } => "touch-without-view",
             Self::Repeated { .. } => "touch-repeated",
             Self::OfABall => "touches-without-corners",
+            Self::PlacementsIgnored { .. } => "touch-placements-ignored",
             Self::NearlyCollinear { .. } => "points-nearly-collinear",
             Self::AloneDetermine { .. } => "determined-by-touches",
         }
@@ -195,6 +206,7 @@ impl Found for TouchFinding {
             Self::NotEnough { .. }
             | Self::WithoutView { .. }
             | Self::OfABall
+            | Self::PlacementsIgnored { .. }
             | Self::AloneDetermine { .. } => vec![],
         }
     }
