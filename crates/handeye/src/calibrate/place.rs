@@ -25,8 +25,8 @@ use crate::{
 /// Fewest captures from which errors by place are told from noise.
 const FEWEST_VIEWS: usize = 8;
 /// Gain of the logarithm of the likelihood that errors by place must bring: their two levels gain as much by chance in
-/// one of twenty sets, and there are several lengths over which errors may change.
-const GAIN: f64 = 3.0;
+/// one of five hundred sets, and there are several lengths over which errors may change.
+const GAIN: f64 = 5.0;
 /// Gain from which answer and stated error allow for them, whether or not the robot is said to have them.
 const NOTICED: f64 = 0.1;
 /// So many of the lengths over which errors may change are fitted, those that promise most.
