@@ -16,7 +16,7 @@ use handeye::{
     simulate::{ArmErrors, Cell, CellNoise, Viewing},
     solve::least_squares,
 };
-use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3x6, Matrix6, Vector3, Vector6};
 
 /// Poses where the robot works.
 const FRESH: usize = 150;
@@ -40,6 +40,9 @@ struct Outcome {
     nees: f64,
     covered: f64,
     stated_mm: f64,
+    rigid_mm: f64,
+    /// Where poses are corrected: what is missed then, and how often it is as small as stated.
+    corrected: Option<(f64, f64)>,
 }
 
 fn main() {
@@ -51,7 +54,7 @@ fn main() {
         counts = vec![10, 15, 30];
     }
     println!(
-        "{:<13} {:<11} {:<8} {:>3} {:>6} {:>6} | {:>6} {:>7} {:>7} {:>7} | {:>6} {:>6} {:>6} {:>7} {:>7}",
+        "{:<13} {:<11} {:<8} {:>3} {:>6} {:>6} | {:>6} {:>7} {:>7} {:>7} | {:>6} {:>6} {:>6} {:>7} {:>7} | {:>6} {:>7} {:>7} {:>6}",
         "setup",
         "arm",
         "poses",
@@ -66,7 +69,11 @@ fn main() {
         "med",
         "cov95",
         "within",
-        "stated"
+        "stated",
+        "offer",
+        "gain",
+        "worst",
+        "within"
     );
     for setup in [Setup::EyeToHand, Setup::EyeInHand] {
         for bare in [true, false] {
@@ -96,9 +103,14 @@ fn report(kind: Kind, seeds: std::ops::Range<u64>) {
     let mut nees: Vec<f64> = all.iter().map(|o| o.nees).collect();
     nees.sort_by(f64::total_cmp);
     let share = |f: &dyn Fn(&Outcome) -> bool| mean(&|o| f64::from(f(o)));
+    let offered: Vec<(f64, Outcome)> =
+        all.iter().filter_map(|o| Some((o.corrected?.0, *o))).collect();
+    let root = |f: &dyn Fn(&(f64, Outcome)) -> f64| {
+        offered.iter().map(|o| f(o).powi(2)).sum::<f64>().sqrt()
+    };
     let (tre, plain) = (rms(&|o| o.tre_mm), rms(&|o| o.plain_mm));
     println!(
-        "{:<13} {:<11} {:<8} {:>3} {:>6.2} {:>6.2} | {:>6.3} {:>7.3} {:>7.3} {:>7.2} | {:>6.1} {:>6.1} {:>6.2} {:>7.3} {:>7.3}",
+        "{:<13} {:<11} {:<8} {:>3} {:>6.2} {:>6.2} | {:>6.3} {:>7.3} {:>7.3} {:>7.2} | {:>6.1} {:>6.1} {:>6.2} {:>7.3} {:>7.3} | {:>6.2} {:>7.2} {:>7.2} {:>6.2}",
         kind.setup.name(),
         kind.arm.0,
         if kind.bare { "bare" } else { "corners" },
@@ -114,6 +126,11 @@ fn report(kind: Kind, seeds: std::ops::Range<u64>) {
         share(&|o| o.nees < 12.59),
         mean(&|o| o.covered),
         rms(&|o| o.stated_mm),
+        share(&|o| o.corrected.is_some()),
+        root(&|o: &(f64, Outcome)| o.0) / root(&|o| o.1.rigid_mm),
+        offered.iter().map(|o| o.0 / o.1.rigid_mm).fold(0.0, f64::max),
+        offered.iter().filter_map(|o| o.1.corrected).map(|c| c.1).sum::<f64>()
+            / offered.len() as f64,
     );
 }
 
@@ -195,7 +212,7 @@ fn run(kind: Kind, seed: u64) -> Option<Outcome> {
             found.predicted_tre_mm.as_ref().map(|t| (t.rms, t.p95))
         );
     }
-    judged(&found, (&best, &plain), &fresh, &points, &centre)
+    judged(&found, kind.setup, (&best, &plain), &fresh, &points, &centre)
 }
 
 /// The session as pose pairs from elsewhere.
@@ -203,7 +220,6 @@ fn as_bare(session: &Session, centre: &Pose<Target, Target>) -> Session {
     let bare = |o: &Observation| Observation {
         corners: vec![],
         surface: vec![],
-        joints: vec![],
         candidates: vec![TargetPose {
             camera_from_target: o.candidates[0].camera_from_target * *centre,
             covariance: None,
@@ -213,7 +229,6 @@ fn as_bare(session: &Session, centre: &Pose<Target, Target>) -> Session {
     Session {
         target: None,
         camera: None,
-        arm: None,
         observations: session.observations.iter().map(bare).collect(),
         ..session.clone()
     }
@@ -221,6 +236,7 @@ fn as_bare(session: &Session, centre: &Pose<Target, Target>) -> Session {
 
 fn judged(
     found: &Calibration,
+    setup: Setup,
     (best, plain): (&HandEye, &HandEye),
     fresh: &[PosePair],
     points: &[Vector3<f64>],
@@ -249,7 +265,61 @@ fn judged(
         nees,
         covered: all.iter().filter(|e| **e <= stated.p95).count() as f64 / all.len() as f64,
         stated_mm: stated.p95,
+        rigid_mm: (all.iter().map(|e| e * e).sum::<f64>() / all.len() as f64).sqrt(),
+        corrected: corrected(found, setup, fresh, points, centre),
     })
+}
+
+/// What is missed where poses are corrected (RMS, mm), and how often it is as small as stated.
+fn corrected(
+    found: &Calibration,
+    setup: Setup,
+    fresh: &[PosePair],
+    points: &[Vector3<f64>],
+    centre: &Pose<Target, Target>,
+) -> Option<(f64, f64)> {
+    let model = found.compensation.as_ref()?.model.as_ref()?;
+    let bare = found.captures.iter().all(|c| c.corners == 0);
+    let y = model.anchor_from_target;
+    let y = if bare { y } else { y * *centre };
+    let (mut sum, mut within, mut count) = (0.0, 0.0, 0.0);
+    for pair in fresh {
+        let reported: Pose<handeye::Base, handeye::Flange> = match setup {
+            Setup::EyeInHand => pair.anchor_from_mount.rename(),
+            Setup::EyeToHand => pair.anchor_from_mount.inverse().rename(),
+        };
+        let corrected = model.actual(&reported);
+        let there = setup.anchor_from_mount(corrected.base_from_flange);
+        let flange = corrected.base_from_flange;
+        for p in points {
+            let p = centre.inverse() * Point::from_vector(*p);
+            let seen = model.rigid * (pair.camera_from_target * p);
+            let off = (there * seen).vector() - (y * p).vector();
+            // in the flange, where the covariance is
+            let at: Vector3<f64> = match setup {
+                Setup::EyeInHand => seen.vector(),
+                Setup::EyeToHand => (y * p).vector(),
+            };
+            let off: Vector3<f64> = match setup {
+                Setup::EyeInHand => flange.rotation().transpose() * off,
+                Setup::EyeToHand => off,
+            };
+            let j = point_jacobian(&at);
+            let spread = j * corrected.covariance * j.transpose();
+            sum += off.norm_squared();
+            within += f64::from(off.dot(&(spread.try_inverse()? * off)) < 7.815);
+            count += 1.0;
+        }
+    }
+    Some((f64::sqrt(sum / count) * 1e3, within / count))
+}
+
+/// How a point moves with its frame: a step on the right, rotation first.
+fn point_jacobian(p: &Vector3<f64>) -> Matrix3x6<f64> {
+    let mut j = Matrix3x6::zeros();
+    j.fixed_view_mut::<3, 3>(0, 0).copy_from(&-p.cross_matrix());
+    j.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
+    j
 }
 
 /// By how much two answers put the target's points apart, mm RMS.

@@ -58,6 +58,15 @@ handeye_status handeye_closed_form(const char *setup, const char *method, size_t
                                    const double *camera_from_target, double mount_from_camera[16],
                                    double anchor_from_target[16], char **error);
 
+/* Poses of a robot that errs from place to place, corrected: `calibration_json` is a calibration.json whose data offer
+ * that, `base_from_flange` `count` matrices. With `reported` 0 they are where the flange should be, computed with the
+ * transform of the calibration, and `corrected` (`count` matrices) is where to send the robot; otherwise they are what
+ * the robot reported, and `corrected` is where its flange was. `sigma_m` takes `count` standard deviations of the
+ * flange's position per axis (m), or is NULL. HANDEYE_NOT_ACCEPTED where nothing is offered; `error` gets JSON then and
+ * on failure, else NULL; it may be NULL itself. */
+handeye_status handeye_compensate(const char *calibration_json, int reported, size_t count,
+                                  const double *base_from_flange, double *corrected, double *sigma_m, char **error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -13,7 +13,7 @@ use std::{
 };
 
 use handeye::{
-    Config, HandEye, Method, Pose, PosePair, Scan, Setup, Verdict,
+    Calibration, Config, HandEye, Method, Pose, PosePair, Scan, Setup, Verdict,
     register::{DenseConfig, DenseMethod, register},
     solve,
 };
@@ -350,6 +350,59 @@ pub unsafe extern "C" fn handeye_closed_form(
             // SAFETY: the caller promises that it takes 16 numbers.
             let out = unsafe { slice::from_raw_parts_mut(out, 16) };
             out.copy_from_slice(matrix.transpose().as_slice());
+        }
+        Ok((ACCEPTED, String::new()))
+    };
+    // SAFETY: as promised by the caller.
+    unsafe { give(error, work) }
+}
+
+/// Corrects poses of a robot that errs by place.
+///
+/// # Safety
+/// Text is null or ends with a zero; poses are null or `16 * count` numbers; `corrected` is null or takes as many, and
+/// `sigma_m` is null or takes `count`; `error` is null or can be written to.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn handeye_compensate(
+    calibration_json: *const c_char,
+    reported: c_int,
+    count: usize,
+    base_from_flange: *const f64,
+    corrected: *mut f64,
+    sigma_m: *mut f64,
+    error: *mut *mut c_char,
+) -> c_int {
+    let work = || {
+        // SAFETY: as promised by the caller.
+        let given = unsafe { text(calibration_json, "calibration_json")? };
+        let calibration: Calibration = serde_json::from_str(needed(given, "calibration_json")?)
+            .map_err(|e| End::Unusable(Problem::new("malformed", e.to_string())))?;
+        // SAFETY: as promised by the caller.
+        let poses = unsafe { poses(base_from_flange, count, "base_from_flange")? };
+        if corrected.is_null() {
+            return Err(End::WrongCall("corrected is NULL".into()));
+        }
+        let model = match calibration.correction() {
+            Ok(model) => model,
+            Err(why) => {
+                let problem = json!({ "error": Problem::new("no-correction", why) });
+                return Ok((NOT_ACCEPTED, problem.to_string()));
+            }
+        };
+        // SAFETY: the caller promises that they take so many numbers.
+        let out = unsafe { slice::from_raw_parts_mut(corrected, 16 * count) };
+        let mut sigmas = match sigma_m.is_null() {
+            true => None,
+            // SAFETY: as above.
+            false => Some(unsafe { slice::from_raw_parts_mut(sigma_m, count) }),
+        };
+        for (k, (pose, out)) in poses.into_iter().zip(out.chunks_exact_mut(16)).enumerate() {
+            let pose = Pose::claim(pose);
+            let found = if reported == 0 { model.command(&pose) } else { model.actual(&pose) };
+            out.copy_from_slice(found.base_from_flange.matrix().transpose().as_slice());
+            if let Some(sigmas) = &mut sigmas {
+                sigmas[k] = found.sigma_m();
+            }
         }
         Ok((ACCEPTED, String::new()))
     };

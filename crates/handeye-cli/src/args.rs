@@ -57,6 +57,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Calibrate a tool tip (TCP position) from flange poses with the tip on one fixed point (pivot calibration).
     Tcp(TcpArgs),
+    /// Correct poses of a robot that errs by place, where a calibration has found how.
+    Compensate(Box<CompensateArgs>),
     /// Verify a calibration with touched points: distance between the tool tip and the camera's prediction.
     Verify(VerifyArgs),
     /// Register one scan to another: ICP with a covariance and a verdict.
@@ -391,14 +393,9 @@ impl From<Length> for LengthUnit {
     }
 }
 
-/// Arguments of `tcp`.
+/// A file of robot poses, and how it is written.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye tcp pivot.csv --notation kuka --direction base_from_flange\n  handeye tcp pivot.json --field 'poses.*.flange' --notation euler-xyz-extrinsic \\\n      --length-unit mm --direction base_from_flange --json\n  handeye tcp pivot.toml\n\n\
-Lead the tip onto one fixed point from 6 to 10 directions, 30 degrees and more apart, and save the\n\
-flange pose each time. pivot.toml holds the same keys as the [robot] of a manifest."
-)]
-pub struct TcpArgs {
+pub struct PosesArgs {
     /// File of flange poses, or a pattern; or a TOML file with a `[robot]`.
     pub poses: PathBuf,
     /// How the poses are written: ur, kuka, matrix4x4, euler-xyz-extrinsic, ...
@@ -425,6 +422,41 @@ pub struct TcpArgs {
     /// Lines before the table.
     #[arg(long, default_value_t = 0)]
     pub skip_header: u32,
+}
+
+/// Arguments of `compensate`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye compensate picks.csv --result result --notation kuka --direction base_from_flange\n  handeye compensate picks.csv -r result --notation ur --direction base_from_flange --out send.csv\n\n\
+POSES are where the flange should be, computed with the transform of the result; what is written is where\n\
+to send the robot. Exit code 0: corrected; 3: the result offers no correction."
+)]
+pub struct CompensateArgs {
+    /// The poses.
+    #[command(flatten)]
+    pub poses: PosesArgs,
+    /// calibration.json, or the folder that holds it.
+    #[arg(long, short)]
+    pub result: PathBuf,
+    /// POSES are what the robot reported, such as those of new captures: write where its flange really was.
+    #[arg(long)]
+    pub reported: bool,
+    /// File to write, in the notation of POSES [default: standard output].
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `tcp`.
+#[derive(Args)]
+#[command(
+    after_help = "Examples:\n  handeye tcp pivot.csv --notation kuka --direction base_from_flange\n  handeye tcp pivot.json --field 'poses.*.flange' --notation euler-xyz-extrinsic \\\n      --length-unit mm --direction base_from_flange --json\n  handeye tcp pivot.toml\n\n\
+Lead the tip onto one fixed point from 6 to 10 directions, 30 degrees and more apart, and save the\n\
+flange pose each time. pivot.toml holds the same keys as the [robot] of a manifest."
+)]
+pub struct TcpArgs {
+    /// The poses.
+    #[command(flatten)]
+    pub poses: PosesArgs,
     /// Maximum RMS distance of the tip from the fixed point; above it the result is rejected.
     #[arg(long, default_value_t = 2.0)]
     pub limit_mm: f64,

@@ -5,6 +5,7 @@ mod bag;
 mod calibrate;
 mod check;
 mod compare;
+mod compensate;
 mod demo;
 mod detect;
 mod export;
@@ -12,6 +13,7 @@ mod failure;
 mod import;
 mod init;
 mod output;
+mod poses;
 mod progress;
 mod register;
 mod simulate;
@@ -65,6 +67,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Bag(args) => bag::run(args, &program.manners),
         Command::Target(args) => target::run(args, &program.manners),
         Command::Compare(args) => compare::run(args, &program.manners),
+        Command::Compensate(args) => compensate::run(args, &program.manners),
         Command::Tcp(args) => tcp::run(args, &program.manners),
         Command::Verify(args) => verify::run(args, &program.manners),
         Command::Check(args) => check::run(args, &program.manners),

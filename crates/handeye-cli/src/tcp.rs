@@ -4,14 +4,14 @@ use handeye::{
     Error, Verdict, Warning,
     tools::pivot::{self, Lengths, Pivot},
 };
-use handeye_io::{RobotFile, RobotPoses, read_robot_poses};
+use handeye_io::{RobotPoses, read_robot_poses};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use crate::{
     args::{Manners, TcpArgs},
     failure::Failure,
-    output,
+    output, poses,
 };
 
 #[derive(Serialize)]
@@ -57,14 +57,14 @@ pub fn run(args: &TcpArgs, manners: &Manners) -> Result<u8, Failure> {
     if !(args.limit_mm > 0.0) {
         return Err(Failure::Usage("--limit-mm must be positive".into()));
     }
-    let robot = read_robot_poses(&described(args)?)?;
+    let robot = read_robot_poses(&poses::described(&args.poses)?)?;
     match pivot::pivot(&robot.base_from_flange, args.limit_mm * 1e-3) {
         Ok(found) => Ok(tell(&answer(&robot, &found), manners)),
         Err(Error::NotDetermined { what }) => {
             let (reasons, all) = ([what], ["the tip in the flange, in all directions".into()]);
             Ok(tell(&no_answer(&robot, &reasons, &all), manners))
         }
-        Err(error) => Err(Failure::from(error).in_file(&args.poses)),
+        Err(error) => Err(Failure::from(error).in_file(&args.poses.poses)),
     }
 }
 
@@ -100,46 +100,6 @@ fn no_answer<'a>(
         undetermined,
         warnings: robot.warnings.clone(),
     }
-}
-
-/// The flags, as a manifest's `[robot]` would have them.
-fn described(args: &TcpArgs) -> Result<RobotFile, Failure> {
-    let own = args.poses.extension().is_some_and(|e| e == "toml");
-    if !own && args.notation.is_none() {
-        return Err(Failure::Usage(
-            "--notation is missing: how are the poses written? (ur, kuka, abb, matrix4x4, \
-             quaternion-xyzw, euler-xyz-extrinsic, ...)"
-                .into(),
-        ));
-    }
-    if !own && args.direction.is_none() {
-        return Err(Failure::Usage(
-            "--direction is missing: do the poses take points of the flange into the base \
-             (base_from_flange: where the flange is, what controllers show) or the other way \
-             (flange_from_base)? A pivot fits both"
-                .into(),
-        ));
-    }
-    let mut keys = Vec::new();
-    for (key, value) in [
-        ("notation", &args.notation),
-        ("direction", &args.direction),
-        ("length_unit", &args.length_unit),
-        ("angle_unit", &args.angle_unit),
-        ("rows", &args.rows),
-    ] {
-        keys.extend(value.clone().map(|v| (key, v.into())));
-    }
-    if !args.field.is_empty() {
-        keys.push(("field", args.field.clone().into()));
-    }
-    if !args.columns.is_empty() {
-        keys.push(("columns", handeye_io::columns(&args.columns)));
-    }
-    if args.skip_header > 0 {
-        keys.push(("skip_header", i64::from(args.skip_header).into()));
-    }
-    Ok(RobotFile { poses: args.poses.clone(), keys })
 }
 
 fn answer<'a>(robot: &'a RobotPoses, found: &'a Pivot) -> Answer<'a> {

@@ -49,7 +49,7 @@ mod xml;
 pub use camera::read_intrinsics;
 pub use dataset::{
     CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PixelOrigin, PlacementSource,
-    Question, RobotFile, RobotPoses, Shape, WorkspaceBox, WorkspaceFrame, columns,
+    Question, RobotFile, RobotPoses, Shape, WorkspaceBox, WorkspaceFrame, Writing, columns,
     read_robot_poses,
 };
 pub use error::{Error, Place};

@@ -10,27 +10,30 @@ use std::{
 use handeye::{
     Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
     calibrate::result::{
-        Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BoardDeviation, BudgetEntry,
-        CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep, ColourStepResult,
-        DepthResult, Determined, FlatnessResult, FramesResult, JudgedFinding, PoseCovariance,
-        Scale, ScanResult, SceneKind, ScenePair, SceneResult, TipResult, TouchResult,
+        Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BlockGain, BoardDeviation,
+        BudgetEntry, CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep,
+        ColourStepResult, CompensationResult, DepthResult, Determined, FlatnessResult,
+        FramesResult, JudgedFinding, PoseCovariance, Scale, ScanResult, SceneKind, ScenePair,
+        SceneResult, TipResult, TouchResult,
     },
     estimate::{
         certify::Certificate,
+        compensation::{ByArm, ByPlace, Compensation, RobotErrors},
         evaluate::{Diversity, RmsResidual},
+        place::{Kernel, Place},
         predict::{PredictedTre, TreMap, TreSlice},
     },
     findings::{
         movement::{Movement, MovementKind},
         severity::Severity,
     },
-    model::kinematics::{Arm, DhConvention, Joint, Parameter},
+    model::kinematics::{Arm, Deviation, DhConvention, Joint, Parameter},
 };
 use nalgebra::{Isometry3, Vector3};
 use serde_json::Value;
 
 /// A result in which nothing is missing.
-fn full() -> Calibration {
+fn full(errors: RobotErrors) -> Calibration {
     let rows = Some([[0.0; 6]; 6]);
     let answer = Answer {
         mount_from_camera: Some(Pose::identity()),
@@ -207,11 +210,7 @@ fn full() -> Calibration {
         }),
         tip: Some(TipResult { offset_mm: [0.0; 3], sigma_mm: [0.0; 3], frame: "flange".into() }),
         arm: Some(ArmResult {
-            model: Arm {
-                base_from_first_joint: Pose::claim(Isometry3::translation(0.1, 0.0, 0.0)),
-                last_link_from_flange: Pose::claim(Isometry3::translation(0.0, 0.0, 0.1)),
-                ..Arm::new(DhConvention::Standard, vec![Joint::default()])
-            },
+            model: arm(),
             deviations: vec![ArmDeviation {
                 joint: 1,
                 parameter: Parameter::A,
@@ -226,6 +225,19 @@ fn full() -> Calibration {
             robot_before_mm: 0.0,
             robot_after_mm: 0.0,
             predicted_tre_mm: Some(0.0),
+        }),
+        compensation: Some(CompensationResult {
+            by_place: BlockGain { rigid_mm: 1.0, corrected_mm: 0.5 },
+            by_time: BlockGain { rigid_mm: 1.0, corrected_mm: 0.5 },
+            model: Some(Compensation {
+                setup: Setup::EyeInHand,
+                rigid: Pose::identity(),
+                mount_from_camera: Pose::identity(),
+                anchor_from_target: Pose::identity(),
+                errors,
+                covariance: vec![0.0],
+                robot: [0.0; 2],
+            }),
         }),
         certificate: Some(Certificate {
             certified: true,
@@ -251,8 +263,42 @@ fn full() -> Calibration {
     }
 }
 
-/// The schema behind a reference, and the one of what is not null.
-fn resolved<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
+fn arm() -> Arm {
+    Arm {
+        base_from_first_joint: Pose::claim(Isometry3::translation(0.1, 0.0, 0.0)),
+        last_link_from_flange: Pose::claim(Isometry3::translation(0.0, 0.0, 0.1)),
+        ..Arm::new(DhConvention::Standard, vec![Joint::default()])
+    }
+}
+
+/// Each kind of errors that a robot may have.
+fn errors() -> [RobotErrors; 3] {
+    let place = || Place { base_from_flange: Pose::identity(), joints: vec![0.0] };
+    let by = |kernel| {
+        RobotErrors::ByPlace(ByPlace {
+            kernel,
+            about: vec![place()],
+            waves: vec![vec![1.0]],
+            strengths: vec![[0.0; 6]],
+            level: [0.0; 2],
+            arm: Some(arm()),
+        })
+    };
+    let of_arm = ByArm {
+        given: arm(),
+        corrected: arm(),
+        deviations: vec![Deviation { joint: 0, parameter: Parameter::A }],
+        seen: vec![place()],
+    };
+    [by(Kernel::OF_POSES[0]), by(Kernel::OF_JOINTS), RobotErrors::ByArm(of_arm)]
+}
+
+/// The schema behind a reference, the one of what is not null, and that one of several that has the value's keys.
+fn resolved<'a>(root: &'a Value, schema: &'a Value, value: &Value) -> &'a Value {
+    if let Some(all) = schema.get("oneOf").and_then(Value::as_array) {
+        let first = value.as_object().and_then(|o| o.keys().next()).unwrap();
+        return all.iter().find(|s| s["properties"].get(first).is_some()).unwrap();
+    }
     let reference = schema.get("$ref").or_else(|| schema.get("anyOf")?.get(0)?.get("$ref"));
     match reference.and_then(Value::as_str) {
         Some(name) => root.pointer(name.trim_start_matches('#')).unwrap(),
@@ -261,7 +307,7 @@ fn resolved<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
 }
 
 fn compare(root: &Value, schema: &Value, value: &Value, at: &str) {
-    let schema = resolved(root, schema);
+    let schema = resolved(root, schema, value);
     match value {
         Value::Object(object) => {
             let known = schema["properties"].as_object().unwrap_or_else(|| panic!("{at}"));
@@ -290,5 +336,7 @@ fn compare(root: &Value, schema: &Value, value: &Value, at: &str) {
 fn the_schema_and_the_result_have_the_same_keys() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/calibration.schema.json");
     let schema: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-    compare(&schema, &schema, &serde_json::to_value(full()).unwrap(), "calibration");
+    for errors in errors() {
+        compare(&schema, &schema, &serde_json::to_value(full(errors)).unwrap(), "calibration");
+    }
 }

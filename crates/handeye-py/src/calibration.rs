@@ -12,7 +12,7 @@ use handeye_io::{
     export::{self, CameraPose, Format},
     report::{calibration_html, dataset_html},
 };
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use pyo3::{exceptions::PyRuntimeError, prelude::*, types::PyBytes};
 
 use crate::{
@@ -56,6 +56,23 @@ impl Calibrated {
     fn write(&self, py: Python<'_>, out: PathBuf, title: &str) -> PyResult<PathBuf> {
         let page = self.report(py, title);
         write_results(&out, &self.calibration, &page).map_err(|e| errors::of_files(py, &e))
+    }
+
+    /// Poses of the flange, corrected: those, and their covariances (N x 4 x 4 and N x 6 x 6, flat) and whether the robot
+    /// was seen near there.
+    fn compensate(
+        &self,
+        base_from_flange: &Bound<'_, PyAny>,
+        reported: bool,
+    ) -> PyResult<Vec<(Vec<f64>, Vec<f64>, bool)>> {
+        let model = self.calibration.correction().map_err(errors::NotDetermined::new_err)?;
+        let one = |(r, t): &(Matrix3<f64>, Vector3<f64>)| {
+            let pose = Pose::from_parts(r, *t);
+            let found = if reported { model.actual(&pose) } else { model.command(&pose) };
+            let flat = found.base_from_flange.matrix().transpose().as_slice().to_vec();
+            (flat, found.covariance.as_slice().to_vec(), found.is_inside())
+        };
+        Ok(arrays::poses(base_from_flange, "base_from_flange")?.iter().map(one).collect())
     }
 
     /// The usual name and the content of a file in another program's format.

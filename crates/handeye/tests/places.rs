@@ -14,9 +14,14 @@ const MORE: usize = 100;
 
 /// A cell's first captures as bare pose pairs, and those after them without the camera's noise.
 fn captures(errors: ArmErrors, setup: Setup, seed: u64) -> (Session, Session) {
+    many(CAPTURES, errors, setup, seed)
+}
+
+/// The same with that many first captures.
+fn many(count: usize, errors: ArmErrors, setup: Setup, seed: u64) -> (Session, Session) {
     let usual = Cell::new(setup, 500 + seed);
     let cell = Cell {
-        captures: CAPTURES + MORE,
+        captures: count + MORE,
         placements: 0,
         touches: 0,
         arm: Some(errors),
@@ -35,9 +40,9 @@ fn captures(errors: ArmErrors, setup: Setup, seed: u64) -> (Session, Session) {
         candidates: vec![TargetPose { camera_from_target, covariance: None }],
         ..Observation::bare(o.capture.clone(), o.base_from_flange, camera_from_target)
     };
-    let (first, more) = session.observations.split_at(CAPTURES);
+    let (first, more) = session.observations.split_at(count);
     let seen = first.iter().map(|o| bare(o, o.candidates[0].camera_from_target)).collect();
-    let exact = more.iter().zip(&truth.camera_from_target[CAPTURES..]);
+    let exact = more.iter().zip(&truth.camera_from_target[count..]);
     let exact = exact.map(|(o, truth)| bare(o, *truth)).collect();
     (Session::of_captures(setup, seen), Session::of_captures(setup, exact))
 }
@@ -97,4 +102,66 @@ fn a_robot_that_does_not_is_left_alone() {
         named += usize::from(errs_by_place(&run(&session)));
     }
     assert!(named <= 1, "{named} of 12");
+}
+
+/// What poses of captures miss that the answer has not seen (mm, RMS), as they are and corrected.
+fn missed(found: &Calibration, more: &Session) -> (f64, f64) {
+    let model = found.correction().unwrap();
+    let rigid = found.hand_eye.mount_from_camera.unwrap();
+    let target = found.hand_eye.anchor_from_target.unwrap();
+    let (mut plain, mut corrected) = (0.0, 0.0);
+    for o in &more.observations {
+        let seen = rigid * o.candidates[0].camera_from_target;
+        let off = |flange, target| {
+            let there = found.setup.anchor_from_mount(flange) * seen;
+            there.translation() - handeye::Pose::translation(&target)
+        };
+        plain += off(o.base_from_flange, target).norm_squared();
+        let really = model.actual(&o.base_from_flange).base_from_flange;
+        corrected += off(really, model.anchor_from_target).norm_squared();
+        let sent = model.command(&really).base_from_flange;
+        if found.setup == Setup::EyeToHand {
+            assert!(sent.distance_to(&o.base_from_flange) < 1e-5, "back where it was sent");
+        }
+    }
+    let mm = |sum: f64| (sum / more.observations.len() as f64).sqrt() * 1e3;
+    (mm(plain), mm(corrected))
+}
+
+#[test]
+fn corrected_poses_miss_less_where_that_is_offered_and_an_exact_robot_is_offered_nothing() {
+    let errors = ArmErrors { length_m: 1e-3, angle_rad: 2e-3, ..ArmErrors::default() };
+    let (mut plain, mut corrected, mut offered) = (0.0, 0.0, 0);
+    for setup in [Setup::EyeInHand, Setup::EyeToHand] {
+        for seed in 0..3 {
+            let (session, more) = many(30, errors, setup, seed);
+            let found = run(&session);
+            if found.correction().is_ok() {
+                let (without, with) = missed(&found, &more);
+                assert!(with < 1.05 * without, "{seed}: {with} instead of {without}");
+                plain += without * without;
+                corrected += with * with;
+                offered += 1;
+            }
+            let (session, _) = captures(ArmErrors::NONE, setup, seed);
+            assert!(run(&session).correction().is_err(), "{seed}");
+        }
+    }
+    let ratio = f64::sqrt(corrected / plain);
+    println!("offered {offered} of 6, missed {ratio:.2} of what it was");
+    assert!(offered >= 4, "{offered}");
+    assert!(ratio < 0.75, "{ratio}");
+}
+
+#[test]
+fn a_correction_goes_through_its_file_and_one_that_was_changed_is_refused() {
+    let errors = ArmErrors { length_m: 1e-3, angle_rad: 2e-3, ..ArmErrors::default() };
+    let all = (0..6).map(|seed| run(&captures(errors, Setup::EyeInHand, seed).0));
+    let found = all.into_iter().find(|f| f.correction().is_ok()).unwrap();
+    let text = serde_json::to_string(&found).unwrap();
+    let mut again: Calibration = serde_json::from_str(&text).unwrap();
+    assert_eq!(again.compensation, found.compensation);
+    let model = again.compensation.as_mut().and_then(|c| c.model.as_mut()).unwrap();
+    model.covariance.pop();
+    assert!(again.correction().unwrap_err().contains("do not fit together"));
 }

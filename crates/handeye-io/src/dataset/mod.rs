@@ -35,6 +35,7 @@ pub use manifest::PixelOrigin;
 pub(crate) use manifest::{Manifest, Source};
 pub(crate) use motion::TIMES;
 use opening::Opening;
+pub use poses::Writing;
 pub(crate) use rereading::{Rereading, rereadings};
 pub use robot_file::{RobotFile, RobotPoses, columns, read_robot_poses};
 pub use shapes::Shape;

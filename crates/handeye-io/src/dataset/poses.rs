@@ -262,6 +262,58 @@ pub(super) fn of_robot(
     Ok((poses.into_iter().map(convert).collect(), warnings))
 }
 
+/// How the robot's poses are written; `None` where joint values stand for them.
+pub(super) fn writing(
+    spec: &RobotSpec,
+    source: &Source,
+    root: &Path,
+) -> Result<Option<Writing>, Error> {
+    let flange_from_tool = tool(spec, source)?;
+    match Reading::of(&spec.with_arm(source)?, "robot", source, root)? {
+        Reading::Joints(..) => Ok(None),
+        Reading::Notation(notation, units) => {
+            let inverted = spec.direction == Some(RobotDirection::FlangeFromBase);
+            Ok(Some(Writing { notation, units, inverted, flange_from_tool }))
+        }
+    }
+}
+
+/// How a robot's poses are written.
+#[derive(Debug, Clone)]
+pub struct Writing {
+    notation: Notation,
+    units: Units,
+    inverted: bool,
+    flange_from_tool: Pose<Flange, Tool>,
+}
+
+impl Writing {
+    /// The names of a pose's numbers, in order.
+    pub fn names(&self) -> Vec<&'static str> {
+        self.notation.columns.iter().filter_map(|c| c.names.first().copied()).collect()
+    }
+
+    /// A pose of the flange as numbers, in order.
+    pub fn numbers(&self, base_from_flange: &Pose<Base, Flange>) -> Vec<f64> {
+        let written = *(*base_from_flange * self.flange_from_tool).iso();
+        let written = if self.inverted { written.inverse() } else { written };
+        self.notation.values(&written, self.units)
+    }
+
+    /// A table with a line for each pose, under the names of columns; it is read as it was written.
+    pub fn table<'a>(
+        &self,
+        poses: impl IntoIterator<Item = (&'a str, &'a Pose<Base, Flange>)>,
+    ) -> String {
+        let mut text = format!("id,{}\n", self.names().join(","));
+        for (id, pose) in poses {
+            let numbers = self.numbers(pose).into_iter().map(|x| format!("{x:.9}"));
+            text += &format!("{id},{}\n", numbers.collect::<Vec<_>>().join(","));
+        }
+        text
+    }
+}
+
 /// The arm, where the robot's poses are those of its flange by its own joints.
 pub(super) fn arm(spec: &RobotSpec, source: &Source, root: &Path) -> Result<Option<Arm>, Error> {
     let of_flange = spec.direction == Some(RobotDirection::BaseFromFlange)

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::{
     manifest::{RobotSpec, Source},
-    poses,
+    poses::{self, Writing},
 };
 use crate::{
     error::{Error, Place, malformed},
@@ -39,6 +39,8 @@ pub struct RobotPoses {
     pub names: Vec<String>,
     /// Where the flange was.
     pub base_from_flange: Vec<Pose<Base, Flange>>,
+    /// How they are written; `None` where joint values stand for them.
+    pub written: Option<Writing>,
     /// What looked suspicious.
     pub warnings: Vec<Warning>,
 }
@@ -57,7 +59,12 @@ pub fn read_robot_poses(file: &RobotFile) -> Result<RobotPoses, Error> {
     let (found, warnings) = poses::of_robot(&spec, &source, &root)?;
     let named = found.iter().enumerate();
     let names = named.map(|(k, p)| p.id.clone().unwrap_or((k + 1).to_string())).collect();
-    Ok(RobotPoses { names, base_from_flange: found.iter().map(|p| p.value).collect(), warnings })
+    Ok(RobotPoses {
+        names,
+        base_from_flange: found.iter().map(|p| p.value).collect(),
+        written: poses::writing(&spec, &source, &root)?,
+        warnings,
+    })
 }
 
 fn described(file: &RobotFile) -> Result<(RobotSpec, Source, PathBuf), Error> {
@@ -99,6 +106,33 @@ mod tests {
         let read = read_robot_poses(&RobotFile { poses, keys }).unwrap();
         assert_eq!(read.names, ["1", "2"]);
         assert!((read.base_from_flange[0].translation().x - 0.1).abs() < 1e-12);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn poses_are_written_as_they_were_read() {
+        let folder =
+            std::env::temp_dir().join(format!("handeye-robot-table-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = |name: &str| RobotFile {
+            poses: folder.join(name),
+            keys: vec![
+                ("notation", "abb".into()),
+                ("direction", "flange_from_base".into()),
+                ("length_unit", "cm".into()),
+            ],
+        };
+        let text = "id,x,y,z,q1,q2,q3,q4\na,10,-20,30,0.5,0.5,-0.5,0.5\nb,1,2,3,0.6,0,0.8,0\n";
+        std::fs::write(folder.join("poses.csv"), text).unwrap();
+        let read = read_robot_poses(&file("poses.csv")).unwrap();
+        let names = read.names.iter().map(String::as_str);
+        let table = read.written.as_ref().unwrap().table(names.zip(&read.base_from_flange));
+        std::fs::write(folder.join("again.csv"), &table).unwrap();
+        let again = read_robot_poses(&file("again.csv")).unwrap();
+        assert_eq!(again.names, read.names);
+        for (a, b) in read.base_from_flange.iter().zip(&again.base_from_flange) {
+            assert!(a.local(b).amax() < 1e-9, "{table}");
+        }
         std::fs::remove_dir_all(&folder).unwrap();
     }
 }

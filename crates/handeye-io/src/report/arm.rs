@@ -1,10 +1,10 @@
-//! What is wrong with the arm.
+//! What is wrong with the robot: with its arm, or from place to place.
 
 use std::fmt::Write;
 
 use handeye::{
     Calibration,
-    calibrate::result::{ArmDeviation, ArmResult},
+    calibrate::result::{ArmDeviation, ArmResult, BlockGain},
     model::kinematics::Parameter,
     quaternion_xyzw,
 };
@@ -36,6 +36,35 @@ pub(super) fn arm(c: &Calibration) -> String {
     );
     content += &table(arm);
     section("The arm", "", &content)
+}
+
+/// What correcting the robot's poses is worth; empty where it does not err by place.
+pub(super) fn correction(c: &Calibration) -> String {
+    let Some(found) = &c.compensation else { return String::new() };
+    let row = |what: &str, gain: &BlockGain| {
+        format!(
+            "<tr><td class=\"words\">{what}</td><td>{:.3}</td><td>{:.3}</td><td>{:.0} %</td></tr>",
+            gain.rigid_mm,
+            gain.corrected_mm,
+            100.0 * gain.corrected_mm / gain.rigid_mm
+        )
+    };
+    let rows = row("that lie near one another", &found.by_place)
+        + &row("that follow one another", &found.by_time);
+    let offer = match found.model {
+        Some(_) => {
+            "<code>handeye compensate POSES --result calibration.json</code> says where to send the robot, for \
+             poses that were computed with the transform above."
+        }
+        None => "That is too little: no correction is offered.",
+    };
+    let content = format!(
+        "<p>This robot errs from place to place. What its error is at a place was tried out on captures that were \
+         left out in blocks. {offer}</p><table><tr><th class=\"words\">captures left out</th><th>missed as it \
+         is</th><th>with poses corrected</th><th></th></tr>{rows}</table><p class=\"note\">mm, root mean square \
+         over the points of the target.</p>"
+    );
+    section("Correcting poses", "", &content)
 }
 
 fn table(arm: &ArmResult) -> String {

@@ -77,6 +77,7 @@ pub fn html(report: &Report) -> String {
         body += &budget(c);
     }
     body += &arm::arm(c);
+    body += &arm::correction(c);
     body += &scans::scene(c);
     body += &scans::scans(c);
     body += &diversity(c);

@@ -8,7 +8,7 @@ Lengths are metres and angles radians, but where a name ends in ``_mm`` or ``_de
 'R. Tsai, R. Lenz, 1989'
 """
 
-from ._calibration import Calibration, Candidate
+from ._calibration import Calibration, Candidate, Corrected
 from ._core import (
     METHODS,
     HandEyeError,
@@ -45,6 +45,7 @@ __all__ = [
     "BagTopic",
     "Calibration",
     "Candidate",
+    "Corrected",
     "Corners",
     "Extracted",
     "HandEyeError",

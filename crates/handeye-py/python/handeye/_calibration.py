@@ -41,6 +41,16 @@ class Candidate(NamedTuple):
     """Predicted error (rms) where the answer will be used."""
 
 
+class Corrected(NamedTuple):
+    """A pose of the flange that was corrected."""
+
+    base_from_flange: Pose
+    covariance: Array
+    """Of the flange there, 6 x 6: rotation (rad) first, then position (m), along its own axes."""
+    inside: bool
+    """Whether the robot was seen near there; elsewhere hardly anything is corrected."""
+
+
 class Calibration:
     """A finished calibration; see ``to_dict`` for everything that is known of it.
 
@@ -194,6 +204,27 @@ class Calibration:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(self._calibrated.report(title), encoding="utf-8")
         return path
+
+    def compensate(self, base_from_flange: Any, *, reported: bool = False) -> List[Corrected]:
+        """Corrects poses (N x 4 x 4, or ``Pose`` objects; m) of a robot that errs from place to place.
+
+        Poses are where the flange should be, computed with the transform of this calibration: what comes back is
+        where to send the robot. With ``reported``, they are what the robot reported: what comes back is where its
+        flange was. Raises ``NotDetermined`` where the calibration offers no correction.
+        """
+        import numpy as np
+
+        from ._functions import _poses
+
+        given = _poses(base_from_flange, "base", "flange")
+        return [
+            Corrected(
+                Pose("base", "flange", np.array(matrix).reshape(4, 4)),
+                np.array(covariance).reshape(6, 6),
+                inside,
+            )
+            for matrix, covariance, inside in self._calibrated.compensate(given, reported)
+        ]
 
     @overload
     def export(self, format: str, folder: None = None, child: str = "camera") -> bytes: ...

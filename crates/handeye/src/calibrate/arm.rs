@@ -287,7 +287,7 @@ const OBSERVED: f64 = 0.9;
 
 impl ArmFit {
     /// The deviations' whole values.
-    fn values(&self) -> Vec<f64> {
+    pub(super) fn values(&self) -> Vec<f64> {
         let rest = |k| self.fit.extra(ExtraKind::Arm(k)).map_or(0.0, |x: (f64, f64)| x.0);
         self.moved.iter().enumerate().map(|(k, m)| m + rest(k)).collect()
     }

@@ -107,11 +107,13 @@ fn fuse(
     let (determined, open) = name_free(views, fit, best);
     notes.add(open);
     notes.add(Notes::of(known_position::judge(whole, best, views, &config.known)));
-    let (whole, best) = robot.best((whole, best));
+    let without = (whole, best);
+    let (whole, best) = robot.best(without);
     let refined = optics.refined(views.session, best, as_declared);
-    notes.add(robot.notes().then(refined.notes));
     let measured = MeasuredBy { unit_is_free: task.unknown.scale.is_some(), as_declared };
     let workpiece = Workpiece::new(views, volume, best, measured, robot.reach());
+    let compensation = robot.compensation(views, without, &workpiece, config);
+    evidence.notes.add(robot.notes(compensation.as_ref()).then(refined.notes));
     let has_board = views.session.target.is_some();
     let evidence = Evidence {
         determined,
@@ -119,6 +121,7 @@ fn fuse(
         camera: refined.camera,
         depth: refined.depth,
         arm: robot.arm(views, &workpiece),
+        compensation,
         error_budget: budget::budget(whole, best, &workpiece, has_board),
         advice: budget::advice(whole, best, &workpiece, has_board),
         ..evidence

@@ -6,7 +6,7 @@ use crate::{
         notes::Notes,
         result::{
             Advice, Answer, ArmResult, BudgetEntry, CameraResult, Candidate, CaptureResult,
-            DepthResult, Determined, Scale, TipResult, TouchResult, UNJUDGED,
+            CompensationResult, DepthResult, Determined, Scale, TipResult, TouchResult, UNJUDGED,
         },
         views,
     },
@@ -63,6 +63,8 @@ pub(super) struct Evidence {
     pub tip: Option<TipResult>,
     /// The arm, where it deviates.
     pub arm: Option<ArmResult>,
+    /// What correcting the robot's poses by place is worth.
+    pub compensation: Option<CompensationResult>,
 }
 
 /// The answer that was chosen among the candidates.
@@ -171,6 +173,7 @@ impl Evidence {
             scans: None,
             tip: self.tip,
             arm: self.arm,
+            compensation: self.compensation,
             certificate: None,
             warnings,
             findings: vec![],

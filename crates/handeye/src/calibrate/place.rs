@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 use super::{alike::WAY_OF_A_TURN, reach::Reach, workpiece::inflation};
 use crate::{
     Camera, Mount, Point, Pose, Setup, Target,
-    calibrate::{config::Config, limits::MOST_PREDICTED_MM, views::Views},
+    calibrate::{config::Config, limits::MOST_PREDICTED_MM, result::BlockGain, views::Views},
     estimate::{
         JointFit, Problem, Source, joint,
         place::{self, Kernel, Place, Waves},
@@ -52,6 +52,9 @@ pub(super) struct ByPlace {
 
 /// A fit with errors by place.
 pub(super) struct Model {
+    pub kernel: Kernel,
+    /// The problem without such errors.
+    pub plain: Problem,
     pub problem: Problem,
     pub fit: JointFit,
     projection: Projection,
@@ -75,7 +78,7 @@ pub(super) fn look(
     fit: &JointFit,
     config: &Config,
 ) -> Option<ByPlace> {
-    let metric = projection::metric(&points(views));
+    let metric = metric(views);
     let enough = problem.views.len() >= FEWEST_VIEWS && problem.boards.is_empty();
     // of a robot in motion, errors of place and of time are one
     let moves = views.used.iter().any(|o| o.velocity.is_some());
@@ -91,13 +94,14 @@ pub(super) fn look(
         let waves = Waves::new(*kernel, &places);
         let wider = with_waves(views, problem, &waves);
         let expected = place::expected_gain(&wider, fit)?;
-        (expected > NOTICED).then_some((expected, wider))
+        (expected > NOTICED).then_some((expected, (*kernel, wider)))
     };
-    let mut promising: Vec<(f64, Problem)> = kernels.iter().filter_map(promise).collect();
+    let mut promising: Vec<(f64, (Kernel, Problem))> = kernels.iter().filter_map(promise).collect();
     promising.sort_by(|a, b| b.0.total_cmp(&a.0));
     let promising = promising.into_iter().take(MOST_FITTED);
-    let models: Vec<Model> =
-        promising.filter_map(|(_, wider)| Model::new(wider, fit, &metric, config)).collect();
+    let models: Vec<Model> = promising
+        .filter_map(|(_, wider)| Model::new(wider, (problem, fit), &metric, config))
+        .collect();
     let unpromising = (kernels.len() - models.len()) as f64 / kernels.len() as f64;
     let best = (0..models.len()).max_by(|&a, &b| models[a].gain.total_cmp(&models[b].gain))?;
     if models[best].gain < NOTICED {
@@ -129,15 +133,15 @@ pub(super) fn look(
 
 impl Model {
     fn new(
-        problem: Problem,
-        near: &JointFit,
+        (kernel, problem): (Kernel, Problem),
+        (plain, near): (&Problem, &JointFit),
         metric: &Matrix6<f64>,
         config: &Config,
     ) -> Option<Self> {
         let fit = joint::refit(&problem, near, &config.known);
-        let projection = Projection::new(&problem, &fit, metric)?;
+        let projection = Projection::new(&problem, &fit, &fit.values, metric)?;
         let gain = fit.log_likelihood - near.log_likelihood;
-        Some(Self { problem, fit, projection, gain })
+        Some(Self { kernel, plain: plain.clone(), problem, fit, projection, gain })
     }
 
     /// What it says of the rigid answer.
@@ -211,7 +215,7 @@ fn determines(fit: &JointFit, metric: &Matrix6<f64>) -> bool {
 }
 
 /// The problem with the strengths of the waves among its unknowns.
-fn with_waves(views: &Views, problem: &Problem, waves: &Waves) -> Problem {
+pub(super) fn with_waves(views: &Views, problem: &Problem, waves: &Waves) -> Problem {
     let setup = views.session.setup;
     let mut wider = problem.clone();
     let rows = waves.at.row_iter().map(|row| row.transpose());
@@ -220,6 +224,11 @@ fn with_waves(views: &Views, problem: &Problem, waves: &Waves) -> Problem {
     }
     wider.extras.extend(waves.extras(0));
     wider
+}
+
+/// What a residual costs: the mean square over points of the target.
+pub(super) fn metric(views: &Views) -> Matrix6<f64> {
+    projection::metric(&points(views))
 }
 
 /// Points of the target, about the origin of the residuals.
@@ -239,8 +248,8 @@ fn points(views: &Views) -> Vec<Vector3<f64>> {
 }
 
 impl ByPlace {
-    /// That it does, and by how much; `None` where that is open.
-    pub(super) fn finding(&self) -> Option<RobotFinding> {
+    /// That it does, by how much, and what is left where its poses are corrected; `None` where that is open.
+    pub(super) fn finding(&self, corrected: Option<BlockGain>) -> Option<RobotFinding> {
         let model = self.model.as_ref()?;
         let sigma = |source| model.fit.noise.sigma(source).unwrap_or(0.0);
         Some(RobotFinding::ErrsByPlace {
@@ -248,6 +257,7 @@ impl ByPlace {
             rotation_deg: 3f64.sqrt() * sigma(Source::PlaceRotation).to_degrees(),
             missed_mm: (3.0 * model.projection.missed).sqrt() * 1e3,
             gain: model.gain,
+            corrected: corrected.map(|c| (c.corrected_mm, c.rigid_mm)),
         })
     }
 }

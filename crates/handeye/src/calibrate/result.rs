@@ -11,6 +11,7 @@ use crate::{
     Anchor, Base, Camera, Flange, Intrinsics, Mount, Pose, Setup, Target, Verdict, Warning,
     estimate::{
         certify::Certificate,
+        compensation::Compensation,
         evaluate::{Diversity, RmsResidual},
         predict::PredictedTre,
     },
@@ -289,6 +290,35 @@ pub struct ArmHeldOut {
     pub after_mm: Option<f64>,
 }
 
+/// What correcting the robot's poses by place is worth: captures are left out in blocks, those near one another, and
+/// those that follow one another.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CompensationResult {
+    /// Blocks of captures that lie near one another.
+    pub by_place: BlockGain,
+    /// Blocks of captures that follow one another.
+    pub by_time: BlockGain,
+    /// What corrects poses; null where it would not take away a tenth of what is missed.
+    pub model: Option<Compensation>,
+}
+
+impl CompensationResult {
+    /// That of both which gains less.
+    pub fn worse(&self) -> BlockGain {
+        let gain = |g: &BlockGain| g.corrected_mm / g.rigid_mm;
+        if gain(&self.by_place) > gain(&self.by_time) { self.by_place } else { self.by_time }
+    }
+}
+
+/// What captures miss that are left out, mm: root mean square over the points of the target.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BlockGain {
+    /// By the rigid answer.
+    pub rigid_mm: f64,
+    /// With poses corrected.
+    pub corrected_mm: f64,
+}
+
 /// Name of the candidate that knows of the arm's deviations.
 pub const WITH_ARM: &str = "joint-with-arm";
 
@@ -374,6 +404,9 @@ pub struct Calibration {
     /// What is wrong with the arm, where that was looked for and found.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arm: Option<ArmResult>,
+    /// What correcting the robot's poses by place is worth, where it errs so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compensation: Option<CompensationResult>,
     /// What is proven of the least-squares fit, where that was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<Certificate>,
@@ -394,6 +427,29 @@ impl Calibration {
     /// Whether it is a mere pose that comes from elsewhere, without any data to judge it by.
     pub fn is_unjudged(&self) -> bool {
         self.method == UNJUDGED
+    }
+
+    /// What corrects the robot's poses by place; where there is nothing of the kind, why not, in a sentence.
+    ///
+    /// # Errors
+    /// The robot does not err by place as far as the data show, or correcting it does not pay.
+    pub fn correction(&self) -> Result<&Compensation, String> {
+        let found = self.compensation.as_ref().ok_or(
+            "the data of this calibration do not show that the robot errs by place: there is nothing to correct",
+        )?;
+        let (place, time) = (&found.by_place, &found.by_time);
+        if found.model.as_ref().is_some_and(|m| !m.is_whole()) {
+            return Err(
+                "the numbers of its correction do not fit together: was the file changed?".into()
+            );
+        }
+        found.model.as_ref().ok_or_else(|| {
+            format!(
+                "correcting poses does not pay: captures that lie near one another, left out together, are missed by \
+                 {:.3} mm RMS instead of {:.3}, those that follow one another by {:.3} instead of {:.3}",
+                place.corrected_mm, place.rigid_mm, time.corrected_mm, time.rigid_mm
+            )
+        })
     }
 
     /// Process exit code of the verdict: 0 accepted, 3 otherwise.

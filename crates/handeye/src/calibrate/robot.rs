@@ -4,6 +4,8 @@
 
 use super::{
     arm::{self, ArmFit},
+    best_rigid::BestRigid,
+    compensation,
     place::{self, ByPlace},
     reach::{ArmReach, Reach},
     workpiece::Workpiece,
@@ -12,7 +14,7 @@ use crate::{
     calibrate::{
         config::Config,
         notes::Notes,
-        result::{ArmResult, BY_PLACE, WITH_ARM},
+        result::{ArmResult, BY_PLACE, CompensationResult, WITH_ARM},
         views::Views,
     },
     estimate::{JointFit, Problem, predict::Volume},
@@ -22,7 +24,7 @@ use crate::{
 /// The robot as the data have it.
 pub(super) struct Robot {
     arm: Option<ArmFit>,
-    reach: Option<ArmReach>,
+    reach: Option<Box<dyn Reach>>,
     place: Option<ByPlace>,
     /// That its joint values cannot be used.
     inconsistent: Option<RobotFinding>,
@@ -41,7 +43,7 @@ impl Robot {
             Ok(arm) => (arm, None),
             Err(finding) => (None, Some(finding)),
         };
-        let reach = arm.as_ref().and_then(|a| ArmReach::new(views, a, volume));
+        let reach = arm.as_ref().and_then(|a| reach(views, a, volume));
         let place = match &reach {
             Some(_) => None,
             None => place::look(views, problem, fit, config),
@@ -63,7 +65,7 @@ impl Robot {
 
     /// Where such a robot must be sent.
     pub(super) fn reach(&self) -> Option<&dyn Reach> {
-        let of_arm = self.reach.as_ref().map(|r| r as &dyn Reach);
+        let of_arm = self.reach.as_deref();
         of_arm.or(self.place.as_ref().map(|p| p as &dyn Reach))
     }
 
@@ -74,8 +76,9 @@ impl Robot {
     }
 
     /// What is found of it.
-    pub(super) fn notes(&self) -> Notes {
-        let of_place = self.place.as_ref().and_then(ByPlace::finding);
+    pub(super) fn notes(&self, compensation: Option<&CompensationResult>) -> Notes {
+        let corrected = compensation.filter(|c| c.model.is_some()).map(CompensationResult::worse);
+        let of_place = self.place.as_ref().and_then(|p| p.finding(corrected));
         let of_arm = self.arm.as_ref().map(ArmFit::finding);
         Notes::of(self.inconsistent.iter().cloned().chain(of_place).chain(of_arm))
     }
@@ -86,8 +89,35 @@ impl Robot {
         self.arm.as_ref().map(|a| a.as_result(views, tre_mm))
     }
 
+    /// What correcting its poses is worth, where it errs; `without` is the fit in which it does not.
+    pub(super) fn compensation(
+        &self,
+        views: &Views,
+        without: (&Problem, &JointFit),
+        workpiece: &Workpiece,
+        config: &Config,
+    ) -> Option<CompensationResult> {
+        let (rigid, _) = workpiece.rigid()?;
+        match (&self.arm, &self.reach, &self.place) {
+            (Some(arm), Some(_), _) => compensation::by_arm(views, arm, without, &rigid),
+            (_, _, Some(ByPlace { model: Some(model), .. })) => {
+                compensation::by_place(views, model, &rigid, &config.known)
+            }
+            _ => None,
+        }
+    }
+
     /// The fit in which the arm deviates.
     pub(super) fn into_fit_of_arm(self) -> Option<JointFit> {
         self.arm.map(|a| a.fit)
     }
+}
+
+/// Where a robot must be sent that does not know of its arm's deviations: the tool is held as in the touches, or else the
+/// answer is made for the poses of the captures.
+fn reach(views: &Views, arm: &ArmFit, volume: &Volume) -> Option<Box<dyn Reach>> {
+    if arm.problem.boards.is_empty() {
+        return Some(Box::new(BestRigid::new(views, arm)?));
+    }
+    Some(Box::new(ArmReach::new(views, arm, volume)?))
 }

@@ -9,6 +9,7 @@
 //! [`crate::solve::least_squares`].
 
 pub mod certify;
+pub mod compensation;
 pub mod drift;
 pub mod evaluate;
 pub mod extra;

@@ -17,7 +17,8 @@
 //! R. Schneider, *On the low-rank approximation by the pivoted Cholesky decomposition*, Applied Numerical Mathematics
 //! 62, 2012.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix6};
+use serde::{Deserialize, Serialize};
 
 use super::{
     JointFit, Problem, Sigma, Source,
@@ -27,18 +28,19 @@ use super::{
 use crate::{Base, Flange, Pose, Setup, math::lie};
 
 /// Where the robot is.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Place {
-    position: Vector3<f64>,
-    rotation: Matrix3<f64>,
-    joints: Vec<f64>,
+    /// What the robot says.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// Its joint values (rad); none where they are not known.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<f64>,
 }
 
 impl Place {
     /// The flange in the base, and the joint values (rad) where they are known.
     pub fn new(base_from_flange: &Pose<Base, Flange>, joints: &[f64]) -> Self {
-        let (position, rotation) = (base_from_flange.translation(), base_from_flange.rotation());
-        Self { position, rotation, joints: joints.to_vec() }
+        Self { base_from_flange: *base_from_flange, joints: joints.to_vec() }
     }
 
     /// Whether joint values are known.
@@ -48,13 +50,16 @@ impl Place {
 }
 
 /// How errors at two places go together.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Kernel {
     /// By the distance of the flange (m) and its turn (rad) over which errors change.
     Pose {
         /// Metres.
+        #[serde(rename = "distance_m")]
         distance: f64,
         /// Radians.
+        #[serde(rename = "angle_rad")]
         angle: f64,
     },
     /// By the joint values, each on its own: errors change over this angle, rad.
@@ -75,8 +80,9 @@ impl Kernel {
     pub fn at(&self, a: &Place, b: &Place) -> f64 {
         match self {
             Self::Pose { distance, angle } => {
-                let way = (a.position - b.position).norm_squared() / distance.powi(2);
-                let turn = (a.rotation - b.rotation).norm_squared() / (2.0 * angle.powi(2));
+                let (a, b) = (&a.base_from_flange, &b.base_from_flange);
+                let way = (a.translation() - b.translation()).norm_squared() / distance.powi(2);
+                let turn = (a.rotation() - b.rotation()).norm_squared() / (2.0 * angle.powi(2));
                 (-0.5 * (way + turn)).exp()
             }
             Self::Joints(length) => {
@@ -102,24 +108,41 @@ const MOST_ABOUT: usize = 40;
 pub struct Waves {
     /// The waves, a row for each of the given places.
     pub(crate) at: DMatrix<f64>,
+    /// The places that they are about.
+    pub(crate) about: Vec<Place>,
+    /// How much the correlation with each of those, a row, adds to each wave.
+    pub(crate) by_about: DMatrix<f64>,
 }
 
 impl Waves {
-    /// Waves over these places.
+    /// Waves over these places, as many as tell whether there are any.
     pub fn new(kernel: Kernel, places: &[Place]) -> Self {
-        let all = pivoted_cholesky(kernel, places);
+        Self::at_most(kernel, places, MOST, LEFT)
+    }
+
+    /// The same and more of them, as many as tell how the robot errs elsewhere.
+    pub fn fine(kernel: Kernel, places: &[Place]) -> Self {
+        Self::at_most(kernel, places, 2 * MOST, 0.4 * LEFT)
+    }
+
+    fn at_most(kernel: Kernel, places: &[Place], most: usize, least: f64) -> Self {
+        let (all, pivots) = pivoted_cholesky(kernel, places);
         let m = all.ncols();
         let eigen = all.tr_mul(&all).symmetric_eigen();
         let mut order: Vec<usize> = (0..m).collect();
         order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
         let mut left = places.len() as f64;
         order.retain(|&k| {
-            let is_kept = left > LEFT * places.len() as f64;
+            let is_kept = left > least * places.len() as f64;
             left -= eigen.eigenvalues[k];
             is_kept
         });
-        order.truncate(MOST);
-        Self { at: all * eigen.eigenvectors.select_columns(&order) }
+        order.truncate(most);
+        let waves = eigen.eigenvectors.select_columns(&order);
+        let triangle = all.select_rows(&pivots);
+        let by_about = triangle.transpose().solve_upper_triangular(&waves).unwrap_or(waves.clone());
+        let about = pivots.iter().map(|&i| places[i].clone()).collect();
+        Self { at: all * waves, about, by_about }
     }
 
     /// How many there are.
@@ -145,11 +168,11 @@ impl Waves {
     }
 }
 
-/// `L` with `K ≈ L Lᵀ`, column by column: next is always the place of which least is known.
-fn pivoted_cholesky(kernel: Kernel, places: &[Place]) -> DMatrix<f64> {
+/// `L` with `K ≈ L Lᵀ`, column by column, and the place of each: next is always that of which least is known.
+fn pivoted_cholesky(kernel: Kernel, places: &[Place]) -> (DMatrix<f64>, Vec<usize>) {
     let n = places.len();
     let mut left = DVector::repeat(n, 1.0);
-    let mut columns: Vec<DVector<f64>> = vec![];
+    let (mut columns, mut pivots): (Vec<DVector<f64>>, Vec<usize>) = (vec![], vec![]);
     while columns.len() < MOST_ABOUT.min(n) && left.sum() > 0.1 * LEFT * n as f64 {
         let pivot = left.imax();
         let scale = left[pivot].sqrt();
@@ -160,12 +183,13 @@ fn pivoted_cholesky(kernel: Kernel, places: &[Place]) -> DMatrix<f64> {
         left.zip_apply(&column, |l, c| *l = (*l - c * c).max(0.0));
         left[pivot] = 0.0;
         columns.push(column);
+        pivots.push(pivot);
     }
-    DMatrix::from_fn(n, columns.len(), |i, k| columns[k][i])
+    (DMatrix::from_fn(n, columns.len(), |i, k| columns[k][i]), pivots)
 }
 
 /// How a twist in the axes of the base, at the flange, moves the flange: perturbed on the right.
-fn of_flange(flange: &Pose<Base, Flange>) -> Matrix6<f64> {
+pub(crate) fn of_flange(flange: &Pose<Base, Flange>) -> Matrix6<f64> {
     let back = flange.rotation().transpose();
     let mut m = Matrix6::zeros();
     m.fixed_view_mut::<3, 3>(0, 0).copy_from(&back);
@@ -256,6 +280,12 @@ mod tests {
             assert!(off.diagonal().min() > -1e-9, "{}", off.diagonal().min());
             let carried = off.diagonal().sum() <= 0.05 * 25.0;
             assert!(carried || waves.len() == MOST, "{} waves", waves.len());
+            let again = |i: usize| {
+                let near = waves.about.iter().map(|p| kernel.at(&all[i], p));
+                waves.by_about.tr_mul(&DVector::from_iterator(waves.about.len(), near))
+            };
+            let off = (0..25).map(|i| (again(i) - waves.at.row(i).transpose()).amax());
+            assert!(off.fold(0.0, f64::max) < 1e-9);
         }
     }
 

@@ -21,19 +21,20 @@
 //! calibration for imperfect computer models*, Annals of Statistics 43, 2015; the last is HC3 of J. MacKinnon and
 //! H. White, Journal of Econometrics 29, 1985.
 
-use nalgebra::{DMatrix, Matrix6, SMatrix, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, SMatrix, Vector3, Vector6};
 
 use super::{JointFit, Problem};
 use crate::{
+    HandEye,
     math::{lie, linalg},
-    solve::least_squares::{Matrix12, Vector12, residual_with_jacobian},
+    solve::least_squares::{self, Matrix12, Vector12, residual_with_jacobian},
 };
 
 type Matrix6x12 = SMatrix<f64, 6, 12>;
 
 /// The rigid answer beside a fit with errors by place.
 pub(crate) struct Projection {
-    /// `Γ`, a column for each extra of the fit; zero for all but those of places.
+    /// `Γ`, a column for each extra of the fit; zero for all but those of the robot.
     pub carry: DMatrix<f64>,
     /// `Γ b`: the step from the fit to the rigid answer.
     pub step: Vector12,
@@ -61,27 +62,24 @@ struct Row {
 }
 
 impl Projection {
-    /// `None` where the captures do not determine an answer.
-    pub fn new(problem: &Problem, fit: &JointFit, metric: &Matrix6<f64>) -> Option<Self> {
-        let rows: Vec<Row> = (0..problem.views.len()).map(|i| row(problem, fit, i)).collect();
+    /// `values` are those of the fit's extras; of an arm about which the fit is linear, whole ones. `None` where the
+    /// captures do not determine an answer.
+    pub fn new(
+        problem: &Problem,
+        fit: &JointFit,
+        values: &DVector<f64>,
+        metric: &Matrix6<f64>,
+    ) -> Option<Self> {
         let n = problem.extras.len();
-        let (mut squares, mut mixed) = (DMatrix::zeros(12, 12), DMatrix::zeros(12, n));
-        for row in &rows {
-            let jw = row.j.transpose() * metric;
-            squares += jw * row.j;
-            mixed += jw * &row.by_extras;
-        }
-        let inverse = linalg::inverse_spd(&squares)?;
-        // by_extras is ∂r/∂b, and r = J (δ' - δ) - (∂r/∂b) b without noise
-        let carry = &inverse * mixed;
-        let step = &carry * &fit.values;
+        let rows: Vec<Row> = (0..problem.views.len()).map(|i| row(problem, fit, i)).collect();
+        let (carry, inverse) = carry(rows.iter(), n, metric)?;
+        let step = &carry * values;
         let covariance = fit.covariance.as_ref()?;
         let own = covariance.view((12, 12), (n, n));
-        let inverse = Matrix12::from_iterator(inverse.iter().copied());
         let (mut sum, mut missed) = (Matrix12::zeros(), 0.0);
         for row in &rows {
             let left = row.j * &carry - &row.by_extras;
-            let e: Vector6<f64> = Vector6::from_iterator((&left * &fit.values).iter().copied());
+            let e: Vector6<f64> = Vector6::from_iterator((&left * values).iter().copied());
             let open = &left * own * left.transpose();
             missed += e.dot(&(metric * e)) + (metric * open).trace();
             let leverage = row.j * inverse * row.j.transpose() * metric;
@@ -104,6 +102,71 @@ impl Projection {
     }
 }
 
+/// `Γ` over these rows, and `(Σ JᵀWJ)⁻¹`; `n` extras.
+fn carry<'a>(
+    rows: impl Iterator<Item = &'a Row>,
+    n: usize,
+    metric: &Matrix6<f64>,
+) -> Option<(DMatrix<f64>, Matrix12)> {
+    let (mut squares, mut mixed) = (DMatrix::zeros(12, 12), DMatrix::zeros(12, n));
+    for row in rows {
+        let jw = row.j.transpose() * metric;
+        squares += jw * row.j;
+        mixed += jw * &row.by_extras;
+    }
+    let inverse = linalg::inverse_spd(&squares)?;
+    // by_extras is ∂r/∂b, and r = J (δ' - δ) - (∂r/∂b) b without noise
+    let carry = &inverse * mixed;
+    Some((carry, Matrix12::from_iterator(inverse.iter().copied())))
+}
+
+/// Which answer is asked for what it misses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Asked {
+    /// The rigid one.
+    Rigid,
+    /// The fit's, errors by place taken away as it tells them.
+    Whole,
+}
+
+/// What views miss (m, root mean square over points of the target) that are left out in groups, with the noise as it
+/// is.
+pub(crate) fn missed_without(
+    problem: &Problem,
+    fit: &JointFit,
+    (asked, metric): (Asked, &Matrix6<f64>),
+    groups: &[Vec<usize>],
+) -> Option<f64> {
+    let n = problem.extras.len();
+    let rows: Vec<Row> = (0..problem.views.len()).map(|i| row(problem, fit, i)).collect();
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (group, step) in groups.iter().zip(fit.steps_without(problem, groups)?) {
+        let mut values = &fit.values + step.by_others.rows(12, n);
+        let mut own = step.by_others.rows(0, 12).into_owned();
+        if asked == Asked::Rigid {
+            let others = rows.iter().enumerate().filter(|(i, _)| !group.contains(i));
+            own += carry(others.map(|(_, row)| row), n, metric)?.0 * &values;
+            let by_place = fit.extras.iter().map(|e| e.kind.level().is_some());
+            values.iter_mut().zip(by_place).for_each(|(v, is)| *v = if is { 0.0 } else { *v });
+        }
+        let answer = moved(&fit.hand_eye, &own);
+        for &i in group {
+            let pair = problem.views[i].with(&fit.extras, &values);
+            let r = least_squares::residual(&answer, &pair);
+            sum += r.dot(&(metric * r));
+            count += 1.0;
+        }
+    }
+    Some(f64::sqrt(sum / count))
+}
+
+fn moved(at: &HandEye, step: &DVector<f64>) -> HandEye {
+    HandEye {
+        mount_from_camera: at.mount_from_camera.retract(&step.fixed_rows::<6>(0).into_owned()),
+        anchor_from_target: at.anchor_from_target.retract(&step.fixed_rows::<6>(6).into_owned()),
+    }
+}
+
 fn row(problem: &Problem, fit: &JointFit, i: usize) -> Row {
     let view = &problem.views[i];
     let (_, j) = residual_with_jacobian(&fit.hand_eye, &view.with(&fit.extras, &fit.values));
@@ -111,7 +174,7 @@ fn row(problem: &Problem, fit: &JointFit, i: usize) -> Row {
     let carried = by_x * lie::adjoint(fit.hand_eye.mount_from_camera.inverse().iso());
     let mut by_extras = DMatrix::zeros(6, problem.extras.len());
     for (k, extra) in problem.extras.iter().enumerate() {
-        if let (Some(_), Some(which)) = (extra.kind.level(), extra.kind.of_robot()) {
+        if let Some(which) = extra.kind.of_robot() {
             by_extras.set_column(k, &(carried * view.by_robot(which)));
         }
     }

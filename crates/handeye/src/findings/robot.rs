@@ -55,6 +55,8 @@ pub enum RobotFinding {
         missed_mm: f64,
         /// By how much the logarithm of the likelihood gains.
         gain: f64,
+        /// What captures miss that are left out in blocks (mm), with poses corrected and without, where that is offered.
+        corrected: Option<(f64, f64)>,
     },
     /// Joint values do not lead to the flange pose beside them.
     JointsAndPosesDiffer {
@@ -126,12 +128,20 @@ impl RobotFinding {
             Self::ArmDeviates { parameters, before_mm, after_mm } => format!(
                 "the arm differs from its model: with {parameters} parameters corrected, the error of the robot's position is {after_mm:.2} mm per axis instead of {before_mm:.2} mm. The result contains the corrected model (key `arm`), and the camera's pose for a robot that uses it; the answer itself is for the robot as it is"
             ),
-            Self::ErrsByPlace { position_mm, rotation_deg, missed_mm, .. } => format!(
-                "this robot errs from place to place, by about {position_mm:.2} mm{}: at the captures, no fixed transform does better than {missed_mm:.2} mm RMS. More captures do not change that; a robot whose joints are calibrated, or captures only where it works, do",
+            Self::ErrsByPlace { position_mm, rotation_deg, missed_mm, corrected, .. } => format!(
+                "this robot errs from place to place, by about {position_mm:.2} mm{}: at the captures, no fixed transform does better than {missed_mm:.2} mm RMS. More captures do not change that; {}",
                 if *rotation_deg < 5e-4 {
                     String::new()
                 } else {
                     format!(" and {rotation_deg:.3} degrees")
+                },
+                match corrected {
+                    Some((with, without)) => format!(
+                        "corrected poses (`handeye compensate`) do: captures left out in blocks are missed by {with:.2} mm RMS then, and by {without:.2} mm otherwise"
+                    ),
+                    None =>
+                        "a robot whose joints are calibrated, or captures only where it works, do"
+                            .into(),
                 }
             ),
             Self::JointsAndPosesDiffer { at } => format!(
@@ -188,12 +198,16 @@ impl Found for RobotFinding {
             Self::ArmDeviates { before_mm, after_mm, .. } => {
                 vec![("before_mm", *before_mm), ("after_mm", *after_mm)]
             }
-            Self::ErrsByPlace { position_mm, rotation_deg, missed_mm, gain } => vec![
-                ("position_mm", *position_mm),
-                ("rotation_deg", *rotation_deg),
-                ("missed_mm", *missed_mm),
-                ("log_likelihood_gain", *gain),
-            ],
+            Self::ErrsByPlace { position_mm, rotation_deg, missed_mm, gain, corrected } => {
+                let corrected = corrected.map(|(with, _)| ("corrected_mm", with));
+                let own = [
+                    ("position_mm", *position_mm),
+                    ("rotation_deg", *rotation_deg),
+                    ("missed_mm", *missed_mm),
+                    ("log_likelihood_gain", *gain),
+                ];
+                own.into_iter().chain(corrected).collect()
+            }
             Self::OtherConvention { .. } | Self::JointsAndPosesDiffer { .. } => vec![],
             Self::DeterminedByKnownPosition { given_mm, .. } => vec![("given_mm", *given_mm)],
             Self::KnownPositionDisagrees { given_mm, found_mm } => {
