@@ -126,6 +126,12 @@ int main(int count, char **words) {
     expect(answer.find("\"flange_from_camera\"") != std::string::npos, "its answer has a name");
     std::printf("%.100s...\n", answer.c_str());
 
+    std::vector<double> sent(robot.size());
+    status = handeye_compensate(answer.c_str(), 0, 12, robot.data(), sent.data(), nullptr, &error);
+    expect(status == HANDEYE_NOT_ACCEPTED && std::strstr(error, "nothing to correct") != nullptr, "an exact robot is not corrected");
+    handeye_free(error);
+    expect(handeye_compensate("{}", 0, 12, robot.data(), sent.data(), nullptr, nullptr) == HANDEYE_UNUSABLE, "no calibration is refused");
+
     status = solve("{\"setup\":\"eye-in-hand\",\"pairs\":[}", answer);
     expect(status == HANDEYE_UNUSABLE && answer.find("\"error\"") != std::string::npos, "broken text is refused");
     std::printf("%s\n", answer.c_str());

@@ -66,6 +66,7 @@ fn full(errors: RobotErrors) -> Calibration {
             note: Some("n".into()),
         }],
         predicted_tre_mm: Some(PredictedTre {
+            at_task_p95: Some(0.0),
             rms: 0.0,
             p95: 0.0,
             r#where: "w".into(),

@@ -14,7 +14,7 @@ import pytest
 import handeye
 from handeye import Pose
 
-from cell import X, Y, about_one_axis, cell, rotation
+from cell import X, Y, about_one_axis, cell, pose, rotation, seen
 
 
 def test_poses_multiply_where_their_inner_frames_agree():
@@ -62,6 +62,42 @@ def test_poses_go_through_pickle_and_dict():
     again = Pose.from_dict(json.loads(json.dumps(pose.to_dict())))
     assert np.allclose(again.matrix, pose.matrix) and again.name == pose.name
     assert hash(pickle.loads(pickle.dumps(pose))) == hash(pose)
+
+
+def off_by_place(count, size, first=0):
+    """What a robot reports that stands off by up to ``size`` (m), smoothly from place to place, and what is seen."""
+    reported, seen_there = [], []
+    for k in range(first, first + count):
+        wave = lambda n: np.sin(k * n + 0.3 * n * n)
+        turn = [3.0 + 0.5 * wave(1.1), 0.1 + 0.5 * wave(2.3), 0.2 + 0.6 * wave(3.7)]
+        really = pose(turn, [0.5 + 0.2 * wave(1.7), 0.2 * wave(2.9), 0.5 + 0.15 * wave(4.3)])
+        p = really[:3, 3]
+        off = np.array([np.sin(9 * p[1]), np.sin(8 * p[2]), np.cos(10 * p[0])]) * size
+        reported.append(pose([0, 0, 0], off) @ really)
+        noise = np.random.default_rng(k)
+        error = pose(1e-4 * noise.normal(size=3), 3e-5 * noise.normal(size=3))
+        seen_there.append(seen(really) @ error)
+    return np.array(reported), np.array(seen_there)
+
+
+def test_poses_of_a_robot_that_errs_by_place_are_corrected():
+    found = handeye.solve(*off_by_place(40, 1e-3))
+    reported, camera = off_by_place(40, 1e-3, first=100)
+    corrected = found.compensate(reported, reported=True)
+    spread = lambda flanges: np.std(
+        [(f @ found.pose.matrix @ c)[:3, 3] for f, c in zip(flanges, camera)], axis=0
+    )
+    flanges = [one.base_from_flange.matrix for one in corrected]
+    assert np.linalg.norm(spread(flanges)) < 0.4 * np.linalg.norm(spread(reported))
+    assert sum(one.inside for one in corrected) > 30
+    covariance = corrected[0].covariance
+    assert covariance.shape == (6, 6) and np.all(np.linalg.eigvalsh(covariance) > 0)
+    sent = found.compensate([one.base_from_flange for one in corrected[:3]])
+    assert all(one.base_from_flange.name == "base_from_flange" for one in sent)
+    again = handeye.Calibration.from_dict(found.to_dict()).compensate(reported[:2], reported=True)
+    assert np.array_equal(again[1].base_from_flange.matrix, flanges[1])
+    with pytest.raises(handeye.NotDetermined, match="nothing to correct|does not pay"):
+        handeye.solve(*off_by_place(40, 0.0)).compensate(reported)
 
 
 @pytest.mark.parametrize("setup", ["eye-in-hand", "eye-to-hand"])

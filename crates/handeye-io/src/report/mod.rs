@@ -218,6 +218,9 @@ fn facts(c: &Calibration) -> Vec<(String, String)> {
     if let Some(tre) = c.predicted_tre_mm.as_ref().filter(|_| c.verdict != Verdict::Rejected) {
         all.push((format!("{:.2} mm", tre.p95), "predicted error, 95 %".to_owned()));
         all.push((format!("{:.2} mm", tre.rms), "predicted error, RMS".to_owned()));
+        if let Some(mm) = tre.at_task_p95 {
+            all.push((format!("{mm:.2} mm"), "95 %, with the robot's own errors".to_owned()));
+        }
     }
     if let Some(t) = c.held_out.translation_rms_mm {
         let r = c.held_out.rotation_rms_deg.map_or(String::new(), |r| format!(" / {r:.2}&deg;"));

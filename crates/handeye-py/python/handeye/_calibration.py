@@ -151,9 +151,9 @@ class Calibration:
 
     @property
     def predicted_tre_mm(self) -> Optional[Dict[str, Any]]:
-        """Predicted error where the answer will be used: ``rms``, ``p95`` and ``where``."""
+        """Predicted error where the answer will be used: ``rms``, ``p95`` and ``where``; ``at_task_p95`` with what the robot errs."""
         tre = self._known["predicted_tre_mm"]
-        return None if tre is None else {key: tre[key] for key in ("rms", "p95", "where")}
+        return None if tre is None else {key: tre[key] for key in ("rms", "p95", "at_task_p95", "where") if key in tre}
 
     @property
     def rejected(self) -> List[str]:

@@ -62,6 +62,10 @@ impl Reach for BestRigid {
         j * sampling * j.transpose() + Matrix3::identity() * (poses * self.missed)
     }
 
+    fn share_of_noise(&self) -> f64 {
+        1.0
+    }
+
     fn by_unknowns(&self, p: &Vector3<f64>) -> Vec<(usize, Vector3<f64>)> {
         let by = point_jacobian(p) * self.projection.carry.fixed_rows::<6>(0);
         self.deviations.iter().map(|&k| (12 + k, by.column(k).into_owned())).collect()

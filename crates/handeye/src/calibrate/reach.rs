@@ -26,6 +26,11 @@ pub(super) trait Reach {
     /// How far that differs from way to way, m².
     fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64>;
 
+    /// Which share of what the robot errs from pose to pose is in that already.
+    fn share_of_noise(&self) -> f64 {
+        0.0
+    }
+
     /// How that moves with the unknowns of the robot, by their number among all.
     fn by_unknowns(&self, p: &Vector3<f64>) -> Vec<(usize, Vector3<f64>)>;
 

@@ -7,10 +7,10 @@ use super::{
     reach::Reach,
 };
 use crate::{
-    Camera, Mount, Pose, Setup, Target, Workspace,
+    Camera, HandEye, Mount, Pose, Setup, Target, Workspace,
     calibrate::views::{Views, pairs_of},
     estimate::{
-        JointFit,
+        JointFit, Source,
         predict::{self, PredictedTre, Volume},
         touches,
     },
@@ -113,7 +113,30 @@ impl<'a> Workpiece<'a> {
     pub fn tre(&self, x: &Pose<Mount, Camera>) -> Option<PredictedTre> {
         let own = self.spread.as_ref()?.iter().zip(&self.volume.points);
         let spread: Vec<Matrix3<f64>> = own.map(|(s, p)| s + self.scatter(p)).collect();
-        Some(predict::tre_of_points(self.volume, &spread, self.offset(x)))
+        let of_robot = self.volume.points.iter().map(|p| Matrix3::identity() * self.once(p));
+        let once: Vec<Matrix3<f64>> = spread.iter().zip(of_robot).map(|(s, o)| s + o).collect();
+        let at_task = predict::tre_of_points(self.volume, &once, self.offset(x));
+        let tre = predict::tre_of_points(self.volume, &spread, self.offset(x));
+        Some(PredictedTre { at_task_p95: Some(at_task.p95), ..tre })
+    }
+
+    /// Variance per axis (m²) of what the robot errs from pose to pose, where it goes to a point once, as far as it is
+    /// not in the scatter. Tools are about as far from the flange as target and camera are.
+    fn once(&self, p: &Vector3<f64>) -> f64 {
+        let of = |source| self.best.noise.sigma(source).unwrap_or(0.0).powi(2);
+        let (turn, shift) = (of(Source::RobotRotation), of(Source::RobotPosition));
+        let HandEye { mount_from_camera: x, anchor_from_target: y } = &self.best.hand_eye;
+        // two of three axes turn a point
+        let by_turn = |lever: f64| turn * lever * 2.0 / 3.0;
+        let variance = match self.views.session.setup {
+            Setup::EyeToHand => shift + by_turn(y.translation().norm_squared()),
+            // the camera looks from one pose, and the tool goes to another one
+            Setup::EyeInHand => {
+                let (seen, tool) = (x.rotation() * p + x.translation(), x.translation());
+                2.0 * shift + by_turn(seen.norm_squared() + tool.norm_squared())
+            }
+        };
+        variance * (1.0 - self.reach.map_or(0.0, Reach::share_of_noise))
     }
 
     fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64> {

@@ -20,6 +20,9 @@ pub struct PredictedTre {
     pub rms: f64,
     /// 95 of 100 points are off by less.
     pub p95: f64,
+    /// The same as `p95` for a robot that goes to a point once: with what it errs from pose to pose.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_task_p95: Option<f64>,
     /// Which volume, in words.
     pub r#where: String,
     /// The error in three slices through the volume.
@@ -30,15 +33,19 @@ pub struct PredictedTre {
 impl PredictedTre {
     /// With an error (RMS, mm) that is independent of it, whose 95 % point is so many times as large.
     pub(crate) fn widened(self, rms_mm: f64, p95_over_rms: f64) -> Self {
-        let (rms, p95) = (self.rms.hypot(rms_mm), self.p95.hypot(p95_over_rms * rms_mm));
-        Self { rms, p95, ..self }
+        let wide = |p95: f64| p95.hypot(p95_over_rms * rms_mm);
+        let at_task_p95 = self.at_task_p95.map(wide);
+        Self { rms: self.rms.hypot(rms_mm), p95: wide(self.p95), at_task_p95, ..self }
     }
 
     /// As the reason of an accepted answer.
     pub(crate) fn in_words(&self) -> String {
         let Self { p95, r#where: volume, rms, .. } = self;
+        let at_task = self.at_task_p95.map_or(String::new(), |mm| {
+            format!("; {mm:.2} mm for 95 % with what the robot errs from pose to pose")
+        });
         format!(
-            "predicted position error: {p95:.2} mm for 95 % of the points in {volume}; {rms:.2} mm RMS"
+            "predicted position error: {p95:.2} mm for 95 % of the points in {volume}; {rms:.2} mm RMS{at_task}"
         )
     }
 }
@@ -155,6 +162,7 @@ pub(crate) fn tre_of_points(
         rms: rms * 1e3,
         // where a few far points carry most of the mean square, the rest is no bound for them
         p95: quantile95(&moments).max(rms) * 1e3,
+        at_task_p95: None,
         r#where: volume.name.clone(),
         map: None,
     }
