@@ -7,7 +7,7 @@ mod vision;
 use handeye::Setup;
 use nalgebra::Isometry3;
 
-use crate::robot::{NAMES, Notation};
+use crate::robot::{self, Notation};
 
 /// Where the camera sits, in the words of the program that shall read it.
 #[derive(Debug, Clone)]
@@ -64,8 +64,7 @@ const PROGRAMS: [&str; 8] = [
 impl Format {
     /// Names of all formats.
     pub fn names() -> Vec<&'static str> {
-        let robots = NAMES.into_iter().filter(|n| *n != "joints");
-        PROGRAMS.into_iter().chain(robots).collect()
+        PROGRAMS.into_iter().chain(robot::names()).collect()
     }
 
     /// The format of a name; `Err` says which there are.
