@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
+use handeye::{Method, solve::Form};
 use handeye_io::units::LengthUnit;
 
 /// Hand-eye calibration: the pose of the camera on the robot flange or in the robot base, with its uncertainty.
@@ -81,6 +82,16 @@ pub enum Command {
     },
 }
 
+/// The help of `--method`: the names of published methods, by the equation that they solve.
+fn published_methods() -> String {
+    let named = |form: &Form| {
+        let all = Method::ALL.into_iter().filter(|m| m.form() == *form).map(Method::name);
+        format!("{}: {}", form.equation(), all.collect::<Vec<_>>().join(", "))
+    };
+    let forms: Vec<String> = Form::ALL.iter().map(named).collect();
+    format!("Run one published method as published; {}", forms.join("; "))
+}
+
 /// Arguments of `solve`.
 #[derive(Args)]
 #[command(
@@ -93,11 +104,8 @@ or, instead of `pairs`, two streams by two clocks (camera time = robot time + ti
 pub struct SolveArgs {
     /// JSON file with `setup` and `pairs`, or `robot` and `camera`.
     pub pairs: PathBuf,
-    /// Run one published method as published; A X = Y B: shah, zhuang, dornaika-horaud, li,
-    /// tabb-ahmad-yousef-c1, tabb-ahmad-yousef-c2; A X = X B: park-martin, daniilidis, tsai-lenz,
-    /// shiu-ahmad, chou-kamel, horaud-dornaika, horaud-dornaika-nonlinear, andreff,
-    /// andreff-scaled, lu-chou, wu.
-    #[arg(long)]
+    /// Run one published method as published, by its name.
+    #[arg(long, help = published_methods())]
     pub method: Option<String>,
     /// Try to prove that the least-squares solution is the global optimum.
     #[arg(long)]
