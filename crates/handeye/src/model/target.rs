@@ -15,12 +15,14 @@ mod families;
 mod family;
 pub(crate) mod kinds;
 mod layout;
+pub(crate) mod look;
 
 pub(crate) use kinds::PlacedTag;
 pub use kinds::{AprilTagFamily, TargetModel};
 
 use crate::{Error, Point, Target};
 use family::Turns;
+use look::Look;
 
 use super::{print::Art, texture::Texture};
 
@@ -63,6 +65,11 @@ impl TargetModel {
         self.family(|family| family.disc_diameter_mm(id))
     }
 
+    /// What there is to see of it.
+    pub(crate) fn look(&self) -> Look {
+        self.family(|family| family.look())
+    }
+
     /// Number of corners.
     pub fn len(&self) -> usize {
         let (columns, rows) = self.grid();
@@ -85,7 +92,11 @@ impl TargetModel {
     /// The point at which residuals are stated: the first inner corner, or the centre of a tag.
     pub fn reference(&self) -> Point<Target> {
         let origin = Point::new(0.0, 0.0, 0.0);
-        if matches!(self, Self::Tag { .. }) { origin } else { self.corner(0).unwrap_or(origin) }
+        if matches!(self.look(), Look::Tag { .. }) {
+            origin
+        } else {
+            self.corner(0).unwrap_or(origin)
+        }
     }
 
     /// The middle of all corners.

@@ -7,6 +7,7 @@ use super::{
     check,
     families::*,
     kinds::{PlacedTag, TargetModel},
+    look::{Circles, Look},
 };
 use crate::{
     Error,
@@ -26,6 +27,9 @@ pub(super) enum Turns {
 
 /// The corners, the print and the symmetries of one family. Positions are in metres, in the plane of the board.
 pub(super) trait Family {
+    /// What there is to see of it.
+    fn look(&self) -> Look;
+
     /// Columns and rows of corners.
     fn grid(&self) -> (u32, u32);
 

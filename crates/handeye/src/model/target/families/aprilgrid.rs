@@ -13,6 +13,7 @@ use crate::{
             family::{Family, Markers},
             kinds::{AprilTagFamily, PlacedTag},
             layout,
+            look::{Look, Tags},
         },
         texture::Texture,
     },
@@ -62,6 +63,16 @@ impl Aprilgrid {
 }
 
 impl Family for Aprilgrid {
+    fn look(&self) -> Look {
+        Look::Tags(Tags {
+            dictionary: self.family.dictionary().into(),
+            first_id: self.first_id,
+            border_bits: self.border_bits,
+            gap: self.spacing,
+            joined: self.corner_squares,
+        })
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.tags_x.saturating_mul(2), self.tags_y.saturating_mul(2))
     }

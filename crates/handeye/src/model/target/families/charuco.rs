@@ -10,6 +10,7 @@ use crate::{
         target::{
             check,
             family::{Family, Markers},
+            look::{Look, MarkedSquares},
         },
         texture::Texture,
     },
@@ -32,6 +33,16 @@ impl Charuco<'_> {
 }
 
 impl Family for Charuco<'_> {
+    fn look(&self) -> Look {
+        Look::MarkedSquares(MarkedSquares {
+            squares: (self.squares_x, self.squares_y),
+            share: self.marker_mm / self.square_mm,
+            white_first: self.white_first(),
+            dictionary: self.dictionary.into(),
+            first_id: self.first_id,
+        })
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.squares_x.saturating_sub(1), self.squares_y.saturating_sub(1))
     }

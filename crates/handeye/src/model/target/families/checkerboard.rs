@@ -9,7 +9,10 @@ use crate::{
     Error, TargetModel,
     model::{
         print::{self, Art},
-        target::family::{Family, Turns},
+        target::{
+            family::{Family, Turns},
+            look::Look,
+        },
         texture::Texture,
     },
 };
@@ -21,6 +24,10 @@ pub(in crate::model::target) struct Checkerboard {
 }
 
 impl Family for Checkerboard {
+    fn look(&self) -> Look {
+        Look::Squares
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.columns, self.rows)
     }

@@ -12,6 +12,7 @@ use crate::{
         target::{
             check,
             family::{Family, Turns},
+            look::{Circles, Look},
         },
         texture::Texture,
     },
@@ -23,15 +24,6 @@ const DISC_SHARE: f64 = 0.5;
 /// between neighbours: circles of 10 and 20 mm, 25 mm apart.
 const MODIFIED_SHARES: (f64, f64) = (0.4, 0.8);
 
-/// How the circles are arranged.
-pub(in crate::model::target) enum Circles {
-    Plain,
-    /// Every second row is shifted.
-    Asymmetric,
-    /// The one at the bottom left is larger.
-    WithLarger,
-}
-
 pub(in crate::model::target) struct CircleGrid {
     pub circles: Circles,
     pub columns: u32,
@@ -40,6 +32,10 @@ pub(in crate::model::target) struct CircleGrid {
 }
 
 impl Family for CircleGrid {
+    fn look(&self) -> Look {
+        Look::Circles(self.circles)
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.columns, self.rows)
     }

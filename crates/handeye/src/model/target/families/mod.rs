@@ -11,7 +11,7 @@ mod tag_grid;
 pub(super) use aprilgrid::Aprilgrid;
 pub(super) use charuco::Charuco;
 pub(super) use checkerboard::Checkerboard;
-pub(super) use circles::{CircleGrid, Circles};
+pub(super) use circles::CircleGrid;
 pub(super) use sphere::Sphere;
 pub(super) use tag::Tag;
 pub(super) use tag_grid::TagGrid;

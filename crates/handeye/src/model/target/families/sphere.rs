@@ -4,7 +4,11 @@ use nalgebra::Vector2;
 
 use crate::{
     Error, TargetModel,
-    model::{print::Art, target::family::Family, texture::Texture},
+    model::{
+        print::Art,
+        target::{family::Family, look::Look},
+        texture::Texture,
+    },
 };
 
 pub(in crate::model::target) struct Sphere {
@@ -12,6 +16,10 @@ pub(in crate::model::target) struct Sphere {
 }
 
 impl Family for Sphere {
+    fn look(&self) -> Look {
+        Look::Ball
+    }
+
     fn grid(&self) -> (u32, u32) {
         (0, 0)
     }

@@ -10,6 +10,7 @@ use crate::{
         target::{
             family::{Family, Markers},
             layout,
+            look::Look,
         },
         texture::Texture,
     },
@@ -22,6 +23,10 @@ pub(in crate::model::target) struct Tag<'a> {
 }
 
 impl Family for Tag<'_> {
+    fn look(&self) -> Look {
+        Look::Tag { dictionary: self.dictionary.into(), id: self.id }
+    }
+
     fn grid(&self) -> (u32, u32) {
         (2, 2)
     }

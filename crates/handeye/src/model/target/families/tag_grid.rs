@@ -13,6 +13,7 @@ use crate::{
             family::{Family, Markers},
             kinds::PlacedTag,
             layout,
+            look::{Look, Tags},
         },
         texture::Texture,
     },
@@ -36,6 +37,16 @@ impl TagGrid<'_> {
 }
 
 impl Family for TagGrid<'_> {
+    fn look(&self) -> Look {
+        Look::Tags(Tags {
+            dictionary: self.dictionary.into(),
+            first_id: self.first_id,
+            border_bits: 1,
+            gap: self.gap_mm / self.tag_mm,
+            joined: false,
+        })
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.tags_x.saturating_mul(2), self.tags_y.saturating_mul(2))
     }
