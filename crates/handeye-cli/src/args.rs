@@ -7,6 +7,8 @@ use clap_complete::Shell;
 use handeye::{Method, solve::Form};
 use handeye_io::units::LengthUnit;
 
+use crate::boards::Board;
+
 /// Hand-eye calibration: the pose of the camera on the robot flange or in the robot base, with its uncertainty.
 ///
 /// A folder of captures goes in; a transform comes out, with its uncertainty, a verdict, and the
@@ -188,30 +190,9 @@ pub struct TargetArgs {
     /// A manifest or another TOML file with a `[target]`.
     #[arg(group = "kind")]
     pub target: Option<PathBuf>,
-    /// Checkerboard of so many INNER corners: columns x rows.
-    #[arg(long, value_name = "CxR", group = "kind")]
-    pub checkerboard: Option<String>,
-    /// ChArUco board of so many squares: columns x rows.
-    #[arg(long, value_name = "XxY", group = "kind")]
-    pub charuco: Option<String>,
-    /// Kalibr's grid of so many AprilTags: columns x rows.
-    #[arg(long, value_name = "XxY", group = "kind")]
-    pub aprilgrid: Option<String>,
-    /// OpenCV's grid of so many markers: columns x rows.
-    #[arg(long, value_name = "XxY", group = "kind")]
-    pub tag_grid: Option<String>,
-    /// One ArUco or AprilTag marker with this id.
-    #[arg(long, value_name = "ID", group = "kind")]
-    pub tag: Option<u32>,
-    /// Grid of so many circles: columns x rows.
-    #[arg(long, value_name = "CxR", group = "kind")]
-    pub circle_grid: Option<String>,
-    /// OpenCV's asymmetric grid: circles in a row x rows.
-    #[arg(long, value_name = "CxR", group = "kind")]
-    pub asymmetric_circle_grid: Option<String>,
-    /// ROS-Industrial's grid with one larger circle: columns x rows.
-    #[arg(long, value_name = "CxR", group = "kind")]
-    pub modified_circle_grid: Option<String>,
+    /// The board that an option names.
+    #[command(flatten)]
+    pub board: Board,
     /// Side of a square.
     #[arg(long)]
     pub square_mm: Option<f64>,

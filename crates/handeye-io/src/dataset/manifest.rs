@@ -598,7 +598,7 @@ fn advice(message: &str) -> String {
         return format!("did you mean {key}?");
     }
     match message.strip_prefix("missing field ").map(|name| name.trim().trim_matches('`')) {
-        Some("kind") => target_file::ADVICE.into(),
+        Some("kind") => target_file::advice(),
         Some("setup") => "write setup = \"eye-in-hand\" where the robot carries the camera, or \
                           setup = \"eye-to-hand\" where it carries the target, above all tables"
             .into(),

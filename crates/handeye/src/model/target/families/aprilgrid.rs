@@ -11,7 +11,7 @@ use crate::{
         target::{
             check,
             family::{Family, Markers},
-            kinds::{AprilTagFamily, PlacedTag},
+            kinds::{AprilTagFamily, Kind, PlacedTag},
             layout,
             look::{Look, Tags},
         },
@@ -27,6 +27,20 @@ const COUNTER_CLOCKWISE: [[f64; 2]; 4] = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0
 const WIDEST_SPACING: f64 = 2.0;
 /// Largest border of a tag, bits.
 const WIDEST_BORDER: u32 = 2;
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "aprilgrid",
+    example: || TargetModel::Aprilgrid {
+        tags_x: 6,
+        tags_y: 4,
+        tag_mm: 24.0,
+        spacing: 0.3,
+        family: AprilTagFamily::Tag36h11,
+        first_id: 0,
+        corner_squares: true,
+        border_bits: 1,
+    },
+};
 
 pub(in crate::model::target) struct Aprilgrid {
     pub tags_x: u32,

@@ -10,9 +10,23 @@ use crate::{
         target::{
             check,
             family::{Family, Markers},
+            kinds::Kind,
             look::{Look, MarkedSquares},
         },
         texture::Texture,
+    },
+};
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "charuco",
+    example: || TargetModel::Charuco {
+        squares_x: 7,
+        squares_y: 5,
+        square_mm: 35.0,
+        marker_mm: 26.0,
+        dictionary: "DICT_5X5_100".into(),
+        legacy: false,
+        first_id: 0,
     },
 };
 

@@ -11,10 +11,16 @@ use crate::{
         print::{self, Art},
         target::{
             family::{Family, Turns},
+            kinds::Kind,
             look::Look,
         },
         texture::Texture,
     },
+};
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "checkerboard",
+    example: || TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 20.0 },
 };
 
 pub(in crate::model::target) struct Checkerboard {

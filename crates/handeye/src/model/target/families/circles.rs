@@ -12,6 +12,7 @@ use crate::{
         target::{
             check,
             family::{Family, Turns},
+            kinds::Kind,
             look::{Circles, Look},
         },
         texture::Texture,
@@ -23,6 +24,19 @@ const DISC_SHARE: f64 = 0.5;
 /// Diameters of the usual and of the larger circle of ROS-Industrial's grid, over the distance
 /// between neighbours: circles of 10 and 20 mm, 25 mm apart.
 const MODIFIED_SHARES: (f64, f64) = (0.4, 0.8);
+
+pub(in crate::model::target) const PLAIN: Kind = Kind {
+    name: "circle-grid",
+    example: || TargetModel::CircleGrid { columns: 7, rows: 5, pitch_mm: 20.0 },
+};
+pub(in crate::model::target) const ASYMMETRIC: Kind = Kind {
+    name: "asymmetric-circle-grid",
+    example: || TargetModel::AsymmetricCircleGrid { columns: 4, rows: 11, pitch_mm: 20.0 },
+};
+pub(in crate::model::target) const WITH_LARGER: Kind = Kind {
+    name: "modified-circle-grid",
+    example: || TargetModel::ModifiedCircleGrid { columns: 10, rows: 8, pitch_mm: 20.0 },
+};
 
 pub(in crate::model::target) struct CircleGrid {
     pub circles: Circles,

@@ -6,10 +6,13 @@ use crate::{
     Error, TargetModel,
     model::{
         print::Art,
-        target::{family::Family, look::Look},
+        target::{family::Family, kinds::Kind, look::Look},
         texture::Texture,
     },
 };
+
+pub(in crate::model::target) const KIND: Kind =
+    Kind { name: "sphere", example: || TargetModel::Sphere { diameter_mm: Some(50.0) } };
 
 pub(in crate::model::target) struct Sphere {
     pub diameter_mm: Option<f64>,

@@ -9,11 +9,17 @@ use crate::{
         print::{self, Art},
         target::{
             family::{Family, Markers},
+            kinds::Kind,
             layout,
             look::Look,
         },
         texture::Texture,
     },
+};
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "tag",
+    example: || TargetModel::Tag { dictionary: "DICT_5X5_100".into(), id: 3, size_mm: 60.0 },
 };
 
 pub(in crate::model::target) struct Tag<'a> {

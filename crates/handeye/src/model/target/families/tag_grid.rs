@@ -11,11 +11,23 @@ use crate::{
         target::{
             check,
             family::{Family, Markers},
-            kinds::PlacedTag,
+            kinds::{Kind, PlacedTag},
             layout,
             look::{Look, Tags},
         },
         texture::Texture,
+    },
+};
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "tag-grid",
+    example: || TargetModel::TagGrid {
+        dictionary: "DICT_5X5_100".into(),
+        tags_x: 5,
+        tags_y: 4,
+        tag_mm: 30.0,
+        gap_mm: 8.0,
+        first_id: 0,
     },
 };
 
