@@ -362,8 +362,7 @@ def codes_of_the_program():
         if file.name == "tests.rs":
             continue
         if file.parent.name == "findings":
-            for function in re.findall(r"fn code\(.*?\n    }\n", text, re.DOTALL):
-                found.update(re.findall(word, function))
+            found.update(re.findall(rf": Row =\s+Row::[a-z]+\(\s*{word}", text))
         direct = re.findall(rf"Warning::new\(\s*(?:{word}|code\b)", text)
         found.update(code for code in direct if code)
         if "" in direct:  # a variable, whose values stand as the first of a pair

@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
+use handeye::{Method, solve::Form};
 use handeye_io::units::LengthUnit;
+
+use crate::boards::Board;
 
 /// Hand-eye calibration: the pose of the camera on the robot flange or in the robot base, with its uncertainty.
 ///
@@ -81,6 +84,16 @@ pub enum Command {
     },
 }
 
+/// The help of `--method`: the names of published methods, by the equation that they solve.
+fn published_methods() -> String {
+    let named = |form: &Form| {
+        let all = Method::ALL.into_iter().filter(|m| m.form() == *form).map(Method::name);
+        format!("{}: {}", form.equation(), all.collect::<Vec<_>>().join(", "))
+    };
+    let forms: Vec<String> = Form::ALL.iter().map(named).collect();
+    format!("Run one published method as published; {}", forms.join("; "))
+}
+
 /// Arguments of `solve`.
 #[derive(Args)]
 #[command(
@@ -93,11 +106,8 @@ or, instead of `pairs`, two streams by two clocks (camera time = robot time + ti
 pub struct SolveArgs {
     /// JSON file with `setup` and `pairs`, or `robot` and `camera`.
     pub pairs: PathBuf,
-    /// Run one published method as published; A X = Y B: shah, zhuang, dornaika-horaud, li,
-    /// tabb-ahmad-yousef-c1, tabb-ahmad-yousef-c2; A X = X B: park-martin, daniilidis, tsai-lenz,
-    /// shiu-ahmad, chou-kamel, horaud-dornaika, horaud-dornaika-nonlinear, andreff,
-    /// andreff-scaled, lu-chou, wu.
-    #[arg(long)]
+    /// Run one published method as published, by its name.
+    #[arg(long, help = published_methods())]
     pub method: Option<String>,
     /// Try to prove that the least-squares solution is the global optimum.
     #[arg(long)]
@@ -180,30 +190,9 @@ pub struct TargetArgs {
     /// A manifest or another TOML file with a `[target]`.
     #[arg(group = "kind")]
     pub target: Option<PathBuf>,
-    /// Checkerboard of so many INNER corners: columns x rows.
-    #[arg(long, value_name = "CxR", group = "kind")]
-    pub checkerboard: Option<String>,
-    /// ChArUco board of so many squares: columns x rows.
-    #[arg(long, value_name = "XxY", group = "kind")]
-    pub charuco: Option<String>,
-    /// Kalibr's grid of so many AprilTags: columns x rows.
-    #[arg(long, value_name = "XxY", group = "kind")]
-    pub aprilgrid: Option<String>,
-    /// OpenCV's grid of so many markers: columns x rows.
-    #[arg(long, value_name = "XxY", group = "kind")]
-    pub tag_grid: Option<String>,
-    /// One ArUco or AprilTag marker with this id.
-    #[arg(long, value_name = "ID", group = "kind")]
-    pub tag: Option<u32>,
-    /// Grid of so many circles: columns x rows.
-    #[arg(long, value_name = "CxR", group = "kind")]
-    pub circle_grid: Option<String>,
-    /// OpenCV's asymmetric grid: circles in a row x rows.
-    #[arg(long, value_name = "CxR", group = "kind")]
-    pub asymmetric_circle_grid: Option<String>,
-    /// ROS-Industrial's grid with one larger circle: columns x rows.
-    #[arg(long, value_name = "CxR", group = "kind")]
-    pub modified_circle_grid: Option<String>,
+    /// The board that an option names.
+    #[command(flatten)]
+    pub board: Board,
     /// Side of a square.
     #[arg(long)]
     pub square_mm: Option<f64>,

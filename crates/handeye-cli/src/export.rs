@@ -200,8 +200,7 @@ fn show(
     let mut texts = vec![];
     for format in formats {
         let name = format.file_name(pose.name);
-        let text = String::from_utf8(render(&pose, format)).ok().filter(|_| *format != Format::Npy);
-        let text = text.ok_or_else(|| {
+        let text = String::from_utf8(render(&pose, format)).map_err(|_| {
             Failure::Usage(format!("{name} is no text: say where it goes with --out"))
         })?;
         texts.push((name, text));

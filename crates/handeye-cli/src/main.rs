@@ -2,6 +2,7 @@
 
 mod args;
 mod bag;
+mod boards;
 mod calibrate;
 mod check;
 mod compare;

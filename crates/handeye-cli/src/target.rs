@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::{TargetModel, model::target::AprilTagFamily};
+use handeye::TargetModel;
 use handeye_io::{
     Problem,
     drawing::{self, DrawingError, Paper},
@@ -15,6 +15,7 @@ use serde_json::json;
 
 use crate::{
     args::{Manners, TargetArgs},
+    boards,
     failure::Failure,
     output,
 };
@@ -91,91 +92,8 @@ fn target(args: &TargetArgs) -> Result<TargetModel, Failure> {
     if let Some(file) = &args.target {
         return Ok(read_target(file)?);
     }
-    if let Some(size) = &args.checkerboard {
-        let (columns, rows) = pair("checkerboard", size)?;
-        let square_mm = needed("square-mm", args.square_mm)?;
-        return Ok(TargetModel::Checkerboard { columns, rows, square_mm });
-    }
-    if let Some(size) = &args.charuco {
-        let (squares_x, squares_y) = pair("charuco", size)?;
-        return Ok(TargetModel::Charuco {
-            squares_x,
-            squares_y,
-            square_mm: needed("square-mm", args.square_mm)?,
-            marker_mm: needed("marker-mm", args.marker_mm)?,
-            dictionary: needed("dictionary", args.dictionary.clone())?,
-            legacy: args.legacy,
-            first_id: args.first_id,
-        });
-    }
-    if let Some(id) = args.tag {
-        let dictionary = needed("dictionary", args.dictionary.clone())?;
-        return Ok(TargetModel::Tag { dictionary, id, size_mm: needed("size-mm", args.size_mm)? });
-    }
-    if let Some(target) = grid_of_tags(args)? {
-        return Ok(target);
-    }
-    if let Some(target) = grid_of_circles(args)? {
-        return Ok(target);
-    }
-    let what = "which target? Name a TOML file, or --checkerboard, --charuco, --aprilgrid, \
-                --tag-grid, --tag, --circle-grid, --asymmetric-circle-grid, --modified-circle-grid";
-    Err(Failure::Usage(what.into()))
-}
-
-fn grid_of_tags(args: &TargetArgs) -> Result<Option<TargetModel>, Failure> {
-    if let Some(size) = &args.aprilgrid {
-        let (tags_x, tags_y) = pair("aprilgrid", size)?;
-        return Ok(Some(TargetModel::Aprilgrid {
-            tags_x,
-            tags_y,
-            tag_mm: needed("tag-mm", args.tag_mm)?,
-            spacing: args.spacing,
-            family: family(&args.family)?,
-            first_id: args.first_id,
-            corner_squares: !args.no_corner_squares,
-            border_bits: args.border_bits,
-        }));
-    }
-    let Some(size) = &args.tag_grid else { return Ok(None) };
-    let (tags_x, tags_y) = pair("tag-grid", size)?;
-    Ok(Some(TargetModel::TagGrid {
-        dictionary: needed("dictionary", args.dictionary.clone())?,
-        tags_x,
-        tags_y,
-        tag_mm: needed("tag-mm", args.tag_mm)?,
-        gap_mm: needed("gap-mm", args.gap_mm)?,
-        first_id: args.first_id,
-    }))
-}
-
-fn family(name: &str) -> Result<AprilTagFamily, Failure> {
-    AprilTagFamily::named(name)
-        .ok_or_else(|| Failure::Usage(format!("--family {name}: write 16h5, 25h9, 36h10 or 36h11")))
-}
-
-fn grid_of_circles(args: &TargetArgs) -> Result<Option<TargetModel>, Failure> {
-    let pitch = || needed("pitch-mm", args.pitch_mm);
-    if let Some(size) = &args.circle_grid {
-        let (columns, rows) = pair("circle-grid", size)?;
-        return Ok(Some(TargetModel::CircleGrid { columns, rows, pitch_mm: pitch()? }));
-    }
-    if let Some(size) = &args.asymmetric_circle_grid {
-        let (columns, rows) = pair("asymmetric-circle-grid", size)?;
-        return Ok(Some(TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm: pitch()? }));
-    }
-    let Some(size) = &args.modified_circle_grid else { return Ok(None) };
-    let (columns, rows) = pair("modified-circle-grid", size)?;
-    Ok(Some(TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm: pitch()? }))
-}
-
-fn needed<T>(name: &str, value: Option<T>) -> Result<T, Failure> {
-    value.ok_or_else(|| Failure::Usage(format!("--{name} is missing")))
-}
-
-fn pair(name: &str, text: &str) -> Result<(u32, u32), Failure> {
-    let both = text.split_once('x').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
-    both.ok_or_else(|| {
-        Failure::Usage(format!("--{name} {text}: write columns x rows without blanks, such as 9x6"))
+    args.board.target(args).unwrap_or_else(|| {
+        let what = format!("which target? Name a TOML file, or {}", boards::options());
+        Err(Failure::Usage(what))
     })
 }

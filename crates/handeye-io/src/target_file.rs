@@ -2,7 +2,7 @@
 
 use std::{fmt, path::Path};
 
-use handeye::{TargetModel, TargetSize};
+use handeye::{TargetModel, TargetSize, model::target::KINDS};
 use serde::{
     Deserialize, Deserializer, Serialize, Serializer,
     de::{
@@ -286,7 +286,7 @@ pub fn read_targets(path: &Path) -> Result<Targets, Error> {
     let refuse = |e: toml::de::Error| {
         let line = e.span().map(|s| 1 + text[..s.start.min(text.len())].matches('\n').count());
         let what = in_words(e.message());
-        malformed(Place { line, ..Place::file(path) }, what, ADVICE)
+        malformed(Place { line, ..Place::file(path) }, what, advice())
     };
     let table: toml::Table = toml::from_str(&text).map_err(refuse)?;
     let targets = if table.contains_key("target") {
@@ -294,14 +294,23 @@ pub fn read_targets(path: &Path) -> Result<Targets, Error> {
     } else if table.contains_key("kind") {
         toml::from_str(&text).map_err(refuse)?
     } else {
-        return Err(malformed(Place::file(path), "describes no target", ADVICE));
+        return Err(malformed(Place::file(path), "describes no target", advice()));
     };
     targets.check().map_err(|source| Error::Values { place: Place::file(path), source })?;
     Ok(targets)
 }
 
 /// What makes a target, with an example.
-pub(crate) const ADVICE: &str = "write kind = \"checkerboard\" (or charuco, aprilgrid, tag-grid, tag, circle-grid, asymmetric-circle-grid, modified-circle-grid, sphere) and its dimensions under [target], each on a line of its own: of a checkerboard columns = 11, rows = 8 (INNER corners) and square_mm = 30.0; `handeye target` writes them for the boards that it draws";
+pub(crate) fn advice() -> String {
+    let kinds = KINDS.map(|kind| kind.name);
+    format!(
+        "write kind = \"{}\" (or {}) and its dimensions under [target], each on a line of its own: of a checkerboard \
+         columns = 11, rows = 8 (INNER corners) and square_mm = 30.0; `handeye target` writes them for the boards that \
+         it draws",
+        kinds[0],
+        kinds[1..].join(", ")
+    )
+}
 
 /// What is wrong with a TOML file, on one line.
 pub(crate) fn in_words(message: &str) -> String {

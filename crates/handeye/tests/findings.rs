@@ -1,9 +1,14 @@
-//! What findings do to an answer.
+//! What findings do to an answer, and that every code is listed and explained.
+
+use std::{collections::BTreeSet, fs, path::Path};
 
 use handeye::{
     Calibration, Pose, Setup, Verdict, Warning,
     calibrate::findings::{findings, reservation},
-    findings::{TouchFinding, severity::Severity},
+    findings::{
+        TouchFinding,
+        severity::{Severity, codes},
+    },
     unjudged,
 };
 
@@ -68,4 +73,33 @@ fn what_would_reject_and_did_not_is_said_in_its_own_words() {
     let found = result(Verdict::Accepted, &warnings, &[]);
     let said = reservation(&found);
     assert_eq!(said.as_deref(), Some("Accepted, but: half of the captures say otherwise"));
+}
+
+/// What stands between two marks, wherever they stand in a text.
+fn between<'a>(text: &'a str, open: &'a str, close: &'a str) -> impl Iterator<Item = &'a str> {
+    text.split(open).skip(1).filter_map(move |rest| rest.split(close).next())
+}
+
+#[test]
+fn every_code_of_a_subject_is_in_its_list() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/findings");
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let on_one_line = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let texts: Vec<String> =
+        files.map(|path| on_one_line(fs::read_to_string(path).unwrap())).collect();
+    let rows = texts.iter().flat_map(|text| between(text, ": Row = Row::", ";"));
+    let written: Vec<&str> = rows.map(|row| between(row, "\"", "\"").next().unwrap()).collect();
+    let listed: BTreeSet<&str> = codes().collect();
+    assert_eq!(written.iter().copied().collect::<BTreeSet<_>>(), listed);
+    assert_eq!(written.len(), listed.len(), "two rows have one code");
+    assert_eq!(codes().count(), listed.len(), "a code is listed twice");
+}
+
+#[test]
+fn every_code_has_an_entry_in_the_book() {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../book/src/trouble/codes.md");
+    let page = fs::read_to_string(page).unwrap();
+    let missing: Vec<&str> =
+        codes().filter(|code| !page.contains(&format!("\n### `{code}`\n"))).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }

@@ -214,15 +214,26 @@ fn shown(
 fn alternatives(declared: &TargetModel) -> Vec<Layout> {
     match declared {
         TargetModel::Checkerboard { columns, rows, .. } => sizes(declared, *columns, *rows),
-        TargetModel::CircleGrid { columns, rows, .. }
-        | TargetModel::AsymmetricCircleGrid { columns, rows, .. } => {
-            let mut all = sizes(declared, *columns, *rows);
-            all.extend(other_circles(declared));
+        TargetModel::CircleGrid { columns, rows, pitch_mm } => {
+            let (columns, rows, pitch_mm) = (*columns, *rows, *pitch_mm);
+            let other = TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm };
+            let mut all = sizes(declared, columns, rows);
+            all.push(other_circles(other, "asymmetric-circle-grid"));
+            all
+        }
+        TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm } => {
+            let (columns, rows, pitch_mm) = (*columns, *rows, *pitch_mm);
+            let mut all = sizes(declared, columns, rows);
+            let other = TargetModel::CircleGrid { columns, rows, pitch_mm };
+            all.push(other_circles(other, "circle-grid"));
             all
         }
         TargetModel::Charuco { .. } => charuco(declared),
         TargetModel::Aprilgrid { .. } => aprilgrid(declared),
-        _ => vec![],
+        TargetModel::ModifiedCircleGrid { .. }
+        | TargetModel::TagGrid { .. }
+        | TargetModel::Tag { .. }
+        | TargetModel::Sphere { .. } => vec![],
     }
 }
 
@@ -234,7 +245,11 @@ fn of_size(declared: &TargetModel, columns: u32, rows: u32) -> TargetModel {
         | TargetModel::CircleGrid { columns: c, rows: r, .. }
         | TargetModel::AsymmetricCircleGrid { columns: c, rows: r, .. }
         | TargetModel::ModifiedCircleGrid { columns: c, rows: r, .. } => (*c, *r) = (columns, rows),
-        _ => {}
+        TargetModel::Charuco { .. }
+        | TargetModel::Aprilgrid { .. }
+        | TargetModel::TagGrid { .. }
+        | TargetModel::Tag { .. }
+        | TargetModel::Sphere { .. } => {}
     }
     target
 }
@@ -281,19 +296,9 @@ fn other_size(dataset: &Dataset, images: &[GrayImage], declared: &TargetModel) -
 }
 
 /// The other kind of grid of circles.
-fn other_circles(declared: &TargetModel) -> Option<Layout> {
-    let (target, kind) = match *declared {
-        TargetModel::CircleGrid { columns, rows, pitch_mm } => (
-            TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm },
-            "asymmetric-circle-grid",
-        ),
-        TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm } => {
-            (TargetModel::CircleGrid { columns, rows, pitch_mm }, "circle-grid")
-        }
-        _ => return None,
-    };
+fn other_circles(target: TargetModel, kind: &str) -> Layout {
     let words = format!("the images show the other kind of grid: {kind}");
-    Some(Layout::new(target, words, &[("kind", format!("\"{kind}\""))]))
+    Layout::new(target, words, &[("kind", format!("\"{kind}\""))])
 }
 
 fn charuco(declared: &TargetModel) -> Vec<Layout> {

@@ -132,9 +132,8 @@ pub(crate) struct RobotSpec {
     pub(crate) poses: String,
     /// Path of the values in a JSON or YAML document, such as poses.*.tcp; several are joined.
     pub(crate) field: Option<Fields>,
-    /// How the poses are written: ur, ur-rpy, kuka, fanuc, abb, yaskawa, kawasaki, staubli, doosan, denso, matrix4x4,
-    /// quaternion-xyzw, quaternion-wxyz, rotation-vector, euler-<axes>-intrinsic, euler-<axes>-extrinsic, joints.
-    #[cfg_attr(test, schemars(required))]
+    /// How the poses are written, a name of [`crate::robot`].
+    #[cfg_attr(test, schemars(required, description = notations()))]
     pub(crate) notation: Option<String>,
     /// Unit of lengths; needed for notations of no maker.
     pub(crate) length_unit: Option<LengthUnit>,
@@ -163,6 +162,12 @@ pub(crate) struct RobotSpec {
     pub(crate) urdf: Option<UrdfSpec>,
 }
 
+/// What the schema says of a notation.
+#[cfg(test)]
+fn notations() -> String {
+    format!("How the poses are written: {}.", crate::robot::names_in_words())
+}
+
 /// Poses of the board: where they stand, and how they are written.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
@@ -172,9 +177,8 @@ pub(crate) struct BoardPosesSpec {
     pub(crate) poses: String,
     /// Path of the values in a JSON or YAML document, such as poses.*.tcp; several are joined.
     pub(crate) field: Option<Fields>,
-    /// How the poses are written: ur, ur-rpy, kuka, fanuc, abb, yaskawa, kawasaki, staubli, doosan, denso, matrix4x4,
-    /// quaternion-xyzw, quaternion-wxyz, rotation-vector, euler-<axes>-intrinsic, euler-<axes>-extrinsic, joints.
-    #[cfg_attr(test, schemars(required))]
+    /// How the poses are written, a name of [`crate::robot`].
+    #[cfg_attr(test, schemars(required, description = notations()))]
     pub(crate) notation: Option<String>,
     /// Unit of lengths; needed for notations of no maker.
     pub(crate) length_unit: Option<LengthUnit>,
@@ -594,7 +598,7 @@ fn advice(message: &str) -> String {
         return format!("did you mean {key}?");
     }
     match message.strip_prefix("missing field ").map(|name| name.trim().trim_matches('`')) {
-        Some("kind") => target_file::ADVICE.into(),
+        Some("kind") => target_file::advice(),
         Some("setup") => "write setup = \"eye-in-hand\" where the robot carries the camera, or \
                           setup = \"eye-to-hand\" where it carries the target, above all tables"
             .into(),

@@ -7,7 +7,7 @@ mod vision;
 use handeye::Setup;
 use nalgebra::Isometry3;
 
-use crate::robot::{NAMES, Notation};
+use crate::robot::{self, Notation};
 
 /// Where the camera sits, in the words of the program that shall read it.
 #[derive(Debug, Clone)]
@@ -25,99 +25,97 @@ pub struct CameraPose<'a> {
 }
 
 /// What a result is written as.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Format {
-    /// Four lines of four numbers, metres.
-    Matrix,
-    /// A robot's or a generic notation.
+#[derive(Debug, Clone)]
+pub struct Format(Written);
+
+#[derive(Debug, Clone)]
+enum Written {
+    /// As one of [`PROGRAMS`] reads it.
+    Program(&'static Program),
+    /// In a robot's or a generic notation.
     Robot(Notation),
-    /// ROS 2: a Python launch file with a static_transform_publisher.
-    Ros2Launch,
-    /// A fixed joint for URDF or xacro; rpy about the fixed axes x, y, z.
-    Urdf,
-    /// easy_handeye2's `.calib`.
-    EasyHandEye,
-    /// moveit_calibration's ROS 1 launch file.
-    MoveIt,
-    /// OpenCV's FileStorage in YAML, metres.
-    OpenCv,
-    /// Zivid's 4x4 YAML, millimetres.
-    Zivid,
-    /// HALCON's pose `.dat`: the camera is the parent, metres and degrees.
-    Halcon,
-    /// NumPy's `.npy`, a 4x4 matrix, metres.
-    Npy,
 }
 
-/// Names of the formats that are no robot notations.
-const PROGRAMS: [&str; 8] = [
-    "ros2-launch",
-    "urdf",
-    "easy-handeye2",
-    "moveit",
-    "opencv-yaml",
-    "zivid-yaml",
-    "halcon",
-    "npy",
+/// What another program reads.
+#[derive(Debug)]
+struct Program {
+    name: &'static str,
+    /// What follows the name of the transform in the usual name of a file.
+    ending: &'static str,
+    content: Content,
+}
+
+#[derive(Debug)]
+enum Content {
+    Text(fn(&CameraPose) -> String),
+    Bytes(fn(&CameraPose) -> Vec<u8>),
+}
+
+const fn text(name: &'static str, ending: &'static str, of: fn(&CameraPose) -> String) -> Program {
+    Program { name, ending, content: Content::Text(of) }
+}
+
+/// In the order in which they are listed.
+static PROGRAMS: [Program; 9] = [
+    // a Python launch file with a static_transform_publisher
+    text("ros2-launch", ".launch.py", middleware::ros2_launch),
+    // a fixed joint for URDF or xacro; rpy about the fixed axes x, y, z
+    text("urdf", ".urdf.xacro", middleware::urdf),
+    // easy_handeye2's `.calib`
+    text("easy-handeye2", ".calib", middleware::easy_handeye),
+    // moveit_calibration's ROS 1 launch file
+    text("moveit", ".launch", middleware::moveit),
+    // OpenCV's FileStorage in YAML, metres
+    text("opencv-yaml", "_opencv.yaml", vision::opencv),
+    // Zivid's 4x4 YAML, millimetres
+    text("zivid-yaml", "_zivid.yaml", vision::zivid),
+    // HALCON's pose `.dat`: the camera is the parent, metres and degrees
+    text("halcon", ".dat", vision::halcon),
+    // NumPy's `.npy`, a 4x4 matrix, metres
+    Program { name: "npy", ending: ".npy", content: Content::Bytes(npy) },
+    // four lines of four numbers, metres; a generic notation too, and listed among those
+    text("matrix4x4", ".txt", text::matrix),
 ];
 
 impl Format {
     /// Names of all formats.
     pub fn names() -> Vec<&'static str> {
-        let robots = NAMES.into_iter().filter(|n| *n != "joints");
-        PROGRAMS.into_iter().chain(robots).collect()
+        let robots: Vec<_> = robot::names().collect();
+        let programs = PROGRAMS.iter().map(|p| p.name).filter(|name| !robots.contains(name));
+        programs.chain(robots.iter().copied()).collect()
     }
 
     /// The format of a name; `Err` says which there are.
     pub fn named(name: &str) -> Result<Format, String> {
-        Ok(match name {
-            "matrix4x4" => Format::Matrix,
-            "ros2-launch" => Format::Ros2Launch,
-            "urdf" => Format::Urdf,
-            "easy-handeye2" => Format::EasyHandEye,
-            "moveit" => Format::MoveIt,
-            "opencv-yaml" => Format::OpenCv,
-            "zivid-yaml" => Format::Zivid,
-            "halcon" => Format::Halcon,
-            "npy" => Format::Npy,
-            robot => Format::Robot(
-                Notation::named(robot)
-                    .map_err(|_| format!("there are {}", Self::names().join(", ")))?,
-            ),
-        })
+        if let Some(program) = PROGRAMS.iter().find(|p| p.name == name) {
+            return Ok(Format(Written::Program(program)));
+        }
+        let notation = Notation::named(name);
+        notation
+            .map(|notation| Format(Written::Robot(notation)))
+            .map_err(|_| format!("there are {}", Self::names().join(", ")))
     }
 
     /// The usual name of a file with this content.
     pub fn file_name(&self, pose: &str) -> String {
-        match self {
-            Format::Matrix => format!("{pose}.txt"),
-            Format::Robot(notation) => format!("{pose}_{}.txt", notation.name),
-            Format::Ros2Launch => format!("{pose}.launch.py"),
-            Format::Urdf => format!("{pose}.urdf.xacro"),
-            Format::EasyHandEye => format!("{pose}.calib"),
-            Format::MoveIt => format!("{pose}.launch"),
-            Format::OpenCv => format!("{pose}_opencv.yaml"),
-            Format::Zivid => format!("{pose}_zivid.yaml"),
-            Format::Halcon => format!("{pose}.dat"),
-            Format::Npy => format!("{pose}.npy"),
+        match &self.0 {
+            Written::Program(program) => format!("{pose}{}", program.ending),
+            Written::Robot(notation) => format!("{pose}_{}.txt", notation.name),
         }
     }
 }
 
 /// The content of a file of the given format.
 pub fn render(pose: &CameraPose, format: &Format) -> Vec<u8> {
-    match format {
-        Format::Matrix => text::matrix(pose).into_bytes(),
-        Format::Robot(notation) => text::robot(pose, notation).into_bytes(),
-        Format::Ros2Launch => middleware::ros2_launch(pose).into_bytes(),
-        Format::Urdf => middleware::urdf(pose).into_bytes(),
-        Format::EasyHandEye => middleware::easy_handeye(pose).into_bytes(),
-        Format::MoveIt => middleware::moveit(pose).into_bytes(),
-        Format::OpenCv => vision::opencv(pose).into_bytes(),
-        Format::Zivid => vision::zivid(pose).into_bytes(),
-        Format::Halcon => vision::halcon(pose).into_bytes(),
-        Format::Npy => crate::npy::encode(&[4, 4], &row_major(&pose.parent_from_child)),
+    match &format.0 {
+        Written::Robot(notation) => text::robot(pose, notation).into_bytes(),
+        Written::Program(Program { content: Content::Text(of), .. }) => of(pose).into_bytes(),
+        Written::Program(Program { content: Content::Bytes(of), .. }) => of(pose),
     }
+}
+
+fn npy(pose: &CameraPose) -> Vec<u8> {
+    crate::npy::encode(&[4, 4], &row_major(&pose.parent_from_child))
 }
 
 /// The sixteen numbers of the homogeneous matrix.
@@ -199,7 +197,7 @@ pub(crate) mod tests {
             // "0." or "123.", and the digits behind
             assert!(longest <= 2 + TURNS as usize, "{name}: {text}");
         }
-        let urdf = String::from_utf8(render(&pose, &Format::Urdf)).unwrap();
+        let urdf = String::from_utf8(render(&pose, &Format::named("urdf").unwrap())).unwrap();
         assert!(urdf.contains("xyz=\"0.3 -0.333333333 0.0\""), "{urdf}");
     }
 

@@ -65,7 +65,7 @@ mod tests {
     use super::*;
     use crate::{
         export::{Format, render, tests::example},
-        robot::NAMES,
+        robot::names,
         table::{self, Layout},
     };
 
@@ -73,11 +73,11 @@ mod tests {
     fn what_is_written_for_a_robot_is_read_back_as_the_same_pose() {
         let folder = std::env::temp_dir().join(format!("handeye-export-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
-        for name in NAMES.iter().filter(|n| **n != "joints") {
+        for name in names() {
             let notation = Notation::named(name).unwrap();
             let path = folder.join(format!("{name}.txt"));
             std::fs::write(&path, render(&example(), &Format::named(name).unwrap())).unwrap();
-            let layout = Layout { matrices: *name == "matrix4x4", ..Layout::default() };
+            let layout = Layout { matrices: name == "matrix4x4", ..Layout::default() };
             let records = table::records(&path, &layout).unwrap();
             let values = notation.numbers(&records[0]).unwrap();
             let again = notation.pose(&values, notation.own_units()).unwrap();

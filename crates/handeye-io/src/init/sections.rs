@@ -18,7 +18,7 @@ use crate::{
             PlacementSpec, RobotDirection, RobotSpec, ScansSpec, TipSpec, TouchKind, TouchesSpec,
         },
     },
-    scan_unit,
+    robot, scan_unit,
     units::{AngleUnit, LengthUnit},
 };
 
@@ -261,24 +261,26 @@ fn notation(notation: Notation, spec: &mut RobotSpec, draft: &mut Draft) {
         spec.angle_unit = Some(AngleUnit::Degree);
         spec.dh = Some(FileOr::File("robot_dh.json".into()));
     }
-    let question = match notation {
+    let question: String = match notation {
         Notation::Is(_) => return,
         Notation::SomeQuaternion => {
             "a position and a unit quaternion: does its scalar stand last (\"quaternion-xyzw\"), \
              or first (\"quaternion-wxyz\", and \"abb\")?"
+                .into()
         }
         Notation::Joints => {
             "joint values: in \"deg\" or in \"rad\", and with which Denavit-Hartenberg parameters?"
+                .into()
         }
-        Notation::SomeAngles { degrees: true } => {
-            "a position and three angles in degrees: whose robot, or in which order? kuka, fanuc, \
-             yaskawa, kawasaki, staubli, doosan, denso, or euler-zyx-intrinsic and the like"
-        }
-        Notation::SomeAngles { degrees: false } => {
-            "how are the poses written? ur, kuka, fanuc, abb, yaskawa, kawasaki, staubli, doosan, \
-             denso, matrix4x4, quaternion-xyzw, quaternion-wxyz, rotation-vector, \
-             euler-zyx-intrinsic (with angle_unit), joints ..."
-        }
+        Notation::SomeAngles { degrees: true } => format!(
+            "a position and three angles in degrees: whose robot, or in which order? {}, or \
+             euler-zyx-intrinsic and the like",
+            robot::names_in_degrees()
+        ),
+        Notation::SomeAngles { degrees: false } => format!(
+            "how are the poses written? {}, euler-zyx-intrinsic (with angle_unit), joints ...",
+            robot::usual_names()
+        ),
     };
     draft.ask(&["robot.notation", "robot.angle_unit", "robot.dh"], question);
 }

@@ -1,6 +1,6 @@
 //! ABB: `x y z` in mm and the quaternion `q1 q2 q3 q4`, its scalar `q1` first.
 
-use super::{Column, Notation, Rotation, X, Y, Z, plain};
+use super::{Column, Rotation, X, Y, Z, makers::Maker, plain};
 use crate::units::{AngleUnit, LengthUnit};
 
 const COLUMNS: &[Column] = &[
@@ -13,16 +13,15 @@ const COLUMNS: &[Column] = &[
     plain(&["q4", "qz"]),
 ];
 
-/// The maker's notation.
-pub(super) fn notation() -> Notation {
-    Notation {
-        name: "abb".into(),
-        columns: COLUMNS,
-        length_unit: Some(LengthUnit::Millimetre),
-        angle_unit: AngleUnit::Degree,
-        rotation: Rotation::QuaternionWxyz,
-    }
-}
+/// As its controllers write it.
+pub(super) const POSE: Maker = Maker {
+    name: "abb",
+    columns: COLUMNS,
+    length_unit: LengthUnit::Millimetre,
+    angle_unit: AngleUnit::Degree,
+    rotation: Rotation::QuaternionWxyz,
+    reported: true,
+};
 
 #[cfg(test)]
 mod tests {
@@ -32,7 +31,7 @@ mod tests {
     #[test]
     fn q1_is_the_scalar() {
         reads(
-            &notation(),
+            &POSE.into(),
             &[
                 (
                     &[100.0, -200.0, 300.0, 0.5, 0.5, 0.5, 0.5],

@@ -42,29 +42,30 @@ const ROTATION_VECTOR: &[Column] = &[
 
 const EULER: &[Column] = &[X, Y, Z, angle(&["a"]), angle(&["b"]), angle(&["c"])];
 
+/// Name, columns and rotation, in the order in which they are listed.
+const GENERIC: [(&str, &[Column], Rotation); 4] = [
+    // row by row
+    ("matrix4x4", MATRIX, Rotation::Matrix),
+    ("quaternion-xyzw", &[X, Y, Z, QX, QY, QZ, QW], Rotation::QuaternionXyzw),
+    ("quaternion-wxyz", &[X, Y, Z, QW, QX, QY, QZ], Rotation::QuaternionWxyz),
+    // axis times angle (rad)
+    ("rotation-vector", ROTATION_VECTOR, Rotation::Vector),
+];
+
+/// Their names.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    GENERIC.into_iter().map(|(name, ..)| name)
+}
+
+/// The notation of that name.
+pub(super) fn named(name: &str) -> Option<Notation> {
+    let (name, columns, rotation) = GENERIC.into_iter().find(|row| row.0 == name)?;
+    Some(notation(name, columns, rotation))
+}
+
 fn notation(name: &str, columns: &'static [Column], rotation: Rotation) -> Notation {
     let angle_unit = AngleUnit::Radian;
     Notation { name: name.into(), columns, length_unit: None, angle_unit, rotation }
-}
-
-/// A 4x4 matrix, row by row.
-pub(super) fn matrix() -> Notation {
-    notation("matrix4x4", MATRIX, Rotation::Matrix)
-}
-
-/// `x y z qx qy qz qw`.
-pub(super) fn quaternion_xyzw() -> Notation {
-    notation("quaternion-xyzw", &[X, Y, Z, QX, QY, QZ, QW], Rotation::QuaternionXyzw)
-}
-
-/// `x y z qw qx qy qz`.
-pub(super) fn quaternion_wxyz() -> Notation {
-    notation("quaternion-wxyz", &[X, Y, Z, QW, QX, QY, QZ], Rotation::QuaternionWxyz)
-}
-
-/// `x y z` and axis times angle (rad).
-pub(super) fn rotation_vector() -> Notation {
-    notation("rotation-vector", ROTATION_VECTOR, Rotation::Vector)
 }
 
 /// `x y z` and three angles, of a name like `euler-zyx-intrinsic`; degrees unless said otherwise.
@@ -101,7 +102,7 @@ mod tests {
         let x = [1.0, 0.0, 0.0, 0.1, 0.0, 0.0, -1.0, 0.2, 0.0, 1.0, 0.0, 0.3, 0.0, 0.0, 0.0, 1.0];
         let y = [-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
         reads(
-            &matrix(),
+            &named("matrix4x4").unwrap(),
             &[(&z, [1.0, 2.0, 3.0], R_Z), (&x, [0.1, 0.2, 0.3], R_X), (&y, [0.0; 3], TURN_Y)],
         );
     }
@@ -109,7 +110,7 @@ mod tests {
     #[test]
     fn quaternions_are_read_in_both_orders() {
         reads(
-            &quaternion_xyzw(),
+            &named("quaternion-xyzw").unwrap(),
             &[
                 (&[1.0, 2.0, 3.0, 0.0, 0.0, HALF, HALF], [1.0, 2.0, 3.0], R_Z),
                 (&[0.0, 0.0, 0.0, HALF, 0.0, 0.0, HALF], [0.0; 3], R_X),
@@ -117,7 +118,7 @@ mod tests {
             ],
         );
         reads(
-            &quaternion_wxyz(),
+            &named("quaternion-wxyz").unwrap(),
             &[
                 (&[1.0, 2.0, 3.0, HALF, 0.0, 0.0, HALF], [1.0, 2.0, 3.0], R_Z),
                 (&[0.0, 0.0, 0.0, HALF, HALF, 0.0, 0.0], [0.0; 3], R_X),
@@ -129,7 +130,7 @@ mod tests {
     #[test]
     fn rotation_vectors_are_axis_times_angle() {
         reads(
-            &rotation_vector(),
+            &named("rotation-vector").unwrap(),
             &[
                 (&[1.0, 2.0, 3.0, 0.0, 0.0, FRAC_PI_2], [1.0, 2.0, 3.0], R_Z),
                 (&[0.0, 0.0, 0.0, FRAC_PI_2, 0.0, 0.0], [0.0; 3], R_X),

@@ -1,57 +1,113 @@
-//! The makers who write a position in mm and three angles in degrees: one line each says which
-//! angles, about which axes, and whether later turns are about the moved axes.
+//! How makers write a pose: a row for each notation. Most write a position in mm and three angles in degrees, and differ
+//! in which angles, about which axes, and whether later turns are about the moved axes.
 
 use super::{
     Axes, Column, Notation, Rotation, Sense,
     Sense::{Extrinsic, Intrinsic},
-    X, Y, Z, angle,
+    X, Y, Z, abb, angle, universal_robots,
 };
 use crate::units::{AngleUnit, LengthUnit};
+
+/// A maker's notation.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Maker {
+    pub(super) name: &'static str,
+    pub(super) columns: &'static [Column],
+    pub(super) length_unit: LengthUnit,
+    pub(super) angle_unit: AngleUnit,
+    pub(super) rotation: Rotation,
+    /// Whether controllers report poses so, not pendants alone.
+    pub(super) reported: bool,
+}
 
 const X_Y_Z_TURNS: [Column; 6] =
     [X, Y, Z, angle(&["rx", "r_x"]), angle(&["ry", "r_y"]), angle(&["rz", "r_z"])];
 
-/// Name, columns, axes in the order of the numbers.
-type Maker = (&'static str, &'static [Column], Axes, Sense);
-
-const MAKERS: [Maker; 7] = [
+/// In the order in which they are listed.
+const MAKERS: [Maker; 10] = [
+    universal_robots::POSE,
+    universal_robots::RPY,
     // R = Rz(A) Ry(B) Rx(C)
-    ("kuka", &[X, Y, Z, angle(&["A"]), angle(&["B"]), angle(&["C"])], [2, 1, 0], Intrinsic),
+    angles("kuka", &[X, Y, Z, angle(&["A"]), angle(&["B"]), angle(&["C"])], [2, 1, 0], Intrinsic),
     // R = Rz(R) Ry(P) Rx(W)
-    ("fanuc", &[X, Y, Z, angle(&["W"]), angle(&["P"]), angle(&["R"])], [0, 1, 2], Extrinsic),
+    angles("fanuc", &[X, Y, Z, angle(&["W"]), angle(&["P"]), angle(&["R"])], [0, 1, 2], Extrinsic),
+    abb::POSE,
     // R = Rz(Rz) Ry(Ry) Rx(Rx)
-    ("yaskawa", &X_Y_Z_TURNS, [0, 1, 2], Extrinsic),
+    angles("yaskawa", &X_Y_Z_TURNS, [0, 1, 2], Extrinsic),
     // R = Rz(O) Ry(A) Rz(T)
-    ("kawasaki", &[X, Y, Z, angle(&["O"]), angle(&["A"]), angle(&["T"])], [2, 1, 2], Intrinsic),
+    angles(
+        "kawasaki",
+        &[X, Y, Z, angle(&["O"]), angle(&["A"]), angle(&["T"])],
+        [2, 1, 2],
+        Intrinsic,
+    ),
     // R = Rx(rx) Ry(ry) Rz(rz)
-    ("staubli", &X_Y_Z_TURNS, [0, 1, 2], Intrinsic),
+    angles("staubli", &X_Y_Z_TURNS, [0, 1, 2], Intrinsic),
     // R = Rz(A) Ry(B) Rz(C)
-    (
+    angles(
         "doosan",
         &[X, Y, Z, angle(&["A", "rx"]), angle(&["B", "ry"]), angle(&["C", "rz"])],
         [2, 1, 2],
         Intrinsic,
     ),
     // R = Rz(RZ) Ry(RY) Rx(RX)
-    ("denso", &X_Y_Z_TURNS, [0, 1, 2], Extrinsic),
+    angles("denso", &X_Y_Z_TURNS, [0, 1, 2], Extrinsic),
 ];
 
-/// The makers who write a rotation so.
-pub(super) fn of(rotation: Rotation) -> Vec<&'static str> {
-    let same = |m: &&Maker| rotation == Rotation::Euler(m.2, m.3);
-    MAKERS.iter().filter(same).map(|m| m.0).collect()
-}
-
-/// The notation of one of these makers.
-pub(super) fn notation(name: &str) -> Option<Notation> {
-    let (name, columns, axes, sense) = *MAKERS.iter().find(|m| m.0 == name)?;
-    Some(Notation {
-        name: name.into(),
+/// A position in mm and three angles in degrees, about the axes in the order of the numbers.
+const fn angles(name: &'static str, columns: &'static [Column], axes: Axes, sense: Sense) -> Maker {
+    Maker {
+        name,
         columns,
-        length_unit: Some(LengthUnit::Millimetre),
+        length_unit: LengthUnit::Millimetre,
         angle_unit: AngleUnit::Degree,
         rotation: Rotation::Euler(axes, sense),
-    })
+        reported: true,
+    }
+}
+
+/// Names of all makers' notations.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    MAKERS.into_iter().map(|m| m.name)
+}
+
+/// Those in which controllers report poses.
+pub(super) fn reported() -> impl Iterator<Item = &'static str> {
+    MAKERS.into_iter().filter(|m| m.reported).map(|m| m.name)
+}
+
+/// Those of three angles in degrees.
+pub(super) fn in_degrees() -> impl Iterator<Item = &'static str> {
+    let turns = |m: &Maker| matches!(m.rotation, Rotation::Euler(..));
+    MAKERS
+        .into_iter()
+        .filter(move |m| turns(m) && m.angle_unit == AngleUnit::Degree)
+        .map(|m| m.name)
+}
+
+/// The makers whose controllers write a rotation so; quaternions are not called by a maker.
+pub(super) fn of(rotation: Rotation) -> Vec<&'static str> {
+    if matches!(rotation, Rotation::QuaternionXyzw | Rotation::QuaternionWxyz) {
+        return vec![];
+    }
+    MAKERS.iter().filter(|m| m.reported && m.rotation == rotation).map(|m| m.name).collect()
+}
+
+/// The notation of that name.
+pub(super) fn named(name: &str) -> Option<Notation> {
+    MAKERS.into_iter().find(|m| m.name == name).map(Notation::from)
+}
+
+impl From<Maker> for Notation {
+    fn from(maker: Maker) -> Self {
+        Self {
+            name: maker.name.into(),
+            columns: maker.columns,
+            length_unit: Some(maker.length_unit),
+            angle_unit: maker.angle_unit,
+            rotation: maker.rotation,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -63,7 +119,7 @@ mod tests {
     fn turns(name: &str, cases: [([f64; 3], [f64; 9]); 3]) {
         for (angles, matrix) in cases {
             let values = [&[100.0, -200.0, 300.0][..], &angles].concat();
-            reads(&notation(name).unwrap(), &[(&values, [0.1, -0.2, 0.3], matrix)]);
+            reads(&named(name).unwrap(), &[(&values, [0.1, -0.2, 0.3], matrix)]);
         }
     }
 

@@ -75,50 +75,42 @@ const X: Column = length(&["x", "tx", "t_x", "px", "pos_x", "position.x", "trans
 const Y: Column = length(&["y", "ty", "t_y", "py", "pos_y", "position.y", "translation.y", "p_y"]);
 const Z: Column = length(&["z", "tz", "t_z", "pz", "pos_z", "position.z", "translation.z", "p_z"]);
 
-/// Names of all notations, without the 24 Euler ones.
-pub const NAMES: [&str; 15] = [
-    "matrix4x4",
-    "quaternion-xyzw",
-    "quaternion-wxyz",
-    "rotation-vector",
-    "ur",
-    "ur-rpy",
-    "kuka",
-    "fanuc",
-    "abb",
-    "yaskawa",
-    "kawasaki",
-    "staubli",
-    "doosan",
-    "denso",
-    "joints",
-];
+/// Not a notation of poses: values of joints, of an arm that is known.
+const JOINTS: &str = "joints";
+
+/// Names of all notations that poses are written in, without the 24 Euler ones.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    generic::names().chain(makers::names())
+}
+
+/// The same, the makers' first, and what else a manifest may say, to be shown to people.
+#[cfg(test)]
+pub(crate) fn names_in_words() -> String {
+    let own = ["euler-<axes>-intrinsic", "euler-<axes>-extrinsic", JOINTS];
+    let all: Vec<_> = makers::names().chain(generic::names()).chain(own).collect();
+    all.join(", ")
+}
+
+/// Those in which controllers report poses, and the generic ones.
+pub(crate) fn usual_names() -> String {
+    makers::reported().chain(generic::names()).collect::<Vec<_>>().join(", ")
+}
+
+/// Makers' notations of three angles in degrees.
+pub(crate) fn names_in_degrees() -> String {
+    makers::in_degrees().collect::<Vec<_>>().join(", ")
+}
 
 impl Notation {
     /// The notation of a name, such as `kuka` or `euler-zyx-intrinsic`; `Err` says which there are.
     pub fn named(name: &str) -> Result<Notation, String> {
-        let found = match name {
-            "matrix4x4" => generic::matrix(),
-            "quaternion-xyzw" => generic::quaternion_xyzw(),
-            "quaternion-wxyz" => generic::quaternion_wxyz(),
-            "rotation-vector" => generic::rotation_vector(),
-            "ur" => universal_robots::pose(),
-            "ur-rpy" => universal_robots::rpy(),
-            "abb" => abb::notation(),
-            other => {
-                let found = makers::notation(other).or_else(|| generic::euler(other));
-                return found.ok_or_else(|| unknown(other));
-            }
-        };
-        Ok(found)
+        let found = generic::named(name).or_else(|| makers::named(name));
+        found.or_else(|| generic::euler(name)).ok_or_else(|| unknown(name))
     }
 
     /// The makers whose robots write a rotation as this notation does.
     pub(crate) fn makers(&self) -> Vec<&'static str> {
-        match self.rotation {
-            Rotation::Vector => vec!["ur"],
-            rotation => makers::of(rotation),
-        }
+        makers::of(self.rotation)
     }
 
     /// Values in the notation's order, in the given units, as a pose in metres and radians.
@@ -167,10 +159,12 @@ impl Notation {
 }
 
 fn unknown(name: &str) -> String {
-    let near = nearest(name, NAMES).map(|n| format!("did you mean {n}? ")).unwrap_or_default();
+    let all: Vec<_> = names().chain([JOINTS]).collect();
+    let near = nearest(name, all.iter().copied()).map(|n| format!("did you mean {n}? "));
     format!(
-        "{near}there are {}, and euler-<axes>-intrinsic or euler-<axes>-extrinsic",
-        NAMES.join(", ")
+        "{}there are {}, and euler-<axes>-intrinsic or euler-<axes>-extrinsic",
+        near.unwrap_or_default(),
+        all.join(", ")
     )
 }
 
@@ -254,9 +248,9 @@ pub(crate) mod tests {
 
     #[test]
     fn every_name_has_its_notation_and_survives_a_round_trip() {
-        for name in NAMES.iter().filter(|n| **n != "joints") {
+        for name in names() {
             let notation = Notation::named(name).unwrap();
-            assert_eq!(notation.name, *name);
+            assert_eq!(notation.name, name);
             round_trip(&notation);
         }
     }

@@ -1,7 +1,7 @@
 //! Universal Robots: `p[x, y, z, rx, ry, rz]` in metres and axis times angle (rad); and the
 //! teach pendant's RPY, `R = Rz(rz) Ry(ry) Rx(rx)`, in metres and radians here.
 
-use super::{Column, Notation, Rotation, Sense, X, Y, Z, angle};
+use super::{Column, Rotation, Sense, X, Y, Z, angle, makers::Maker};
 use crate::units::{AngleUnit, LengthUnit};
 
 const COLUMNS: &[Column] = &[
@@ -13,25 +13,23 @@ const COLUMNS: &[Column] = &[
     angle(&["rz", "r_z", "yaw"]),
 ];
 
-fn notation(name: &str, rotation: Rotation) -> Notation {
-    Notation {
-        name: name.into(),
-        columns: COLUMNS,
-        length_unit: Some(LengthUnit::Metre),
-        angle_unit: AngleUnit::Radian,
-        rotation,
-    }
-}
-
 /// Position and rotation vector, as the controller reports them.
-pub(super) fn pose() -> Notation {
-    notation("ur", Rotation::Vector)
-}
+pub(super) const POSE: Maker = Maker {
+    name: "ur",
+    columns: COLUMNS,
+    length_unit: LengthUnit::Metre,
+    angle_unit: AngleUnit::Radian,
+    rotation: Rotation::Vector,
+    reported: true,
+};
 
 /// Position and roll, pitch, yaw about the fixed axes.
-pub(super) fn rpy() -> Notation {
-    notation("ur-rpy", Rotation::Euler([0, 1, 2], Sense::Extrinsic))
-}
+pub(super) const RPY: Maker = Maker {
+    name: "ur-rpy",
+    rotation: Rotation::Euler([0, 1, 2], Sense::Extrinsic),
+    reported: false,
+    ..POSE
+};
 
 #[cfg(test)]
 mod tests {
@@ -43,7 +41,7 @@ mod tests {
     fn the_last_three_numbers_are_a_rotation_vector() {
         let third = 2.0 * PI / 3.0 / 3.0_f64.sqrt(); // a third of a turn about (1, 1, 1)
         reads(
-            &pose(),
+            &POSE.into(),
             &[
                 (
                     &[0.1, -0.2, 0.3, third, third, third],
@@ -67,7 +65,7 @@ mod tests {
     #[test]
     fn roll_turns_first_about_the_fixed_x() {
         reads(
-            &rpy(),
+            &RPY.into(),
             &[
                 (
                     &[0.1, -0.2, 0.3, FRAC_PI_2, 0.0, FRAC_PI_2],

@@ -18,7 +18,10 @@ use crate::{
     estimate::{Extra, ExtraKind, JointFit, Problem, Source, evaluate, joint},
     findings::RobotFinding,
     math::lie,
-    model::kinematics::{Arm, Deviation},
+    model::{
+        kinematics::{Arm, Deviation},
+        residual::Residual,
+    },
 };
 
 /// The fit in which the arm deviates from its model.
@@ -38,16 +41,16 @@ pub(super) struct ArmFit {
 
 /// Fewest captures with joint values.
 const FEWEST_VIEWS: usize = 8;
-/// How far a usual industrial arm deviates from its drawings: angles (rad) and lengths (m); and the
-/// factors on both that are tried.
-const USUAL: (f64, f64) = (3e-4, 0.25e-3);
+/// How far a usual industrial arm deviates from its drawings, in angles and lengths; and the factors on both that are
+/// tried.
+const USUAL: Residual = Residual { angle: 3e-4, distance: 0.25e-3 };
 const FACTORS: [f64; 3] = [1.0, 4.0, 16.0];
 /// Gain of the logarithm of the likelihood that a deviating arm must bring.
 const GAIN: f64 = 6.0;
 /// What was left out may be missed by this factor more, no more: noise.
 const HELD_OUT_SLACK: f64 = 1.02;
-/// A flange that is farther (m, rad) from where the model puts it belongs to other joint values.
-const CONSISTENT: (f64, f64) = (20e-3, 0.03);
+/// A flange that is farther from where the model puts it belongs to other joint values.
+const CONSISTENT: Residual = Residual { angle: 0.03, distance: 20e-3 };
 /// Rounds of linearising the deviations.
 const ROUNDS: usize = 3;
 /// The deviations are found when none moves by more than this part of its standard deviation.
@@ -139,7 +142,9 @@ impl Look<'_> {
         if which.is_empty() {
             return None;
         }
-        let sigma = |d: &Deviation| factor * if d.parameter.is_angle() { USUAL.0 } else { USUAL.1 };
+        let sigma = |d: &Deviation| {
+            factor * if d.parameter.is_angle() { USUAL.angle } else { USUAL.distance }
+        };
         let prior_sigma: Vec<f64> = which.iter().map(sigma).collect();
         let mut problem = self.about(arm, which);
         problem.extras.extend(prior_sigma.iter().enumerate().map(|(k, sigma)| Extra {
@@ -204,7 +209,7 @@ impl Look<'_> {
     ) -> ArmFit {
         let n = trial.which.len();
         let factor = trial.prior_sigma.first().map_or(1.0, |s| {
-            s / if trial.which[0].parameter.is_angle() { USUAL.0 } else { USUAL.1 }
+            s / if trial.which[0].parameter.is_angle() { USUAL.angle } else { USUAL.distance }
         });
         let mut moved = vec![0.0; n];
         let mut arm = self.model.clone();
@@ -265,7 +270,8 @@ fn corrected(
 fn consistent(views: &Views, model: &Arm) -> Result<(), RobotFinding> {
     let apart = |joints: &[f64], flange: &Pose<crate::Base, crate::Flange>| {
         let there = model.base_from_flange(joints);
-        there.distance_to(flange) > CONSISTENT.0 || there.angle_to(flange) > CONSISTENT.1
+        let apart = Residual::between(&there, flange);
+        apart.distance > CONSISTENT.distance || apart.angle > CONSISTENT.angle
     };
     let differ = |at: String| RobotFinding::JointsAndPosesDiffer { at };
     let of_view = |o: &&&Observation| apart(&o.joints, &o.base_from_flange);

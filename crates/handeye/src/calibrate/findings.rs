@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use crate::{
     Warning,
     calibrate::result::{Calibration, JudgedFinding},
-    findings::severity::{DISAGREE, PARTS_OF_DISAGREE, Severity, row},
+    findings::{
+        frames::{PARTS_OF_DISAGREE, PICTURE_AND_SCAN_DISAGREE},
+        severity::{Severity, row},
+    },
     model::verdict::Verdict,
 };
 
@@ -38,7 +41,7 @@ pub fn findings(result: &Calibration) -> Vec<JudgedFinding> {
 }
 
 fn judged(code: &str, severity: Severity, message: String) -> JudgedFinding {
-    let advice = row(code).map(|row| row.advice.to_owned());
+    let advice = row(code).map(|row| row.advice.to_owned()).filter(|words| !words.is_empty());
     let code = code.to_owned();
     JudgedFinding { code, severity, message, headline: None, advice, data: BTreeMap::new() }
 }
@@ -49,8 +52,8 @@ pub fn reservation(result: &Calibration) -> Option<String> {
         return None;
     }
     let all = if result.findings.is_empty() { findings(result) } else { result.findings.clone() };
-    let is_told = all.iter().any(|f| f.code == DISAGREE);
-    let is_part = |code: &str| is_told && PARTS_OF_DISAGREE.contains(&code);
+    let is_told = all.iter().any(|f| f.code == PICTURE_AND_SCAN_DISAGREE.code);
+    let is_part = |code: &str| is_told && PARTS_OF_DISAGREE.iter().any(|row| row.code == code);
     let mut codes: Vec<String> = vec![];
     let mut headlines: Vec<String> = vec![];
     for f in all {

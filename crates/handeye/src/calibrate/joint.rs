@@ -23,6 +23,7 @@ use crate::{
     },
     findings::TouchFinding,
     math::statistics,
+    model::residual::Residual,
 };
 
 /// What views and touches say together.
@@ -297,7 +298,7 @@ impl Joint {
     pub(super) fn note(&self) -> Option<String> {
         let strength = self.conflict?.strength;
         (strength > 0.0).then(|| {
-            let (turn, step) = SYSTEMATIC;
+            let Residual { angle: turn, distance: step } = SYSTEMATIC;
             format!(
                 "views and touches differ systematically; a difference of about {:.2} mm and {:.3} \
                  degrees per axis is part of the model",

@@ -26,7 +26,7 @@ use crate::{
         frames::{Frame, OtherAnswer},
     },
     math::{lie, statistics},
-    model::session::Session,
+    model::{residual::Residual, session::Session},
     register,
 };
 
@@ -43,7 +43,7 @@ const HALF_EXTENT: f64 = 0.15;
 /// A difference of depth up to this is one that the fit of both finds, m.
 const OF_DEPTH: f64 = 2e-3;
 /// Disagreement of few captures that needs no test: 0.5 degrees, 2 mm.
-const LARGE: (f64, f64) = (0.0087, 0.002);
+const LARGE: Residual = Residual { angle: 0.0087, distance: 0.002 };
 
 /// What a target pose is made from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -285,7 +285,7 @@ fn mean_of(all: &[Vector6<f64>]) -> Option<Gap> {
     let mean = all.iter().sum::<Vector6<f64>>() / n;
     if all.len() < FEWEST_CAPTURES {
         let (angle, distance) = (lie::omega(&mean).norm(), lie::nu(&mean).norm());
-        let large = angle > LARGE.0 || distance > LARGE.1;
+        let large = angle > LARGE.angle || distance > LARGE.distance;
         return (!all.is_empty()).then_some(Gap { mean, chance: if large { 0.0 } else { 1.0 } });
     }
     let scatter = |s: Matrix6<f64>, x: &Vector6<f64>| s + (x - mean) * (x - mean).transpose();

@@ -2,7 +2,7 @@
 
 use super::{
     checkerboard, circles,
-    coded::{Coded, coded},
+    coded::Coded,
     grid::Grid,
     mesh,
     pyramid::{Scaled, smoothed},
@@ -12,6 +12,7 @@ use super::{
 use crate::{
     GrayImage, ImageCorner, Intrinsics, TargetModel,
     detect::outcome::{NotFound, Outcome, worth},
+    model::target::look::Look,
 };
 
 /// Smallest side of an image (px) with a board of 2 x 2 corners in it.
@@ -43,20 +44,14 @@ pub fn detect_with(
     if width.min(height) < SMALLEST_IMAGE {
         return Err(NotFound::SmallImage { width, height });
     }
-    let found = match target {
-        TargetModel::Tag { dictionary, id, .. } => return tag::detect(image, dictionary, *id),
-        TargetModel::CircleGrid { .. }
-        | TargetModel::AsymmetricCircleGrid { .. }
-        | TargetModel::ModifiedCircleGrid { .. } => {
-            return circles::detect_with(image, target, camera);
+    let found = match target.look() {
+        Look::Tag { dictionary, id } => return tag::detect(image, &dictionary, id),
+        Look::Circles(_) => return circles::detect_with(image, target, camera),
+        Look::Ball => return Err(NotFound::ScansOnly),
+        Look::Tags(print) if !print.joined => tags::Board::new(target, &print)?.detect(image),
+        Look::Tags(_) | Look::Squares | Look::MarkedSquares(_) => {
+            search(image, target, &|grids| grids)
         }
-        TargetModel::Aprilgrid { .. } | TargetModel::TagGrid { .. }
-            if let Some(board) = tags::Board::apart(target) =>
-        {
-            board?.detect(image)
-        }
-        TargetModel::Sphere { .. } => return Err(NotFound::ScansOnly),
-        _ => search(image, target, &|grids| grids),
     };
     without_strays(found, target, (width, height), camera)
 }
@@ -114,13 +109,14 @@ enum Family<'a> {
 
 impl<'a> Family<'a> {
     fn of(target: &'a TargetModel) -> Result<Self, NotFound> {
-        if let Some(coded) = coded(target) {
-            return Ok(Self::Coded(coded?));
-        }
-        match target {
-            TargetModel::Checkerboard { .. } => Ok(Self::Checkerboard(target)),
-            // the others were looked for before
-            _ => Err(NotFound::Unsupported("this target")),
+        match target.look() {
+            Look::Squares => Ok(Self::Checkerboard(target)),
+            Look::MarkedSquares(print) => Ok(Self::Coded(Coded::charuco(target, &print)?)),
+            Look::Tags(print) if print.joined => Ok(Self::Coded(Coded::tags(target, &print)?)),
+            // these were looked for before
+            Look::Tags(_) | Look::Tag { .. } | Look::Circles(_) | Look::Ball => {
+                Err(NotFound::Unsupported("this target"))
+            }
         }
     }
 

@@ -17,7 +17,10 @@ use super::{
 use crate::{
     GrayImage, ImageCorner, TargetModel,
     detect::outcome::{NotFound, Outcome, worth},
-    model::print::marker_of_square,
+    model::{
+        print::marker_of_square,
+        target::look::{MarkedSquares, Tags},
+    },
 };
 
 /// Fewer corners do not determine a pose.
@@ -62,6 +65,8 @@ pub(super) struct Coded<'a> {
     share: f64,
     /// Width of a marker's black border, bits.
     border: usize,
+    /// Whether corners lie in pairs, at both ends of a tag's side.
+    in_pairs: bool,
     /// Half the width of the cross around a corner that is free of markers' bits, over the shortest
     /// step.
     clean: f64,
@@ -77,77 +82,58 @@ pub(super) struct Coded<'a> {
     lines: [Vec<f64>; 2],
 }
 
-/// `None` for boards of other kinds.
-pub(super) fn coded(target: &TargetModel) -> Option<Result<Coded<'_>, NotFound>> {
-    match target {
-        TargetModel::Charuco { .. } => Some(charuco(target)),
-        TargetModel::Aprilgrid { corner_squares: true, .. } => Some(aprilgrid(target)),
-        _ => None,
-    }
-}
-
 fn dictionary(name: &str) -> Result<Dictionary, NotFound> {
     Dictionary::named(name).ok_or_else(|| NotFound::UnknownDictionary(name.into()))
 }
 
-fn charuco(target: &TargetModel) -> Result<Coded<'_>, NotFound> {
-    let &TargetModel::Charuco {
-        squares_x,
-        squares_y,
-        square_mm,
-        marker_mm,
-        dictionary: ref name,
-        legacy,
-        first_id,
-    } = target
-    else {
-        return Err(NotFound::Unsupported("this target"));
-    };
-    let (share, white_first) = (marker_mm / square_mm, legacy && squares_y % 2 == 0);
-    let squares =
-        (0..squares_y as usize).flat_map(|j| (0..squares_x as usize).map(move |i| (i, j)));
-    let has_marker = |&(i, j): &(usize, usize)| {
-        marker_of_square(i, j, squares_x as usize, white_first).is_some()
-    };
-    Ok(Coded {
-        target,
-        share,
-        border: 1,
-        clean: 0.5 * (1.0 - share),
-        name: name.clone(),
-        dictionary: dictionary(name)?,
-        turns: 0,
-        first: first_id,
-        cells: squares.filter(has_marker).map(|(i, j)| (i as i32 - 1, j as i32 - 1)).collect(),
-        lines: lines(target),
-    })
-}
+impl<'a> Coded<'a> {
+    /// A checkerboard with markers in its white squares.
+    pub fn charuco(target: &'a TargetModel, print: &MarkedSquares) -> Result<Self, NotFound> {
+        let (squares_x, squares_y) = print.squares;
+        let squares =
+            (0..squares_y as usize).flat_map(|j| (0..squares_x as usize).map(move |i| (i, j)));
+        let has_marker = |&(i, j): &(usize, usize)| {
+            marker_of_square(i, j, squares_x as usize, print.white_first).is_some()
+        };
+        Ok(Coded {
+            target,
+            share: print.share,
+            border: 1,
+            in_pairs: false,
+            clean: 0.5 * (1.0 - print.share),
+            name: print.dictionary.clone(),
+            dictionary: dictionary(&print.dictionary)?,
+            turns: 0,
+            first: print.first_id,
+            cells: squares.filter(has_marker).map(|(i, j)| (i as i32 - 1, j as i32 - 1)).collect(),
+            lines: lines(target),
+        })
+    }
 
-fn aprilgrid(target: &TargetModel) -> Result<Coded<'_>, NotFound> {
-    let &TargetModel::Aprilgrid { spacing, ref family, border_bits, first_id, .. } = target else {
-        return Err(NotFound::Unsupported("this target"));
-    };
-    let name = family.dictionary();
-    let dictionary = dictionary(name)?;
-    let border = border_bits as usize;
-    let bits = dictionary.side() + 2 * border;
-    let label_of: BTreeMap<u32, (i32, i32)> =
-        labels(target).filter_map(|k| Some((id_of(target, k)?, k))).collect();
-    // of a tag's corners the one that is read first
-    let first_of = |corners: &[u32; 4]| corners.iter().filter_map(|id| label_of.get(id)).min();
-    let tags = target.tags();
-    Ok(Coded {
-        target,
-        share: 1.0,
-        border,
-        clean: (border as f64 / bits as f64 / spacing).min(1.0),
-        name: name.into(),
-        dictionary,
-        turns: if tags.first().is_some_and(|tag| tag.turned) { 2 } else { 0 },
-        first: first_id,
-        cells: tags.iter().filter_map(|tag| first_of(&tag.corners).copied()).collect(),
-        lines: lines(target),
-    })
+    /// Tags whose corners touch black squares.
+    pub fn tags(target: &'a TargetModel, print: &Tags) -> Result<Self, NotFound> {
+        let dictionary = dictionary(&print.dictionary)?;
+        let border = print.border_bits as usize;
+        let bits = dictionary.side() + 2 * border;
+        let label_of: BTreeMap<u32, (i32, i32)> =
+            labels(target).filter_map(|k| Some((id_of(target, k)?, k))).collect();
+        // of a tag's corners the one that is read first
+        let first_of = |corners: &[u32; 4]| corners.iter().filter_map(|id| label_of.get(id)).min();
+        let tags = target.tags();
+        Ok(Coded {
+            target,
+            share: 1.0,
+            border,
+            in_pairs: true,
+            clean: (border as f64 / bits as f64 / print.gap).min(1.0),
+            name: print.dictionary.clone(),
+            dictionary,
+            turns: if tags.first().is_some_and(|tag| tag.turned) { 2 } else { 0 },
+            first: print.first_id,
+            cells: tags.iter().filter_map(|tag| first_of(&tag.corners).copied()).collect(),
+            lines: lines(target),
+        })
+    }
 }
 
 /// Whether a place has two corners or more around it: far from all others nothing is foreseen.
@@ -229,8 +215,8 @@ impl Coded<'_> {
     }
 
     fn measured(&self, image: &GrayImage, mut board: Grid) -> Outcome {
-        let pairs = matches!(self.target, TargetModel::Aprilgrid { .. });
-        let fits = Fits { image, clean: self.clean, pairs, lines: Some(&self.lines) };
+        let fits =
+            Fits { image, clean: self.clean, pairs: self.in_pairs, lines: Some(&self.lines) };
         let seen = board.clone();
         self.fill(&mut board, &fits);
         let fitted = fits.all(&board, &seen);

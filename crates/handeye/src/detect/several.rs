@@ -7,7 +7,10 @@ use super::{
     grid::Grid,
     strays::without_strays,
 };
-use crate::{GrayImage, ImageCorner, Intrinsics, TargetModel, detect::outcome::Outcome};
+use crate::{
+    GrayImage, ImageCorner, Intrinsics, TargetModel, detect::outcome::Outcome,
+    model::target::look::Look,
+};
 
 /// A corner of a grid is one of a board that was found when it lies this near to it, over the least
 /// distance between that board's corners.
@@ -27,7 +30,7 @@ pub fn detect_several(
     camera: Option<&Intrinsics>,
 ) -> Vec<Outcome> {
     let mut order: Vec<usize> = (0..targets.len()).collect();
-    let is_plain = |k: usize| matches!(targets[k], TargetModel::Checkerboard { .. });
+    let is_plain = |k: usize| matches!(targets[k].look(), Look::Squares);
     order.sort_by_key(|&k| (is_plain(k), std::cmp::Reverse(targets[k].len())));
     let mut boards: Vec<Vec<ImageCorner>> = vec![];
     let mut found: Vec<(usize, Outcome)> = vec![];

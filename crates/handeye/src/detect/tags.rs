@@ -19,7 +19,10 @@ use super::{
 use crate::{
     GrayImage, ImageCorner, TargetModel,
     detect::outcome::{NotFound, Outcome},
-    model::target::kinds::PlacedTag,
+    model::target::{
+        kinds::PlacedTag,
+        look::{Look, Tags},
+    },
 };
 
 /// A tag belongs to a group when its corners are this near to where they should be, in its sides:
@@ -56,31 +59,29 @@ pub(super) struct Board<'a> {
 type Group = BTreeMap<u32, SeenTag>;
 
 impl<'a> Board<'a> {
-    /// A board whose tags do not touch anything; `None` for other targets.
-    pub fn apart(target: &'a TargetModel) -> Option<Result<Self, NotFound>> {
-        Self::of(target).filter(|board| board.as_ref().map_or(true, |b| !b.print.touching))
-    }
-
     /// `None` for targets of other kinds.
     pub fn of(target: &'a TargetModel) -> Option<Result<Self, NotFound>> {
-        let (name, border, gap, touching) = match target {
-            TargetModel::Aprilgrid { family, border_bits, spacing, corner_squares, .. } => {
-                (family.dictionary(), *border_bits as usize, *spacing, *corner_squares)
-            }
-            TargetModel::TagGrid { dictionary, tag_mm, gap_mm, .. } => {
-                (dictionary.as_str(), 1, gap_mm / tag_mm, false)
-            }
-            _ => return None,
-        };
+        match target.look() {
+            Look::Tags(tags) => Some(Self::new(target, &tags)),
+            Look::Squares
+            | Look::MarkedSquares(_)
+            | Look::Tag { .. }
+            | Look::Circles(_)
+            | Look::Ball => None,
+        }
+    }
+
+    /// The board of such tags.
+    pub fn new(target: &'a TargetModel, look: &Tags) -> Result<Self, NotFound> {
         let tags = target.tags().into_iter().map(|tag| (tag.marker, tag)).collect();
-        let print = Print::new(name, border, Some(gap), touching);
-        Some(print.map(|print| Self {
+        let border = look.border_bits as usize;
+        Ok(Self {
             target,
-            print,
+            print: Print::new(&look.dictionary, border, Some(look.gap), look.joined)?,
             tags,
-            step: target.pitch_m() * (1.0 + gap),
-            name: name.into(),
-        }))
+            step: target.pitch_m() * (1.0 + look.gap),
+            name: look.dictionary.clone(),
+        })
     }
 
     /// The corners of all tags that are found.

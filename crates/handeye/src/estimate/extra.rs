@@ -3,7 +3,7 @@
 use nalgebra::{DVector, Vector6};
 
 use super::noise::{Source, Variances};
-use crate::{PosePair, solve::least_squares::View};
+use crate::{PosePair, model::residual::Residual, solve::least_squares::View};
 
 /// What the unknown changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -67,9 +67,9 @@ impl Extra {
     }
 }
 
-/// Size of a systematic difference of unit strength: rotation (rad) and position (m) per axis, at
-/// the middle of the touched places.
-pub(crate) const SYSTEMATIC: (f64, f64) = (0.04 / 180.0 * std::f64::consts::PI, 0.5e-3);
+/// Size of a systematic difference of unit strength, per axis, at the middle of the touched places.
+pub(crate) const SYSTEMATIC: Residual =
+    Residual { angle: 0.04 / 180.0 * std::f64::consts::PI, distance: 0.5e-3 };
 
 /// Standard deviation of a tool tip that was measured with care, m per axis.
 pub const TIP_PRIOR: f64 = 0.5e-3;

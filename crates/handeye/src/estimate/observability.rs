@@ -6,10 +6,10 @@
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::{JointFit, predict};
-use crate::{PosePair, Setup, Target, solve::motions};
+use crate::{PosePair, Setup, Target, model::residual::Residual, solve::motions};
 
 /// Largest standard deviations of an answer that still counts as determined: 3 degrees, 20 mm.
-const FREE: (f64, f64) = (0.052, 0.02);
+const FREE: Residual = Residual { angle: 0.052, distance: 0.02 };
 
 /// A direction of `mount_from_camera` that the data do not constrain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +36,7 @@ pub fn free_directions(fit: &JointFit) -> Vec<Free> {
 /// The same for a covariance of `mount_from_camera`, whose rotation is `r`.
 pub(crate) fn free_of(covariance: &Matrix6<f64>, r: &Matrix3<f64>) -> Vec<Free> {
     let mut free = Vec::new();
-    for (block, limit) in [(0, FREE.0), (3, FREE.1)] {
+    for (block, limit) in [(0, FREE.angle), (3, FREE.distance)] {
         let s: Matrix3<f64> = covariance.fixed_view::<3, 3>(block, block).into_owned();
         let eigen = s.symmetric_eigen();
         for k in 0..3 {

@@ -29,6 +29,7 @@ use crate::{
     Base, Flange, HandEye, Pose, Setup,
     detect::sight::{PRINT, SHAPES, TARGET_SCALE},
     math::lie,
+    model::residual::Residual,
     solve::View,
 };
 
@@ -154,7 +155,7 @@ fn carrier(
 /// the touched places lie about `middle`.
 pub(super) fn systematic_carry(middle: &Vector3<f64>) -> Matrix6<f64> {
     let shift = Isometry3::translation(middle.x, middle.y, middle.z);
-    let (turn, step) = SYSTEMATIC;
+    let Residual { angle: turn, distance: step } = SYSTEMATIC;
     let size = nalgebra::Vector6::new(turn, turn, turn, step, step, step);
     lie::adjoint(&shift) * Matrix6::from_diagonal(&size)
 }

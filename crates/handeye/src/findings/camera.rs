@@ -1,6 +1,6 @@
 //! Findings about intrinsics and the depth of scans.
 
-use super::Found;
+use super::{Found, row::Row};
 use crate::Intrinsics;
 
 /// What is found about the camera.
@@ -114,14 +114,40 @@ impl CameraFinding {
     }
 }
 
+const CAMERA_REFINED: Row = Row::changes(
+    "camera-refined",
+    "the answer uses refined intrinsics, not the given ones",
+    "use the intrinsics in `camera` for your images too, or calibrate the camera again",
+);
+const CAMERA_CALIBRATED_FROM_VIEWS: Row = Row::info("camera-calibrated-from-views");
+const CAMERA_BENDS: Row = Row::changes(
+    "camera-bends",
+    "the answer uses a distortion that was not given",
+    "calibrate the camera's distortion",
+);
+const DEPTH_BY_COLOUR: Row = Row::changes(
+    "depth-by-colour",
+    "depth on black was corrected to that on white",
+    "take a board of matt grey and white",
+);
+const DEPTH_OFF: Row = Row::changes(
+    "depth-off",
+    "the answer corrects the depth of the scans",
+    "correct the points of this camera as `depth` says, or have its depth calibrated",
+);
+
+/// All codes of this subject.
+pub(super) const ROWS: &[&Row] =
+    &[&CAMERA_REFINED, &CAMERA_CALIBRATED_FROM_VIEWS, &CAMERA_BENDS, &DEPTH_BY_COLOUR, &DEPTH_OFF];
+
 impl Found for CameraFinding {
-    fn code(&self) -> &'static str {
+    fn row(&self) -> &'static Row {
         match self {
-            Self::Refined { .. } => "camera-refined",
-            Self::CalibratedFromViews { .. } => "camera-calibrated-from-views",
-            Self::Bends { .. } => "camera-bends",
-            Self::DepthByColour { .. } => "depth-by-colour",
-            Self::DepthOff { .. } => "depth-off",
+            Self::Refined { .. } => &CAMERA_REFINED,
+            Self::CalibratedFromViews { .. } => &CAMERA_CALIBRATED_FROM_VIEWS,
+            Self::Bends { .. } => &CAMERA_BENDS,
+            Self::DepthByColour { .. } => &DEPTH_BY_COLOUR,
+            Self::DepthOff { .. } => &DEPTH_OFF,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Findings about captures that do not count, and whether those that do are enough.
 
-use super::Found;
+use super::{Found, row::Row};
 
 /// What is found about captures.
 #[derive(Debug, Clone, PartialEq)]
@@ -224,19 +224,19 @@ impl Other {
 }
 
 impl Cause {
-    fn code(&self) -> &'static str {
+    fn row(&self) -> &'static Row {
         match self {
-            Self::TargetRotated { .. } => "target-turned",
-            Self::Exchanged { .. } => "captures-exchanged",
+            Self::TargetRotated { .. } => &TARGET_TURNED,
+            Self::Exchanged { .. } => &CAPTURES_EXCHANGED,
             Self::FitsPoseOf { other, .. } => match other.stands {
-                Stands::Elsewhere => "captures-exchanged",
-                _ => "order-shifted",
+                Stands::Elsewhere => &CAPTURES_EXCHANGED,
+                _ => &ORDER_SHIFTED,
             },
             Self::HasPoseOf { other, .. } => match other.stands {
-                Stands::After => "order-shifted",
-                _ => "stale-robot-pose",
+                Stands::After => &ORDER_SHIFTED,
+                _ => &STALE_ROBOT_POSE,
             },
-            Self::Disagrees { .. } => "capture-rejected",
+            Self::Disagrees { .. } => &CAPTURE_REJECTED,
         }
     }
 
@@ -375,23 +375,69 @@ fn few(used: usize, of_a_ball: bool) -> String {
     )
 }
 
+const TARGET_TURNED: Row = Row::info("target-turned");
+const CAPTURES_EXCHANGED: Row = Row::info("captures-exchanged");
+const ORDER_SHIFTED: Row = Row::changes(
+    "order-shifted",
+    "captures were rejected because images and robot poses are out of order",
+    "correct the order of the files or lines",
+);
+const STALE_ROBOT_POSE: Row = Row::info("stale-robot-pose");
+const CAPTURE_REJECTED: Row = Row::info("capture-rejected");
+const CAPTURES_REJECTED: Row = Row::changes(
+    "captures-rejected",
+    "many captures were rejected as outliers",
+    "find out what they have in common: something moved, or the robot errs there",
+);
+const FEW_CAPTURES: Row = Row::info("few-captures");
+const CAPTURES_REPEATED: Row = Row::info("captures-repeated");
+const CAPTURES_OF_ONE_PLACE: Row = Row::info("captures-of-one-place");
+const ROBOT_POSE_FROZEN: Row = Row::info("robot-pose-frozen");
+const CAMERA_STILL: Row = Row::info("camera-still");
+const CAPTURES_DISAGREE: Row = Row::info("captures-disagree");
+const NO_CLEAR_MAJORITY: Row =
+    Row::rejects("no-clear-majority", "find out what changed in the session, and take it again");
+const SCANS_NOT_PLACED: Row = Row::info("scans-not-placed");
+const TARGET_NOT_FOUND: Row = Row::info("target-not-found");
+const METHOD_NOT_FOR_BALLS: Row = Row::info("method-not-for-balls");
+
+/// All codes of this subject.
+pub(super) const ROWS: &[&Row] = &[
+    &TARGET_TURNED,
+    &CAPTURES_EXCHANGED,
+    &ORDER_SHIFTED,
+    &STALE_ROBOT_POSE,
+    &CAPTURE_REJECTED,
+    &CAPTURES_REJECTED,
+    &FEW_CAPTURES,
+    &CAPTURES_REPEATED,
+    &CAPTURES_OF_ONE_PLACE,
+    &ROBOT_POSE_FROZEN,
+    &CAMERA_STILL,
+    &CAPTURES_DISAGREE,
+    &NO_CLEAR_MAJORITY,
+    &SCANS_NOT_PLACED,
+    &TARGET_NOT_FOUND,
+    &METHOD_NOT_FOR_BALLS,
+];
+
 impl Found for CaptureFinding {
-    fn code(&self) -> &'static str {
+    fn row(&self) -> &'static Row {
         match self {
-            Self::Rejected { cause, .. } => cause.code(),
-            Self::ManyRejected { .. } => "captures-rejected",
-            Self::Few { .. } => "few-captures",
-            Self::Repeated { .. } => "captures-repeated",
-            Self::OfOnePlace { .. } => "captures-of-one-place",
-            Self::OutOfOrder { .. } => "order-shifted",
-            Self::ImagesExchanged { .. } => "captures-exchanged",
-            Self::RobotStill { .. } => "robot-pose-frozen",
-            Self::CameraStill { .. } => "camera-still",
-            Self::Disagreeing { .. } => "captures-disagree",
-            Self::NoMajority { .. } | Self::TwoAnswers { .. } => "no-clear-majority",
-            Self::MostMissing(MostMissing { shown: Shown::Scene, .. }) => "scans-not-placed",
-            Self::MostMissing(_) => "target-not-found",
-            Self::MethodNotForBalls { .. } => "method-not-for-balls",
+            Self::Rejected { cause, .. } => cause.row(),
+            Self::ManyRejected { .. } => &CAPTURES_REJECTED,
+            Self::Few { .. } => &FEW_CAPTURES,
+            Self::Repeated { .. } => &CAPTURES_REPEATED,
+            Self::OfOnePlace { .. } => &CAPTURES_OF_ONE_PLACE,
+            Self::OutOfOrder { .. } => &ORDER_SHIFTED,
+            Self::ImagesExchanged { .. } => &CAPTURES_EXCHANGED,
+            Self::RobotStill { .. } => &ROBOT_POSE_FROZEN,
+            Self::CameraStill { .. } => &CAMERA_STILL,
+            Self::Disagreeing { .. } => &CAPTURES_DISAGREE,
+            Self::NoMajority { .. } | Self::TwoAnswers { .. } => &NO_CLEAR_MAJORITY,
+            Self::MostMissing(MostMissing { shown: Shown::Scene, .. }) => &SCANS_NOT_PLACED,
+            Self::MostMissing(_) => &TARGET_NOT_FOUND,
+            Self::MethodNotForBalls { .. } => &METHOD_NOT_FOR_BALLS,
         }
     }
 
@@ -469,9 +515,9 @@ mod tests {
             seen: "image",
             other: Other { name: "007".into(), stands },
         };
-        assert_eq!(of(Stands::After).code(), "order-shifted");
+        assert_eq!(of(Stands::After).row().code, "order-shifted");
         assert!(of(Stands::After).in_words().contains("the next capture, 007: the order"));
-        assert_eq!(of(Stands::Elsewhere).code(), "captures-exchanged");
+        assert_eq!(of(Stands::Elsewhere).row().code, "captures-exchanged");
         assert!(of(Stands::Elsewhere).in_words().ends_with("capture 007"));
     }
 

@@ -1,6 +1,6 @@
 //! Findings about the frames of images and scans.
 
-use super::Found;
+use super::{Found, row::Row};
 
 /// A source whose frame an answer can be for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -149,15 +149,53 @@ impl FramesFinding {
     }
 }
 
+const PICTURE_AND_SCAN_DIFFER: Row = Row::rejects(
+    "picture-and-scan-differ",
+    "show the target at several distances and tilts, and check the calibration between image and scan",
+);
+pub(crate) const PICTURE_AND_SCAN_SCALE: Row = Row::changes(
+    "picture-and-scan-scale",
+    "images and scans disagree in scale",
+    "check focal length, size of the target and scale of depth",
+);
+pub(crate) const PICTURE_AND_SCAN_TILT: Row = Row::changes(
+    "picture-and-scan-tilt",
+    "images and scans disagree in rotation",
+    "take the cloud in the frame of the image's camera",
+);
+pub(crate) const PICTURE_AND_SCAN_SHIFT: Row = Row::changes(
+    "picture-and-scan-shift",
+    "images and scans disagree in position",
+    "take the cloud in the frame of the image's camera",
+);
+pub(crate) const PICTURE_AND_SCAN_DISAGREE: Row = Row::changes(
+    "picture-and-scan-disagree",
+    "images and scans disagree, and the answer is for the frame of one of them",
+    "check the calibration between image and depth, and the frame of the points",
+);
+
+/// All codes of this subject.
+pub(super) const ROWS: &[&Row] = &[
+    &PICTURE_AND_SCAN_DIFFER,
+    &PICTURE_AND_SCAN_SCALE,
+    &PICTURE_AND_SCAN_TILT,
+    &PICTURE_AND_SCAN_SHIFT,
+    &PICTURE_AND_SCAN_DISAGREE,
+];
+
+/// What the difference of both frames consists of: where that is said, one headline is enough.
+pub(crate) const PARTS_OF_DISAGREE: [&Row; 3] =
+    [&PICTURE_AND_SCAN_SCALE, &PICTURE_AND_SCAN_TILT, &PICTURE_AND_SCAN_SHIFT];
+
 impl Found for FramesFinding {
-    fn code(&self) -> &'static str {
+    fn row(&self) -> &'static Row {
         match self {
-            Self::NotSeparable => "picture-and-scan-differ",
-            Self::Scale { .. } => "picture-and-scan-scale",
-            Self::Tilt(_) => "picture-and-scan-tilt",
-            Self::Shift(_) => "picture-and-scan-shift",
+            Self::NotSeparable => &PICTURE_AND_SCAN_DIFFER,
+            Self::Scale { .. } => &PICTURE_AND_SCAN_SCALE,
+            Self::Tilt(_) => &PICTURE_AND_SCAN_TILT,
+            Self::Shift(_) => &PICTURE_AND_SCAN_SHIFT,
             Self::Disagree { .. } | Self::Offset { .. } | Self::OffsetNotConfirmed { .. } => {
-                "picture-and-scan-disagree"
+                &PICTURE_AND_SCAN_DISAGREE
             }
         }
     }

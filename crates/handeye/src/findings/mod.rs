@@ -2,14 +2,15 @@
 //! it does to the answer, and what to do about it.
 //!
 //! A stage that notices something makes a variant, and code matches on the variant, never on the text. A new finding is
-//! a variant in the file of its subject, with its code and sentence there, a row in [`severity`] where it changes the
-//! answer or invalidates it, and an entry in the book's list of codes (`book/src/trouble/codes.md`).
+//! a variant in the file of its subject, with a row there (its code, what it does to the answer, headline and advice), its
+//! sentence and its numbers, and an entry in the book's list of codes (`book/src/trouble/codes.md`).
 
 pub mod camera;
 pub mod captures;
 pub mod frames;
 pub mod movement;
 pub mod robot;
+mod row;
 pub mod severity;
 pub mod streams;
 pub mod target;
@@ -27,6 +28,8 @@ pub use touches::TouchFinding;
 pub use warning::Warning;
 
 use std::collections::BTreeMap;
+
+use row::Row;
 
 /// Something that was found, by what it is about.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,8 +55,8 @@ pub enum Finding {
 
 /// What the findings of every subject say of themselves.
 trait Found {
-    /// Short fixed name, for programs.
-    fn code(&self) -> &'static str;
+    /// What is known of its code.
+    fn row(&self) -> &'static Row;
 
     /// What was seen and where, with its numbers.
     fn message(&self) -> String;
@@ -84,7 +87,7 @@ impl Finding {
 
     /// Short fixed name, for programs.
     pub fn code(&self) -> &'static str {
-        self.found().code()
+        self.found().row().code
     }
 
     /// What was seen and where, with its numbers.

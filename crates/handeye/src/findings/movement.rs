@@ -1,6 +1,6 @@
 //! Findings about something that moved during the session.
 
-use super::Found;
+use super::{Found, row::Row};
 use serde::{Deserialize, Serialize};
 
 use crate::Setup;
@@ -116,17 +116,38 @@ impl MovementFinding {
     }
 }
 
+const CAPTURES_DISPLACED: Row = Row::changes(
+    "captures-displaced",
+    "captures were rejected one after the other and agree with one another",
+    "find out whether something moved or the robot errs there",
+);
+const MOVED_DURING_SESSION: Row = Row::changes(
+    "moved-during-session",
+    "something moved during the session, and the stated error covers it",
+    "tighten what gives way, and take the captures again",
+);
+const CAMERA_MOVED: Row = Row::changes(
+    "camera-moved",
+    "the camera moved during the session, and the answer is where it is now",
+    "fasten the camera and the target, and take the captures again",
+);
+const TARGET_MOVED: Row = Row::info("target-moved");
+
+/// All codes of this subject.
+pub(super) const ROWS: &[&Row] =
+    &[&CAPTURES_DISPLACED, &MOVED_DURING_SESSION, &CAMERA_MOVED, &TARGET_MOVED];
+
 impl Found for MovementFinding {
-    fn code(&self) -> &'static str {
+    fn row(&self) -> &'static Row {
         match self {
-            Self::Displaced(..) => "captures-displaced",
-            Self::Covered(..) => "moved-during-session",
-            Self::AnswerOfTheEnd { .. } | Self::TooFewSince(..) => "camera-moved",
+            Self::Displaced(..) => &CAPTURES_DISPLACED,
+            Self::Covered(..) => &MOVED_DURING_SESSION,
+            Self::AnswerOfTheEnd { .. } | Self::TooFewSince(..) => &CAMERA_MOVED,
             Self::Elsewhere { is_target, .. } => {
                 if *is_target {
-                    "target-moved"
+                    &TARGET_MOVED
                 } else {
-                    "camera-moved"
+                    &CAMERA_MOVED
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Findings about the robot's poses, its arm, and what the user says of the camera's position.
 
-use super::Found;
+use super::{Found, row::Row};
 
 /// What is found about the robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -158,20 +158,61 @@ impl RobotFinding {
     }
 }
 
+const POSES_INVERTED: Row = Row::rejects("poses-inverted", "correct `direction` or `setup`");
+const ROBOT_POSES_INVERTED: Row =
+    Row::rejects("robot-poses-inverted", "correct `direction` or `setup`");
+const READING: Row = Row::info("reading");
+const ROBOT_SCALE: Row = Row::info("robot-scale");
+const ROBOT_LENGTH_UNIT: Row = Row::rejects("robot-length-unit", "correct `length_unit`");
+const TARGET_LENGTH_UNIT: Row =
+    Row::rejects("target-length-unit", "give robot and camera in the same unit");
+const ARM_DEVIATES: Row = Row::changes(
+    "arm-deviates",
+    "the arm is not built as its model says, and the answer takes that into account",
+    "use the corrected arm in programs that compute positions themselves",
+);
+const ROBOT_ERRS_BY_PLACE: Row = Row::changes(
+    "robot-errs-by-place",
+    "the robot errs from place to place, and no fixed transform is right everywhere",
+    "take captures where the robot works, with the tool held as at work; have its joints calibrated",
+);
+const JOINTS_AND_POSES_DIFFER: Row = Row::info("joints-and-poses-differ");
+const DETERMINED_BY_KNOWN_POSITION: Row = Row::info("determined-by-known-position");
+const KNOWN_POSITION_DISAGREES: Row = Row::changes(
+    "known-position-disagrees",
+    "the data contradict the position that was given",
+    "measure it again, or leave it out",
+);
+
+/// All codes of this subject.
+pub(super) const ROWS: &[&Row] = &[
+    &POSES_INVERTED,
+    &ROBOT_POSES_INVERTED,
+    &READING,
+    &ROBOT_SCALE,
+    &ROBOT_LENGTH_UNIT,
+    &TARGET_LENGTH_UNIT,
+    &ARM_DEVIATES,
+    &ROBOT_ERRS_BY_PLACE,
+    &JOINTS_AND_POSES_DIFFER,
+    &DETERMINED_BY_KNOWN_POSITION,
+    &KNOWN_POSITION_DISAGREES,
+];
+
 impl Found for RobotFinding {
-    fn code(&self) -> &'static str {
+    fn row(&self) -> &'static Row {
         match self {
-            Self::Inverted { which: Inverted::Either, .. } => "poses-inverted",
-            Self::Inverted { which: Inverted::Robot, .. } => "robot-poses-inverted",
-            Self::OtherConvention { .. } => "reading",
-            Self::Scale { .. } => "robot-scale",
-            Self::LengthUnit { .. } => "robot-length-unit",
-            Self::TargetLengthUnit { .. } => "target-length-unit",
-            Self::ArmDeviates { .. } => "arm-deviates",
-            Self::ErrsByPlace { .. } => "robot-errs-by-place",
-            Self::JointsAndPosesDiffer { .. } => "joints-and-poses-differ",
-            Self::DeterminedByKnownPosition { .. } => "determined-by-known-position",
-            Self::KnownPositionDisagrees { .. } => "known-position-disagrees",
+            Self::Inverted { which: Inverted::Either, .. } => &POSES_INVERTED,
+            Self::Inverted { which: Inverted::Robot, .. } => &ROBOT_POSES_INVERTED,
+            Self::OtherConvention { .. } => &READING,
+            Self::Scale { .. } => &ROBOT_SCALE,
+            Self::LengthUnit { .. } => &ROBOT_LENGTH_UNIT,
+            Self::TargetLengthUnit { .. } => &TARGET_LENGTH_UNIT,
+            Self::ArmDeviates { .. } => &ARM_DEVIATES,
+            Self::ErrsByPlace { .. } => &ROBOT_ERRS_BY_PLACE,
+            Self::JointsAndPosesDiffer { .. } => &JOINTS_AND_POSES_DIFFER,
+            Self::DeterminedByKnownPosition { .. } => &DETERMINED_BY_KNOWN_POSITION,
+            Self::KnownPositionDisagrees { .. } => &KNOWN_POSITION_DISAGREES,
         }
     }
 
@@ -224,9 +265,9 @@ mod tests {
     #[test]
     fn an_inversion_has_a_code_for_each_kind() {
         let of = |which| RobotFinding::Inverted { which, before_mm: None, after_mm: 0.5 };
-        assert_eq!(of(Inverted::Robot).code(), "robot-poses-inverted");
+        assert_eq!(of(Inverted::Robot).row().code, "robot-poses-inverted");
         let either = of(Inverted::Either);
-        assert_eq!(either.code(), "poses-inverted");
+        assert_eq!(either.row().code, "poses-inverted");
         assert!(either.message().contains("falls from no agreement at all to 0.5 mm"));
     }
 }

@@ -1,6 +1,6 @@
 //! Findings about streams of poses, their clocks, and errors that change with time.
 
-use super::Found;
+use super::{Found, row::Row};
 
 /// What is found about streams.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,19 +105,48 @@ impl Drift {
     }
 }
 
+const STREAM_UNSORTED: Row = Row::info("stream-unsorted");
+const STREAM_REPEATED: Row = Row::info("stream-repeated");
+const STREAM_CONFLICTING: Row = Row::info("stream-conflicting");
+const STREAM_GAPS: Row = Row::info("stream-gaps");
+const CAPTURE_WITHOUT_ROBOT_POSE: Row = Row::info("capture-without-robot-pose");
+const TIME_OFFSET: Row = Row::info("time-offset");
+const TIME_OFFSET_UNDETERMINED: Row = Row::info("time-offset-undetermined");
+const TIME_OFFSET_AMBIGUOUS: Row = Row::info("time-offset-ambiguous");
+const NEIGHBOURS_ALIKE: Row = Row::info("neighbours-alike");
+const DRIFT: Row = Row::changes(
+    "drift",
+    "errors changed slowly during the session, and the answer takes that into account",
+    "warm up, and look for something that gives way",
+);
+
+/// All codes of this subject.
+pub(super) const ROWS: &[&Row] = &[
+    &STREAM_UNSORTED,
+    &STREAM_REPEATED,
+    &STREAM_CONFLICTING,
+    &STREAM_GAPS,
+    &CAPTURE_WITHOUT_ROBOT_POSE,
+    &TIME_OFFSET,
+    &TIME_OFFSET_UNDETERMINED,
+    &TIME_OFFSET_AMBIGUOUS,
+    &NEIGHBOURS_ALIKE,
+    &DRIFT,
+];
+
 impl Found for StreamFinding {
-    fn code(&self) -> &'static str {
+    fn row(&self) -> &'static Row {
         match self {
-            Self::Unsorted { .. } => "stream-unsorted",
-            Self::Repeated { .. } => "stream-repeated",
-            Self::Conflicting { .. } => "stream-conflicting",
-            Self::Gaps { .. } => "stream-gaps",
-            Self::WithoutRobotPose { .. } => "capture-without-robot-pose",
-            Self::Offset { .. } => "time-offset",
-            Self::OffsetUndetermined => "time-offset-undetermined",
-            Self::OffsetAmbiguous { .. } => "time-offset-ambiguous",
-            Self::NeighboursAlike { .. } => "neighbours-alike",
-            Self::Drift { .. } => "drift",
+            Self::Unsorted { .. } => &STREAM_UNSORTED,
+            Self::Repeated { .. } => &STREAM_REPEATED,
+            Self::Conflicting { .. } => &STREAM_CONFLICTING,
+            Self::Gaps { .. } => &STREAM_GAPS,
+            Self::WithoutRobotPose { .. } => &CAPTURE_WITHOUT_ROBOT_POSE,
+            Self::Offset { .. } => &TIME_OFFSET,
+            Self::OffsetUndetermined => &TIME_OFFSET_UNDETERMINED,
+            Self::OffsetAmbiguous { .. } => &TIME_OFFSET_AMBIGUOUS,
+            Self::NeighboursAlike { .. } => &NEIGHBOURS_ALIKE,
+            Self::Drift { .. } => &DRIFT,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Findings about the target's size and shape.
 
-use super::Found;
+use super::{Found, row::Row};
 
 /// What is found about the target.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,14 +106,40 @@ impl TargetFinding {
     }
 }
 
+const TARGET_SIZE_CONTRADICTED: Row = Row::changes(
+    "target-size-contradicted",
+    "the captures contradict the measured size of the target, which the answer uses",
+    "measure the target again; if it is right, the focal length or the robot's own scale is wrong",
+);
+const TARGET_SCALE: Row = Row::changes(
+    "target-scale",
+    "the answer uses the estimated size of the target, not the declared one",
+    "measure the target and declare its size",
+);
+const BOARD_UNEVEN: Row = Row::changes(
+    "board-uneven",
+    "the answer uses a board that is longer or shorter along y, not the declared one",
+    "measure the print along both sides, and print it again or have a plate made",
+);
+const BOARD_BENT: Row = Row::changes(
+    "board-bent",
+    "the answer uses a bent board, not a flat one",
+    "glue the board to a flat plate",
+);
+const BOARD_NOT_FLAT: Row = Row::info("board-not-flat");
+
+/// All codes of this subject.
+pub(super) const ROWS: &[&Row] =
+    &[&TARGET_SIZE_CONTRADICTED, &TARGET_SCALE, &BOARD_UNEVEN, &BOARD_BENT, &BOARD_NOT_FLAT];
+
 impl Found for TargetFinding {
-    fn code(&self) -> &'static str {
+    fn row(&self) -> &'static Row {
         match self {
-            Self::Size(Size { answer: SizeOfAnswer::Measured, .. }) => "target-size-contradicted",
-            Self::Size(_) | Self::Distances { .. } | Self::ExplainsAll(_) => "target-scale",
-            Self::Uneven { .. } => "board-uneven",
-            Self::Bent { .. } => "board-bent",
-            Self::NotFlat { .. } => "board-not-flat",
+            Self::Size(Size { answer: SizeOfAnswer::Measured, .. }) => &TARGET_SIZE_CONTRADICTED,
+            Self::Size(_) | Self::Distances { .. } | Self::ExplainsAll(_) => &TARGET_SCALE,
+            Self::Uneven { .. } => &BOARD_UNEVEN,
+            Self::Bent { .. } => &BOARD_BENT,
+            Self::NotFlat { .. } => &BOARD_NOT_FLAT,
         }
     }
 
@@ -233,11 +259,11 @@ mod tests {
     #[test]
     fn the_size_that_the_answer_uses_is_in_the_headline() {
         let estimated = TargetFinding::Size(size(0.98, SizeOfAnswer::Estimated));
-        assert_eq!(estimated.code(), "target-scale");
+        assert_eq!(estimated.row().code, "target-scale");
         let words = "the answer uses the estimated size of the target (29.400 mm), not the declared one (30.000 mm)";
         assert_eq!(estimated.headline().as_deref(), Some(words));
         let measured = TargetFinding::Size(size(0.98, SizeOfAnswer::Measured));
-        assert_eq!(measured.code(), "target-size-contradicted");
+        assert_eq!(measured.row().code, "target-size-contradicted");
         assert!(measured.headline().is_some_and(|h| h.contains("they say 29.40 mm")));
     }
 

@@ -1,6 +1,6 @@
 //! Findings about touches, point pairs and the tool's tip.
 
-use super::Found;
+use super::{Found, row::Row};
 
 /// What is found about touches.
 #[derive(Debug, Clone, PartialEq)]
@@ -158,20 +158,59 @@ impl TouchFinding {
     }
 }
 
+const TOUCH_REJECTED: Row = Row::changes(
+    "touch-rejected",
+    "a touch was rejected as an outlier",
+    "check the corner id of that touch, and touch it again",
+);
+const TOUCHES_MISREAD: Row = Row::info("touches-misread");
+const TIP_OFF: Row = Row::changes(
+    "tip-off",
+    "the answer corrects the tool's tip",
+    "calibrate the tool again (`handeye tcp`)",
+);
+const VIEWS_AND_TOUCHES_DISAGREE: Row = Row::changes(
+    "views-and-touches-disagree",
+    "views and touches disagree, and the result is valid near the touched positions only",
+    "calibrate the robot where it works, or touch corners there",
+);
+const TOUCHES_NOT_ENOUGH: Row = Row::info("touches-not-enough");
+const TOUCH_WITHOUT_VIEW: Row = Row::info("touch-without-view");
+const TOUCH_REPEATED: Row = Row::info("touch-repeated");
+const TOUCHES_WITHOUT_CORNERS: Row = Row::info("touches-without-corners");
+const TOUCH_PLACEMENTS_IGNORED: Row = Row::info("touch-placements-ignored");
+const POINTS_NEARLY_COLLINEAR: Row = Row::info("points-nearly-collinear");
+const DETERMINED_BY_TOUCHES: Row = Row::info("determined-by-touches");
+
+/// All codes of this subject.
+pub(super) const ROWS: &[&Row] = &[
+    &TOUCH_REJECTED,
+    &TOUCHES_MISREAD,
+    &TIP_OFF,
+    &VIEWS_AND_TOUCHES_DISAGREE,
+    &TOUCHES_NOT_ENOUGH,
+    &TOUCH_WITHOUT_VIEW,
+    &TOUCH_REPEATED,
+    &TOUCHES_WITHOUT_CORNERS,
+    &TOUCH_PLACEMENTS_IGNORED,
+    &POINTS_NEARLY_COLLINEAR,
+    &DETERMINED_BY_TOUCHES,
+];
+
 impl Found for TouchFinding {
-    fn code(&self) -> &'static str {
+    fn row(&self) -> &'static Row {
         match self {
-            Self::Outlier { .. } | Self::Misplaced { .. } => "touch-rejected",
-            Self::Misread { .. } => "touches-misread",
-            Self::TipOff { .. } => "tip-off",
-            Self::ViewsDisagree { .. } => "views-and-touches-disagree",
-            Self::NotEnough { .. } => "touches-not-enough",
-            Self::WithoutView { .. } => "touch-without-view",
-            Self::Repeated { .. } => "touch-repeated",
-            Self::OfABall => "touches-without-corners",
-            Self::PlacementsIgnored { .. } => "touch-placements-ignored",
-            Self::NearlyCollinear { .. } => "points-nearly-collinear",
-            Self::AloneDetermine { .. } => "determined-by-touches",
+            Self::Outlier { .. } | Self::Misplaced { .. } => &TOUCH_REJECTED,
+            Self::Misread { .. } => &TOUCHES_MISREAD,
+            Self::TipOff { .. } => &TIP_OFF,
+            Self::ViewsDisagree { .. } => &VIEWS_AND_TOUCHES_DISAGREE,
+            Self::NotEnough { .. } => &TOUCHES_NOT_ENOUGH,
+            Self::WithoutView { .. } => &TOUCH_WITHOUT_VIEW,
+            Self::Repeated { .. } => &TOUCH_REPEATED,
+            Self::OfABall => &TOUCHES_WITHOUT_CORNERS,
+            Self::PlacementsIgnored { .. } => &TOUCH_PLACEMENTS_IGNORED,
+            Self::NearlyCollinear { .. } => &POINTS_NEARLY_COLLINEAR,
+            Self::AloneDetermine { .. } => &DETERMINED_BY_TOUCHES,
         }
     }
 

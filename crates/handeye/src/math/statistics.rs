@@ -3,6 +3,11 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Gamma};
 
+/// Median absolute value of a unit normal deviate.
+pub(crate) const MAD: f64 = 0.6745;
+/// Standard deviations of a normal deviate in its median absolute value.
+pub(crate) const SIGMAS_OF_MAD: f64 = 1.4826;
+
 /// Chance that an F-distributed statistic is as large or larger. What is no number tells nothing: 1.
 pub(crate) fn of_f(value: f64, degrees: (f64, f64)) -> f64 {
     if value.is_nan() || !(degrees.0 + degrees.1).is_finite() {

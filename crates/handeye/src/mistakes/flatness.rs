@@ -21,8 +21,11 @@ use nalgebra::{Matrix3, Matrix6, Point3, Vector2, Vector3, Vector6};
 use super::thresholds::{IMPROBABLE_BEND, LEAST_BEND};
 use crate::{
     TargetModel,
-    detect::surface::{MAD, tukey},
-    math::{linalg::median, statistics},
+    detect::surface::tukey,
+    math::{
+        linalg::median,
+        statistics::{self, MAD},
+    },
 };
 
 /// A corner in a scan: its position on the board (m), in the camera (m), and covariance (m²).

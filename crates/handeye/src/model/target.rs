@@ -15,12 +15,15 @@ mod families;
 mod family;
 pub(crate) mod kinds;
 mod layout;
+pub(crate) mod look;
 
+pub use family::KINDS;
 pub(crate) use kinds::PlacedTag;
-pub use kinds::{AprilTagFamily, TargetModel};
+pub use kinds::{AprilTagFamily, Kind, TargetModel};
 
 use crate::{Error, Point, Target};
 use family::Turns;
+use look::Look;
 
 use super::{print::Art, texture::Texture};
 
@@ -63,6 +66,11 @@ impl TargetModel {
         self.family(|family| family.disc_diameter_mm(id))
     }
 
+    /// What there is to see of it.
+    pub(crate) fn look(&self) -> Look {
+        self.family(|family| family.look())
+    }
+
     /// Number of corners.
     pub fn len(&self) -> usize {
         let (columns, rows) = self.grid();
@@ -85,7 +93,11 @@ impl TargetModel {
     /// The point at which residuals are stated: the first inner corner, or the centre of a tag.
     pub fn reference(&self) -> Point<Target> {
         let origin = Point::new(0.0, 0.0, 0.0);
-        if matches!(self, Self::Tag { .. }) { origin } else { self.corner(0).unwrap_or(origin) }
+        if matches!(self.look(), Look::Tag { .. }) {
+            origin
+        } else {
+            self.corner(0).unwrap_or(origin)
+        }
     }
 
     /// The middle of all corners.
@@ -149,6 +161,24 @@ mod tests {
 
     fn checkerboard(columns: u32, rows: u32) -> TargetModel {
         TargetModel::Checkerboard { columns, rows, square_mm: 30.0 }
+    }
+
+    #[test]
+    fn every_kind_is_in_the_table_by_its_name_in_files() {
+        let unknown: serde_json::Error =
+            serde_json::from_str::<TargetModel>(r#"{"kind":"none"}"#).unwrap_err();
+        let unknown = unknown.to_string();
+        let (_, expected) = unknown.split_once("expected one of ").unwrap();
+        let mut in_files: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
+        let mut listed = KINDS.map(|kind| kind.name).to_vec();
+        in_files.sort_unstable();
+        listed.sort_unstable();
+        assert_eq!(in_files, listed);
+        for kind in KINDS {
+            let example = (kind.example)();
+            assert_eq!(serde_json::to_value(&example).unwrap()["kind"], kind.name);
+            assert!(example.check().is_ok(), "{}", kind.name);
+        }
     }
 
     #[test]

@@ -357,9 +357,15 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
     use crate::model::print::{Shape, art};
-    use crate::model::target::kinds::AprilTagFamily;
+    use crate::model::target::{KINDS, kinds::AprilTagFamily};
 
+    /// One of each kind, and what else is drawn otherwise.
     fn boards() -> Vec<TargetModel> {
+        let examples = KINDS.iter().filter(|kind| kind.is_printed()).map(|kind| (kind.example)());
+        examples.chain(variants()).collect()
+    }
+
+    fn variants() -> Vec<TargetModel> {
         let (columns, rows, pitch_mm) = (5, 4, 20.0);
         let dictionary = || "DICT_5X5_100".to_string();
         let aprilgrid = |corner_squares, border_bits| TargetModel::Aprilgrid {
@@ -373,7 +379,6 @@ mod tests {
             border_bits,
         };
         vec![
-            TargetModel::Checkerboard { columns, rows, square_mm: 20.0 },
             TargetModel::Charuco {
                 squares_x: columns,
                 squares_y: rows,
@@ -383,7 +388,6 @@ mod tests {
                 legacy: true,
                 first_id: 30,
             },
-            TargetModel::Tag { dictionary: dictionary(), id: 3, size_mm: 60.0 },
             TargetModel::CircleGrid { columns, rows, pitch_mm },
             TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm },
             TargetModel::ModifiedCircleGrid { columns, rows, pitch_mm },

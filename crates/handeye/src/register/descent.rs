@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     Error,
-    math::{linalg, parallel},
+    math::{linalg, parallel, statistics::SIGMAS_OF_MAD},
     register::options::{DenseConfig, DenseMethod},
 };
 
@@ -35,8 +35,6 @@ use crate::{
 const COSINE: f64 = 0.866;
 /// Beyond so many standard deviations residuals do not count.
 const TUKEY: f64 = 4.685;
-/// Standard deviations in a median absolute deviation.
-const MAD: f64 = 1.4826;
 /// Residuals that are less, over what their scatter promises, are not of two scans, but of one and its copy.
 pub const LEAST_SIGMA: f64 = 0.1;
 /// A round narrows the limit of residuals to this share.
@@ -226,7 +224,7 @@ impl<'a> Descent<'a> {
                 });
             }
             let usual = linalg::median(sums.residuals.iter().map(|r| f64::from(*r)));
-            self.sigma = (MAD * usual).max(LEAST_SIGMA);
+            self.sigma = (SIGMAS_OF_MAD * usual).max(LEAST_SIGMA);
             let step = self.step(&sums)?;
             let (before, rms) = (reached.target_from_source, reached.rms_m);
             let middle = self.middle(&before);

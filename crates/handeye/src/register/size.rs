@@ -18,7 +18,7 @@ use super::{
     freedom::{DETERMINED, FEIGNED, leaning, of_normal, usual},
     pair::Match,
 };
-use crate::math::{lie, linalg};
+use crate::math::{lie, linalg, statistics::SIGMAS_OF_MAD};
 
 type Vector7 = SVector<f64, 7>;
 type Matrix7 = SMatrix<f64, 7, 7>;
@@ -27,8 +27,6 @@ type Matrix7 = SMatrix<f64, 7, 7>;
 const ASKED: f64 = 5000.0;
 /// Beyond so many standard deviations residuals do not count.
 const TUKEY: f64 = 4.685;
-/// Standard deviations in a median absolute deviation.
-const MAD: f64 = 1.4826;
 /// Most rounds.
 const MOST_ROUNDS: usize = 30;
 /// A round that changes the size by less is the last.
@@ -166,7 +164,7 @@ fn feigned(found: &Match) -> Matrix7 {
 /// Residuals beyond do not count.
 fn limit(rows: &[Row], x: &Vector7) -> f64 {
     let all = rows.iter().map(|row| (row.residual + row.jacobian.dot(x)).abs());
-    TUKEY * (MAD * linalg::median(all)).max(LEAST_SIGMA)
+    TUKEY * (SIGMAS_OF_MAD * linalg::median(all)).max(LEAST_SIGMA)
 }
 
 /// Rows that count, the share that is left of their weight (its root), and their residuals.

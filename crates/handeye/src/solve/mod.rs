@@ -85,77 +85,110 @@ pub enum Method {
     TabbAhmadYousefC2,
 }
 
+/// The equation that a method solves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// `A X = Y B`, of the pairs as they are.
+    AxYb,
+    /// `A X = X B`, of motions between pairs.
+    AxXb,
+}
+
+impl Form {
+    /// Both.
+    pub const ALL: [Form; 2] = [Form::AxYb, Form::AxXb];
+
+    /// As it is written.
+    pub fn equation(self) -> &'static str {
+        match self {
+            Form::AxYb => "A X = Y B",
+            Form::AxXb => "A X = X B",
+        }
+    }
+}
+
+/// What there is to know of a method.
+struct Row {
+    method: Method,
+    name: &'static str,
+    source: &'static str,
+    form: Form,
+    solve: fn(&[PosePair]) -> Result<HandEye, Error>,
+}
+
+const fn row(
+    method: Method,
+    name: &'static str,
+    source: &'static str,
+    form: Form,
+    solve: fn(&[PosePair]) -> Result<HandEye, Error>,
+) -> Row {
+    Row { method, name, source, form, solve }
+}
+
+/// A row for each method, in the order of [`Method`], the one recommended for a start first.
+#[rustfmt::skip]
+const METHODS: &[Row; 17] = &{
+    use Form::{AxXb, AxYb};
+    use Method as M;
+    [
+        row(M::Shah, "shah", "M. Shah, 2013", AxYb, shah::solve),
+        row(M::ParkMartin, "park-martin", "F. Park, B. Martin, 1994", AxXb, park_martin::solve),
+        row(M::Daniilidis, "daniilidis", "K. Daniilidis, 1999", AxXb, daniilidis::solve),
+        row(M::TsaiLenz, "tsai-lenz", "R. Tsai, R. Lenz, 1989", AxXb, tsai_lenz::solve),
+        row(M::ShiuAhmad, "shiu-ahmad", "Y. Shiu, S. Ahmad, 1989", AxXb, shiu_ahmad::solve),
+        row(M::ChouKamel, "chou-kamel", "J. Chou, M. Kamel, 1991", AxXb, chou_kamel::solve),
+        row(M::HoraudDornaika, "horaud-dornaika", "R. Horaud, F. Dornaika, 1995", AxXb, horaud_dornaika::solve),
+        row(M::HoraudDornaikaNonlinear, "horaud-dornaika-nonlinear", "R. Horaud, F. Dornaika, 1995", AxXb, horaud_dornaika::solve_nonlinear),
+        row(M::Andreff, "andreff", "N. Andreff, R. Horaud, B. Espiau, 2001", AxXb, andreff::solve),
+        row(M::AndreffScaled, "andreff-scaled", "N. Andreff, R. Horaud, B. Espiau, 2001", AxXb, |p| Ok(andreff::scaled(p)?.hand_eye)),
+        row(M::LuChou, "lu-chou", "Y. Lu, J. Chou, 1995", AxXb, lu_chou::solve),
+        row(M::Wu, "wu", "J. Wu, Y. Sun, M. Wang, M. Liu, 2020", AxXb, wu::solve),
+        row(M::Zhuang, "zhuang", "H. Zhuang, Z. Roth, R. Sudhakar, 1994", AxYb, zhuang::solve),
+        row(M::DornaikaHoraud, "dornaika-horaud", "F. Dornaika, R. Horaud, 1998", AxYb, dornaika_horaud::solve),
+        row(M::Li, "li", "A. Li, L. Wang, D. Wu, 2010", AxYb, li::solve),
+        row(M::TabbAhmadYousefC1, "tabb-ahmad-yousef-c1", "A. Tabb, K. Ahmad Yousef, 2017", AxYb, tabb::solve_c1),
+        row(M::TabbAhmadYousefC2, "tabb-ahmad-yousef-c2", "A. Tabb, K. Ahmad Yousef, 2017", AxYb, tabb::solve_c2),
+    ]
+};
+
+/// The methods of the rows, which must be in their own order.
+const fn all() -> [Method; METHODS.len()] {
+    let mut all = [Method::Shah; METHODS.len()];
+    let mut k = 0;
+    while k < all.len() {
+        all[k] = METHODS[k].method;
+        assert!(all[k] as usize == k, "a row for each method, in the order of the enum");
+        k += 1;
+    }
+    all
+}
+
 impl Method {
     /// Every method, the one recommended for a start first.
-    pub const ALL: [Method; 17] = [
-        Method::Shah,
-        Method::ParkMartin,
-        Method::Daniilidis,
-        Method::TsaiLenz,
-        Method::ShiuAhmad,
-        Method::ChouKamel,
-        Method::HoraudDornaika,
-        Method::HoraudDornaikaNonlinear,
-        Method::Andreff,
-        Method::AndreffScaled,
-        Method::LuChou,
-        Method::Wu,
-        Method::Zhuang,
-        Method::DornaikaHoraud,
-        Method::Li,
-        Method::TabbAhmadYousefC1,
-        Method::TabbAhmadYousefC2,
-    ];
+    pub const ALL: [Method; METHODS.len()] = all();
 
     /// The few that a calibration compares with each other when nothing else is asked for.
     pub(crate) const CANDIDATES: [Method; 3] =
         [Method::Shah, Method::ParkMartin, Method::Daniilidis];
 
+    fn row(self) -> &'static Row {
+        &METHODS[self as usize]
+    }
+
     /// The name in files and on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Method::Shah => "shah",
-            Method::ParkMartin => "park-martin",
-            Method::Daniilidis => "daniilidis",
-            Method::TsaiLenz => "tsai-lenz",
-            Method::ShiuAhmad => "shiu-ahmad",
-            Method::ChouKamel => "chou-kamel",
-            Method::HoraudDornaika => "horaud-dornaika",
-            Method::HoraudDornaikaNonlinear => "horaud-dornaika-nonlinear",
-            Method::Andreff => "andreff",
-            Method::AndreffScaled => "andreff-scaled",
-            Method::LuChou => "lu-chou",
-            Method::Wu => "wu",
-            Method::Zhuang => "zhuang",
-            Method::DornaikaHoraud => "dornaika-horaud",
-            Method::Li => "li",
-            Method::TabbAhmadYousefC1 => "tabb-ahmad-yousef-c1",
-            Method::TabbAhmadYousefC2 => "tabb-ahmad-yousef-c2",
-        }
+        self.row().name
     }
 
     /// Who published it, and when.
     pub fn source(self) -> &'static str {
-        match self {
-            Method::Shah => "M. Shah, 2013",
-            Method::ParkMartin => "F. Park, B. Martin, 1994",
-            Method::Daniilidis => "K. Daniilidis, 1999",
-            Method::TsaiLenz => "R. Tsai, R. Lenz, 1989",
-            Method::ShiuAhmad => "Y. Shiu, S. Ahmad, 1989",
-            Method::ChouKamel => "J. Chou, M. Kamel, 1991",
-            Method::HoraudDornaika | Method::HoraudDornaikaNonlinear => {
-                "R. Horaud, F. Dornaika, 1995"
-            }
-            Method::Andreff | Method::AndreffScaled => "N. Andreff, R. Horaud, B. Espiau, 2001",
-            Method::LuChou => "Y. Lu, J. Chou, 1995",
-            Method::Wu => "J. Wu, Y. Sun, M. Wang, M. Liu, 2020",
-            Method::Zhuang => "H. Zhuang, Z. Roth, R. Sudhakar, 1994",
-            Method::DornaikaHoraud => "F. Dornaika, R. Horaud, 1998",
-            Method::Li => "A. Li, L. Wang, D. Wu, 2010",
-            Method::TabbAhmadYousefC1 | Method::TabbAhmadYousefC2 => {
-                "A. Tabb, K. Ahmad Yousef, 2017"
-            }
-        }
+        self.row().source
+    }
+
+    /// The equation that it solves.
+    pub fn form(self) -> Form {
+        self.row().form
     }
 
     /// The method of that name.
@@ -171,25 +204,7 @@ impl Method {
 /// one axis or the method has no single answer, [`Error::NotFinite`] on NaN.
 pub fn solve(pairs: &[PosePair], method: Method) -> Result<HandEye, Error> {
     check(pairs)?;
-    let hand_eye = match method {
-        Method::Shah => shah::solve(pairs)?,
-        Method::ParkMartin => park_martin::solve(pairs)?,
-        Method::Daniilidis => daniilidis::solve(pairs)?,
-        Method::TsaiLenz => tsai_lenz::solve(pairs)?,
-        Method::ShiuAhmad => shiu_ahmad::solve(pairs)?,
-        Method::ChouKamel => chou_kamel::solve(pairs)?,
-        Method::HoraudDornaika => horaud_dornaika::solve(pairs)?,
-        Method::HoraudDornaikaNonlinear => horaud_dornaika::solve_nonlinear(pairs)?,
-        Method::Andreff => andreff::solve(pairs)?,
-        Method::AndreffScaled => andreff::scaled(pairs)?.hand_eye,
-        Method::LuChou => lu_chou::solve(pairs)?,
-        Method::Wu => wu::solve(pairs)?,
-        Method::Zhuang => zhuang::solve(pairs)?,
-        Method::DornaikaHoraud => dornaika_horaud::solve(pairs)?,
-        Method::Li => li::solve(pairs)?,
-        Method::TabbAhmadYousefC1 => tabb::solve_c1(pairs)?,
-        Method::TabbAhmadYousefC2 => tabb::solve_c2(pairs)?,
-    };
+    let hand_eye = (method.row().solve)(pairs)?;
     if hand_eye.mount_from_camera.is_finite() && hand_eye.anchor_from_target.is_finite() {
         Ok(hand_eye)
     } else {

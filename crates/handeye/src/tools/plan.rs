@@ -26,6 +26,7 @@ use crate::{
         touches::small_sample,
     },
     math::linalg,
+    model::residual::Residual,
     register::rigid_fit::point_jacobian,
     solve::{
         View,
@@ -99,9 +100,9 @@ pub struct Choice {
 const FIRST: usize = 6;
 /// Standard deviation (rad, m) of where camera and target sit before anything is measured.
 const FREE_SIGMA: f64 = 10.0;
-/// Robots err alike in poses that are alike: turned by less (rad) and shifted by less (m), a second
-/// one tells nothing new.
-const ALIKE: (f64, f64) = (0.05, 0.02);
+/// Robots err alike in poses that are alike: turned and shifted by less, a second one
+/// tells nothing new.
+const ALIKE: Residual = Residual { angle: 0.05, distance: 0.02 };
 /// Cosine of the angle between the line of sight and the target's normal below which corners are
 /// not found: 70 degrees.
 const STEEPEST: f64 = 0.34;
@@ -204,7 +205,7 @@ fn finite(poses: &[Pose<Base, Flange>]) -> Result<(), Error> {
 }
 
 fn alike(a: &Pose<Base, Flange>, b: &Pose<Base, Flange>) -> bool {
-    a.angle_to(b) < ALIKE.0 && a.distance_to(b) < ALIKE.1
+    Residual::between(a, b).is_within(ALIKE)
 }
 
 /// Mean of `JᵀJ` over the volume.

@@ -14,18 +14,19 @@ use crate::{
     },
     estimate::evaluate,
     math::{lie, linalg},
+    model::residual::Residual,
     solve::{View, least_squares},
 };
 
-/// Scatter (rad, m) of poses that may be noise: twice what a poor robot reports at rest.
-const MOST_AT_REST: (f64, f64) = (0.02, 5e-3);
-/// Scatter that is rest, whatever the camera sees. rad and m.
-const AT_REST: (f64, f64) = (1e-3, 1e-3);
+/// Scatter of poses that may be noise: twice what a poor robot reports at rest.
+const MOST_AT_REST: Residual = Residual { angle: 0.02, distance: 5e-3 };
+/// Scatter that is rest, whatever the camera sees.
+const AT_REST: Residual = Residual { angle: 1e-3, distance: 1e-3 };
 /// Motion is more than so many times the residual of the loops.
 const ABOVE_NOISE: f64 = 3.0;
 
-/// Scatter (root mean square; rad, m) of a stream's poses about their mean.
-fn scatter(stream: &Stream) -> (f64, f64) {
+/// Scatter (root mean square) of a stream's poses about their mean.
+fn scatter(stream: &Stream) -> Residual {
     let n = stream.poses.len().max(1) as f64;
     let rotation = linalg::mean_rotation(stream.poses.iter().map(|p| &p.rotation));
     let place = stream.poses.iter().map(|p| p.translation.vector).sum::<nalgebra::Vector3<f64>>();
@@ -34,33 +35,33 @@ fn scatter(stream: &Stream) -> (f64, f64) {
     let turns: f64 = stream.poses.iter().map(turn).sum();
     let shifts: f64 =
         stream.poses.iter().map(|p| (p.translation.vector - place).norm_squared()).sum();
-    ((turns / n).sqrt(), (shifts / n).sqrt())
+    Residual { angle: (turns / n).sqrt(), distance: (shifts / n).sqrt() }
 }
 
 /// Whether the robot does not move, or no more than the loops fail to close by.
 pub(super) fn still(both: &Both, settled: Option<&Settled>) -> Option<Error> {
-    let (turn, shift) = scatter(&both.robot);
-    let within = |limit: (f64, f64)| turn < limit.0 && shift < limit.1;
+    let scatter = scatter(&both.robot);
     let noise = settled.is_some_and(|s| {
         let pair = |v: &View| Some(s.fit.hand_eye.loop_residual(&v.pair));
         let all: Vec<_> = s.views.iter().map(pair).collect();
         let found = evaluate::rms(&all);
         let (deg, mm) = (found.rotation_rms_deg, found.translation_rms_mm);
         let limit = |size: Option<f64>| ABOVE_NOISE * size.unwrap_or(0.0);
-        within((limit(deg).to_radians(), limit(mm) * 1e-3))
+        let (angle, distance) = (limit(deg).to_radians(), limit(mm) * 1e-3);
+        scatter.is_within(Residual { angle, distance })
     });
     let at_rest = if settled.is_some() {
-        within(MOST_AT_REST) && noise || turn == 0.0 && shift == 0.0
+        scatter.is_within(MOST_AT_REST) && noise || scatter.angle == 0.0 && scatter.distance == 0.0
     } else {
-        within(AT_REST)
+        scatter.is_within(AT_REST)
     };
     at_rest.then(|| Error::NotDetermined {
         what: format!(
             "the robot does not move: its poses differ by {:.3} degrees and {:.3} mm (RMS), no more \
              than noise; record both streams while it turns by 30 degrees and more about two axes, \
              and starts and stops",
-            turn.to_degrees(),
-            shift * 1e3
+            scatter.degrees(),
+            scatter.millimetres()
         ),
     })
 }

@@ -10,7 +10,10 @@ use std::collections::{BTreeMap, VecDeque};
 use nalgebra::Vector2;
 
 use super::blobs::Blob;
-use crate::TargetModel;
+use crate::{
+    TargetModel,
+    model::target::look::{Circles, Look},
+};
 
 /// Column and row in some basis.
 pub(super) type Label = (i32, i32);
@@ -256,24 +259,19 @@ const LEAST_SHARE_WITH_LARGER: f64 = 0.5;
 pub(super) struct Board {
     columns: i32,
     rows: i32,
-    kind: Kind,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
-    Plain,
-    Shifted,
-    WithLarger,
+    kind: Circles,
 }
 
 impl Board {
     /// Of a grid of circles; `None` for other targets.
     pub fn of(target: &TargetModel) -> Option<Self> {
-        let kind = match target {
-            TargetModel::CircleGrid { .. } => Kind::Plain,
-            TargetModel::AsymmetricCircleGrid { .. } => Kind::Shifted,
-            TargetModel::ModifiedCircleGrid { .. } => Kind::WithLarger,
-            _ => return None,
+        let kind = match target.look() {
+            Look::Circles(circles) => circles,
+            Look::Squares
+            | Look::MarkedSquares(_)
+            | Look::Tag { .. }
+            | Look::Tags(_)
+            | Look::Ball => return None,
         };
         let (columns, rows) = target.grid();
         Some(Self { columns: columns as i32, rows: rows as i32, kind })
@@ -281,7 +279,7 @@ impl Board {
 
     /// Whether one circle is larger.
     pub(crate) fn has_larger(&self) -> bool {
-        self.kind == Kind::WithLarger
+        self.kind == Circles::WithLarger
     }
 
     /// The larger circle's id.
@@ -356,7 +354,7 @@ impl Board {
         let all = self.columns * self.rows;
         let outliers = places.len() - ids.len();
         // places of a column, and of a row, of an asymmetric grid: in every second row or column
-        let column = if self.kind == Kind::Shifted { self.rows / 2 } else { self.rows };
+        let column = if self.kind == Circles::Asymmetric { self.rows / 2 } else { self.rows };
         let (wide, tall) = self.extent();
         let outside = |(line, count): (&i32, &i32), last: i32, length: i32| {
             (0..=last).contains(line) || 2 * count < length
@@ -371,18 +369,18 @@ impl Board {
     /// of its pitch.
     fn place(&self, m: [i32; 4], (i, j): Label) -> Label {
         let (s, t) = (m[0] * i + m[1] * j, m[2] * i + m[3] * j);
-        if self.kind == Kind::Shifted { (s - t, s + t) } else { (s, t) }
+        if self.kind == Circles::Asymmetric { (s - t, s + t) } else { (s, t) }
     }
 
     fn extent(&self) -> (i32, i32) {
         let across =
-            if self.kind == Kind::Shifted { 2 * self.columns - 1 } else { self.columns - 1 };
+            if self.kind == Circles::Asymmetric { 2 * self.columns - 1 } else { self.columns - 1 };
         (across, self.rows - 1)
     }
 
     /// The circle at a place counted from the board's top left.
     fn id(&self, (x, y): Label) -> Option<u32> {
-        let column = if self.kind == Kind::Shifted {
+        let column = if self.kind == Circles::Asymmetric {
             (x + y).rem_euclid(2).eq(&0).then(|| (x - y.rem_euclid(2)) / 2)?
         } else {
             x
@@ -397,7 +395,7 @@ impl Board {
             let places = lattice.blobs.keys().map(|l| self.place(m, *l));
             let (low, high) = bounds(places)?;
             let (wide, tall) = (high.0 - low.0, high.1 - low.1);
-            let columns = if self.kind == Kind::Shifted { (wide + 1) / 2 } else { wide + 1 };
+            let columns = if self.kind == Circles::Asymmetric { (wide + 1) / 2 } else { wide + 1 };
             let other = Self { columns, rows: tall + 1, kind: self.kind };
             let full = lattice.blobs.len() as i64 == i64::from(columns) * i64::from(tall + 1);
             let fits = full && columns > 1 && tall > 0 && other.labelled_by(lattice, m).is_some();

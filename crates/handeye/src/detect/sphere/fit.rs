@@ -8,8 +8,8 @@ use super::{
 };
 use crate::{
     Point, Scan,
-    detect::surface::{MAD, TUKEY, TUKEY_COST, inflation, tukey},
-    math::linalg::median,
+    detect::surface::{TUKEY, TUKEY_COST, inflation, tukey},
+    math::{linalg::median, statistics::MAD},
 };
 
 /// Whether the diameter is known.

@@ -20,14 +20,14 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::{
     Missing, Reason, Window, Windows, lift_all, on_plane,
-    plane::{MAD, Plane, TUKEY, tukey},
+    plane::{Plane, TUKEY, tukey},
     samples::FEWEST_POINTS,
     step::Step,
 };
 use crate::{
     ImageCorner, SurfaceCorner, TargetModel,
     detect::{homography, surface::plane::Sample},
-    math::linalg::median,
+    math::{linalg::median, statistics::MAD},
     model::texture::Texture,
 };
 

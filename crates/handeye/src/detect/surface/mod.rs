@@ -32,8 +32,8 @@ pub(crate) use step::OnScan;
 pub use step::{PooledStep, Step, settle};
 
 use crate::{ImageCorner, Intrinsics, Scan, SurfaceCorner, TargetModel};
-pub(crate) use plane::{MAD, TUKEY, TUKEY_COST, inflation, tukey};
 use plane::{Plane, Rays};
+pub(crate) use plane::{TUKEY, TUKEY_COST, inflation, tukey};
 use samples::{Source, Window};
 
 /// A corner that has no point on the scan.

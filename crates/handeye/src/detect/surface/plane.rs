@@ -7,7 +7,7 @@ use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 use super::Reason;
 use crate::{
     Point, SurfaceCorner,
-    math::{linalg::median, random::Random},
+    math::{linalg::median, random::Random, statistics::MAD},
 };
 
 /// Planes tried by least median of squares: with half the points good, one of eight is.
@@ -24,8 +24,6 @@ const TUKEY_SHRINK: f64 = 0.8281;
 pub(crate) const TUKEY_COST: f64 = 0.9633;
 /// Rounds of re-weighting.
 const ROUNDS: usize = 6;
-/// Median absolute value of a unit normal deviate.
-pub(crate) const MAD: f64 = 0.6745;
 /// The scatter is never taken below this share of the depth: single precision.
 const LEAST_SCATTER: f64 = 1e-7;
 /// Correlation of neighbouring residuals is believed up to this.

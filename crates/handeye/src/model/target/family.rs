@@ -1,17 +1,31 @@
-//! What a family of targets must say of itself. A new one is a variant of [`TargetModel`], a row of the table here, and a
-//! file in `families/`.
+//! What a family of targets must say of itself. A new one is a file in `families/`, a variant of [`TargetModel`], and a
+//! row in both tables here; the compiler asks for what else must know it.
 
 use nalgebra::Vector2;
 
 use super::{
     check,
     families::*,
-    kinds::{PlacedTag, TargetModel},
+    kinds::{Kind, PlacedTag, TargetModel},
+    look::{Circles, Look},
 };
 use crate::{
     Error,
     model::{print::Art, texture::Texture},
 };
+
+/// All kinds, in the order in which people are shown them.
+pub const KINDS: [Kind; 9] = [
+    checkerboard::KIND,
+    charuco::KIND,
+    aprilgrid::KIND,
+    tag_grid::KIND,
+    tag::KIND,
+    circles::PLAIN,
+    circles::ASYMMETRIC,
+    circles::WITH_LARGER,
+    sphere::KIND,
+];
 
 /// The markers on a board: the dictionary, the first of them and how many.
 pub(super) type Markers<'a> = (&'a str, u32, u64);
@@ -26,6 +40,9 @@ pub(super) enum Turns {
 
 /// The corners, the print and the symmetries of one family. Positions are in metres, in the plane of the board.
 pub(super) trait Family {
+    /// What there is to see of it.
+    fn look(&self) -> Look;
+
     /// Columns and rows of corners.
     fn grid(&self) -> (u32, u32);
 

@@ -132,6 +132,22 @@ pub enum TargetModel {
     },
 }
 
+/// A kind of targets.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// Its name in files.
+    pub name: &'static str,
+    /// One of the kind.
+    pub example: fn() -> TargetModel,
+}
+
+impl Kind {
+    /// Whether it can be printed.
+    pub fn is_printed(&self) -> bool {
+        !(self.example)().is_empty()
+    }
+}
+
 impl TargetModel {
     /// All its lengths.
     pub(super) fn lengths_mm_mut(&mut self) -> Vec<&mut f64> {

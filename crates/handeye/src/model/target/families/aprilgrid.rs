@@ -11,8 +11,9 @@ use crate::{
         target::{
             check,
             family::{Family, Markers},
-            kinds::{AprilTagFamily, PlacedTag},
+            kinds::{AprilTagFamily, Kind, PlacedTag},
             layout,
+            look::{Look, Tags},
         },
         texture::Texture,
     },
@@ -26,6 +27,20 @@ const COUNTER_CLOCKWISE: [[f64; 2]; 4] = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0
 const WIDEST_SPACING: f64 = 2.0;
 /// Largest border of a tag, bits.
 const WIDEST_BORDER: u32 = 2;
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "aprilgrid",
+    example: || TargetModel::Aprilgrid {
+        tags_x: 6,
+        tags_y: 4,
+        tag_mm: 24.0,
+        spacing: 0.3,
+        family: AprilTagFamily::Tag36h11,
+        first_id: 0,
+        corner_squares: true,
+        border_bits: 1,
+    },
+};
 
 pub(in crate::model::target) struct Aprilgrid {
     pub tags_x: u32,
@@ -62,6 +77,16 @@ impl Aprilgrid {
 }
 
 impl Family for Aprilgrid {
+    fn look(&self) -> Look {
+        Look::Tags(Tags {
+            dictionary: self.family.dictionary().into(),
+            first_id: self.first_id,
+            border_bits: self.border_bits,
+            gap: self.spacing,
+            joined: self.corner_squares,
+        })
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.tags_x.saturating_mul(2), self.tags_y.saturating_mul(2))
     }

@@ -10,8 +10,23 @@ use crate::{
         target::{
             check,
             family::{Family, Markers},
+            kinds::Kind,
+            look::{Look, MarkedSquares},
         },
         texture::Texture,
+    },
+};
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "charuco",
+    example: || TargetModel::Charuco {
+        squares_x: 7,
+        squares_y: 5,
+        square_mm: 35.0,
+        marker_mm: 26.0,
+        dictionary: "DICT_5X5_100".into(),
+        legacy: false,
+        first_id: 0,
     },
 };
 
@@ -32,6 +47,16 @@ impl Charuco<'_> {
 }
 
 impl Family for Charuco<'_> {
+    fn look(&self) -> Look {
+        Look::MarkedSquares(MarkedSquares {
+            squares: (self.squares_x, self.squares_y),
+            share: self.marker_mm / self.square_mm,
+            white_first: self.white_first(),
+            dictionary: self.dictionary.into(),
+            first_id: self.first_id,
+        })
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.squares_x.saturating_sub(1), self.squares_y.saturating_sub(1))
     }

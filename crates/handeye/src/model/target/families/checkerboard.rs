@@ -9,9 +9,18 @@ use crate::{
     Error, TargetModel,
     model::{
         print::{self, Art},
-        target::family::{Family, Turns},
+        target::{
+            family::{Family, Turns},
+            kinds::Kind,
+            look::Look,
+        },
         texture::Texture,
     },
+};
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "checkerboard",
+    example: || TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 20.0 },
 };
 
 pub(in crate::model::target) struct Checkerboard {
@@ -21,6 +30,10 @@ pub(in crate::model::target) struct Checkerboard {
 }
 
 impl Family for Checkerboard {
+    fn look(&self) -> Look {
+        Look::Squares
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.columns, self.rows)
     }

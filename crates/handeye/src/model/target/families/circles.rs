@@ -12,6 +12,8 @@ use crate::{
         target::{
             check,
             family::{Family, Turns},
+            kinds::Kind,
+            look::{Circles, Look},
         },
         texture::Texture,
     },
@@ -23,14 +25,18 @@ const DISC_SHARE: f64 = 0.5;
 /// between neighbours: circles of 10 and 20 mm, 25 mm apart.
 const MODIFIED_SHARES: (f64, f64) = (0.4, 0.8);
 
-/// How the circles are arranged.
-pub(in crate::model::target) enum Circles {
-    Plain,
-    /// Every second row is shifted.
-    Asymmetric,
-    /// The one at the bottom left is larger.
-    WithLarger,
-}
+pub(in crate::model::target) const PLAIN: Kind = Kind {
+    name: "circle-grid",
+    example: || TargetModel::CircleGrid { columns: 7, rows: 5, pitch_mm: 20.0 },
+};
+pub(in crate::model::target) const ASYMMETRIC: Kind = Kind {
+    name: "asymmetric-circle-grid",
+    example: || TargetModel::AsymmetricCircleGrid { columns: 4, rows: 11, pitch_mm: 20.0 },
+};
+pub(in crate::model::target) const WITH_LARGER: Kind = Kind {
+    name: "modified-circle-grid",
+    example: || TargetModel::ModifiedCircleGrid { columns: 10, rows: 8, pitch_mm: 20.0 },
+};
 
 pub(in crate::model::target) struct CircleGrid {
     pub circles: Circles,
@@ -40,6 +46,10 @@ pub(in crate::model::target) struct CircleGrid {
 }
 
 impl Family for CircleGrid {
+    fn look(&self) -> Look {
+        Look::Circles(self.circles)
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.columns, self.rows)
     }

@@ -4,14 +4,25 @@ use nalgebra::Vector2;
 
 use crate::{
     Error, TargetModel,
-    model::{print::Art, target::family::Family, texture::Texture},
+    model::{
+        print::Art,
+        target::{family::Family, kinds::Kind, look::Look},
+        texture::Texture,
+    },
 };
+
+pub(in crate::model::target) const KIND: Kind =
+    Kind { name: "sphere", example: || TargetModel::Sphere { diameter_mm: Some(50.0) } };
 
 pub(in crate::model::target) struct Sphere {
     pub diameter_mm: Option<f64>,
 }
 
 impl Family for Sphere {
+    fn look(&self) -> Look {
+        Look::Ball
+    }
+
     fn grid(&self) -> (u32, u32) {
         (0, 0)
     }

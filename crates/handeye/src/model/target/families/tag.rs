@@ -9,10 +9,17 @@ use crate::{
         print::{self, Art},
         target::{
             family::{Family, Markers},
+            kinds::Kind,
             layout,
+            look::Look,
         },
         texture::Texture,
     },
+};
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "tag",
+    example: || TargetModel::Tag { dictionary: "DICT_5X5_100".into(), id: 3, size_mm: 60.0 },
 };
 
 pub(in crate::model::target) struct Tag<'a> {
@@ -22,6 +29,10 @@ pub(in crate::model::target) struct Tag<'a> {
 }
 
 impl Family for Tag<'_> {
+    fn look(&self) -> Look {
+        Look::Tag { dictionary: self.dictionary.into(), id: self.id }
+    }
+
     fn grid(&self) -> (u32, u32) {
         (2, 2)
     }

@@ -11,10 +11,23 @@ use crate::{
         target::{
             check,
             family::{Family, Markers},
-            kinds::PlacedTag,
+            kinds::{Kind, PlacedTag},
             layout,
+            look::{Look, Tags},
         },
         texture::Texture,
+    },
+};
+
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "tag-grid",
+    example: || TargetModel::TagGrid {
+        dictionary: "DICT_5X5_100".into(),
+        tags_x: 5,
+        tags_y: 4,
+        tag_mm: 30.0,
+        gap_mm: 8.0,
+        first_id: 0,
     },
 };
 
@@ -36,6 +49,16 @@ impl TagGrid<'_> {
 }
 
 impl Family for TagGrid<'_> {
+    fn look(&self) -> Look {
+        Look::Tags(Tags {
+            dictionary: self.dictionary.into(),
+            first_id: self.first_id,
+            border_bits: 1,
+            gap: self.gap_mm / self.tag_mm,
+            joined: false,
+        })
+    }
+
     fn grid(&self) -> (u32, u32) {
         (self.tags_x.saturating_mul(2), self.tags_y.saturating_mul(2))
     }
