@@ -151,7 +151,7 @@ pub struct CalibrateArgs {
     after_help = "Examples:\n  handeye export result/calibration.json --format kuka\n  handeye export result/calibration.json -f urdf,ros2-launch,npy --out exports\n  handeye export --format list"
 )]
 pub struct ExportArgs {
-    /// The calibration.json of a result, or a pose that `import` wrote.
+    /// The calibration.json of a result, or its folder; or a pose that `import` wrote.
     pub calibration: Option<PathBuf>,
     /// What to write, one or several; `list` shows all.
     #[arg(long, short, required = true, value_delimiter = ',')]
@@ -251,7 +251,7 @@ Exit code 0: the results agree within their covariances (p >= 0.01); 3: they do 
 be tested because one states no covariance."
 )]
 pub struct CompareArgs {
-    /// The calibration.json of two or more results, or poses that `import` wrote.
+    /// The calibration.json of two or more results, or their folders; or poses that `import` wrote.
     #[arg(required = true, num_args = 2..)]
     pub results: Vec<PathBuf>,
 }

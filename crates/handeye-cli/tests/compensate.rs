@@ -39,7 +39,7 @@ fn capture(k: usize, size: f64) -> (Isometry3<f64>, Isometry3<f64>) {
     (reported, (really * flange_from_camera).inverse() * base_from_target * error)
 }
 
-/// The result of forty captures, in `result.json`.
+/// The result of forty captures, in the folder `result`.
 fn solved(folder: &Folder, size: f64) -> Value {
     let pair = |k: usize| {
         let (reported, seen) = capture(k, size);
@@ -48,7 +48,7 @@ fn solved(folder: &Folder, size: f64) -> Value {
     let pairs: Vec<Value> = (0..40).map(pair).collect();
     folder.put("pairs.json", &json!({ "setup": "eye-in-hand", "pairs": pairs }).to_string());
     let run = handeye(folder, &["solve", "pairs.json", "--json", "--quiet"]);
-    folder.put("result.json", &run.stdout);
+    folder.put("result/calibration.json", &run.stdout);
     run.json()
 }
 
@@ -69,7 +69,7 @@ const POSES: [&str; 7] = [
     "--notation=quaternion-xyzw",
     "--length-unit=mm",
     "--direction=base_from_flange",
-    "--result=result.json",
+    "--result=result",
     "--quiet",
 ];
 
@@ -141,7 +141,7 @@ fn a_robot_that_is_exact_is_offered_no_correction() {
     put_more(&folder, 0.0);
     let run = handeye(&folder, &POSES);
     assert_eq!(run.code, 3, "{}", run.stdout);
-    assert!(run.stderr.contains("result.json: "), "{}", run.stderr);
+    assert!(run.stderr.contains("result: "), "{}", run.stderr);
     let run = handeye(&folder, &[&POSES[..], &["--json"]].concat());
     assert_eq!((run.code, &run.json()["offered"]), (3, &json!(false)));
 }

@@ -12,12 +12,14 @@ use crate::{
     files,
 };
 
-/// Reads a calibration.json, or the pose of the camera on the flange or in the base as JSON. A pose has no data to be
-/// judged by: its calibration is [`Calibration::is_unjudged`], without any covariance.
+/// Reads a calibration.json, by its name or by that of the folder that holds it, or the pose of the camera on the flange
+/// or in the base as JSON. A pose has no data to be judged by: its calibration is [`Calibration::is_unjudged`], without any covariance.
 ///
 /// # Errors
 /// What cannot be read, or is neither; with the line.
 pub fn read_result(path: &Path) -> Result<Calibration, Error> {
+    let in_folder = path.join("calibration.json");
+    let path = if in_folder.is_file() { &in_folder } else { path };
     let text = files::text(path)?;
     match serde_json::from_str::<Value>(&text) {
         Ok(value) if value.get("translation_m").is_some() => pose(&text, &value, path),

@@ -41,7 +41,8 @@ impl PredictedTre {
     /// As the reason of an accepted answer.
     pub(crate) fn in_words(&self) -> String {
         let Self { p95, r#where: volume, rms, .. } = self;
-        let at_task = self.at_task_p95.map_or(String::new(), |mm| {
+        let more = self.at_task_p95.filter(|mm| *mm > 1.01 * p95);
+        let at_task = more.map_or(String::new(), |mm| {
             format!("; {mm:.2} mm for 95 % with what the robot errs from pose to pose")
         });
         format!(
