@@ -21,6 +21,9 @@ use crate::{
     errors, working,
 };
 
+/// A pose (4 x 4, row by row), its covariance (6 x 6), and whether the robot was seen near there.
+type Corrected = (Vec<f64>, Vec<f64>, bool);
+
 /// A result, with what its report shows beside it.
 #[pyclass(frozen, module = "handeye._core")]
 pub struct Calibrated {
@@ -58,13 +61,12 @@ impl Calibrated {
         write_results(&out, &self.calibration, &page).map_err(|e| errors::of_files(py, &e))
     }
 
-    /// Poses of the flange, corrected: those, and their covariances (N x 4 x 4 and N x 6 x 6, flat) and whether the robot
-    /// was seen near there.
+    /// Poses of the flange, corrected.
     fn compensate(
         &self,
         base_from_flange: &Bound<'_, PyAny>,
         reported: bool,
-    ) -> PyResult<Vec<(Vec<f64>, Vec<f64>, bool)>> {
+    ) -> PyResult<Vec<Corrected>> {
         let model = self.calibration.correction().map_err(errors::NotDetermined::new_err)?;
         let one = |(r, t): &(Matrix3<f64>, Vector3<f64>)| {
             let pose = Pose::from_parts(r, *t);
