@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use handeye::{
-    Calibration, Config, Observation, Session, Setup, TargetPose, calibrate,
+    Calibration, Config, Observation, Session, Setup, TargetPose, Verdict, calibrate,
     simulate::{ArmErrors, Cell, CellNoise, Viewing},
 };
 use nalgebra::{Matrix6, Vector6};
@@ -161,6 +161,14 @@ fn a_correction_goes_through_its_file_and_one_that_was_changed_is_refused() {
     let text = serde_json::to_string(&found).unwrap();
     let mut again: Calibration = serde_json::from_str(&text).unwrap();
     assert_eq!(again.compensation, found.compensation);
+    again.verdict = Verdict::Rejected;
+    assert!(again.correction().unwrap_err().contains("not accepted"));
+    again.verdict = found.verdict;
+    // another answer than that which the correction goes with
+    let other = found.candidates.iter().find(|c| c.name == "joint").unwrap();
+    again.hand_eye = other.hand_eye;
+    assert!(again.correction().unwrap_err().contains("another one"));
+    again.hand_eye = found.hand_eye;
     let model = again.compensation.as_mut().and_then(|c| c.model.as_mut()).unwrap();
     model.covariance.pop();
     assert!(again.correction().unwrap_err().contains("do not fit together"));

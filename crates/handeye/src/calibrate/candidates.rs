@@ -112,7 +112,11 @@ fn fuse(
     let refined = optics.refined(views.session, best, as_declared);
     let measured = MeasuredBy { unit_is_free: task.unknown.scale.is_some(), as_declared };
     let workpiece = Workpiece::new(views, volume, best, measured, robot.reach());
-    let compensation = robot.compensation(views, without, &workpiece, config);
+    // it goes with the answer for such a robot, and a method asked for by name gives another one
+    let compensation = match config.method {
+        None => robot.compensation(views, without, &workpiece, config),
+        Some(_) => None,
+    };
     evidence.notes.add(robot.notes(compensation.as_ref()).then(refined.notes));
     let has_board = views.session.target.is_some();
     let evidence = Evidence {

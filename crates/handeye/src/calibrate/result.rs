@@ -432,12 +432,22 @@ impl Calibration {
     /// What corrects the robot's poses by place; where there is nothing of the kind, why not, in a sentence.
     ///
     /// # Errors
-    /// The robot does not err by place as far as the data show, or correcting it does not pay.
+    /// The calibration is not accepted, the robot does not err by place as far as the data show, correcting it does not
+    /// pay, or the answer is another one than that which the correction goes with.
     pub fn correction(&self) -> Result<&Compensation, String> {
+        if self.verdict != Verdict::Accepted {
+            return Err("this calibration is not accepted: nothing is corrected with it".into());
+        }
         let found = self.compensation.as_ref().ok_or(
             "the data of this calibration do not show that the robot errs by place: there is nothing to correct",
         )?;
         let (place, time) = (&found.by_place, &found.by_time);
+        let answer = self.hand_eye.mount_from_camera;
+        if found.model.as_ref().is_some_and(|m| answer != Some(m.rigid)) {
+            return Err(
+                "the answer is another one than that which the correction was made for".into()
+            );
+        }
         if found.model.as_ref().is_some_and(|m| !m.is_whole()) {
             return Err(
                 "the numbers of its correction do not fit together: was the file changed?".into()

@@ -124,12 +124,15 @@ impl Compensation {
             .iso(),
         };
         let wanted: Pose<Base, Flange> = Pose::claim(carried * wanted.iso());
-        let command = self.errors.undone(&wanted);
+        let found = self.errors.undone(&wanted);
+        let command = found.unwrap_or(wanted);
         let of_camera = match self.setup {
             Setup::EyeInHand => Matrix6::zeros(),
             Setup::EyeToHand => -lie::adjoint((wanted.inverse() * self.on_base()).iso()),
         };
-        self.judged(&command, command, &of_camera)
+        let corrected = self.judged(&command, command, &of_camera);
+        // where no joint values lead there, nothing is corrected
+        Corrected { known: if found.is_some() { corrected.known } else { 0.0 }, ..corrected }
     }
 
     /// The pose that goes with the rigid answer, for one that the robot reported.
@@ -227,11 +230,11 @@ impl RobotErrors {
         }
     }
 
-    /// The pose that the robot must report to be there.
-    fn undone(&self, wanted: &Pose<Base, Flange>) -> Pose<Base, Flange> {
+    /// The pose that the robot must report to be there; `None` where its arm does not reach.
+    fn undone(&self, wanted: &Pose<Base, Flange>) -> Option<Pose<Base, Flange>> {
         if let Self::ByArm(arm) = self {
-            let joints = arm.corrected.inverse(wanted, &nearest_joints(&arm.seen, wanted));
-            return joints.map_or(*wanted, |q| arm.given.base_from_flange(&q));
+            let joints = arm.corrected.inverse(wanted, &nearest_joints(&arm.seen, wanted))?;
+            return Some(arm.given.base_from_flange(&joints));
         }
         let mut command = *wanted;
         for _ in 0..ROUNDS {
@@ -242,7 +245,7 @@ impl RobotErrors {
                 break;
             }
         }
-        command
+        Some(command)
     }
 
     fn by_unknowns(&self, reported: &Pose<Base, Flange>) -> By {
