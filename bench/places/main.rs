@@ -107,8 +107,8 @@ fn main() {
 
 const HEAD: &str = "## Robots that err by place
 
-Simulated cells with a six-axis arm whose links, joint zeros, gears and bending differ from its model (industrial: about
-0.2 mm, cobot: about 1 mm at the tool), calibrated from bare pose pairs; 150 more poses, taken in the same way, are where the
+Simulated cells with a six-axis arm whose links, joint zeros, gears and bending differ from its model (a cobot's
+four times as much as an industrial arm's and more), calibrated from bare pose pairs; 150 more poses, taken in the same way, are where the
 robot works afterwards. The best answer is the rigid one that fits these best.
 
 - *named*: in how many cells the robot is said to err by place, or to drift.
