@@ -7,7 +7,7 @@ use super::{arm::ArmFit, place, reach::Reach};
 use crate::{
     Camera, Mount, Pose, Setup,
     calibrate::views::Views,
-    estimate::{ExtraKind, Source, projection::Projection},
+    estimate::{ExtraKind, projection::Projection},
     register::rigid_fit::point_jacobian,
 };
 
@@ -37,10 +37,7 @@ impl BestRigid {
             values[k] = number(k).and_then(|which| whole.get(which)).copied().unwrap_or(values[k]);
         }
         let projection = Projection::new(&arm.problem, fit, &values, &metric)?;
-        let of = |source| fit.noise.sigma(source).unwrap_or(0.0).powi(2);
-        let lever = metric.fixed_view::<3, 3>(0, 0).trace() / 3.0;
-        let missed =
-            projection.missed + of(Source::RobotPosition) + of(Source::RobotRotation) * lever;
+        let missed = projection.missed_once(fit, &metric);
         let (x, setup) = (fit.hand_eye.mount_from_camera, views.session.setup);
         Some(Self { projection, deviations, x, missed, setup })
     }
@@ -53,13 +50,9 @@ impl Reach for BestRigid {
 
     fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64> {
         let j = point_jacobian(p);
-        // a camera on the flange looks from one pose, and the tool goes to another one
-        let poses = match self.setup {
-            Setup::EyeInHand => 2.0,
-            Setup::EyeToHand => 1.0,
-        };
         let sampling = self.projection.sampling.fixed_view::<6, 6>(0, 0);
-        j * sampling * j.transpose() + Matrix3::identity() * (poses * self.missed)
+        j * sampling * j.transpose()
+            + Matrix3::identity() * (place::poses(self.setup) * self.missed)
     }
 
     fn share_of_noise(&self) -> f64 {

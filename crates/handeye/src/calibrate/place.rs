@@ -152,14 +152,11 @@ impl Model {
     fn say(&self, metric: &Matrix6<f64>) -> Option<Say> {
         let x = self.fit.hand_eye.mount_from_camera;
         let covariance = self.fit.covariance.as_ref()? * inflation(&self.fit)?;
-        let of = |source| self.fit.noise.sigma(source).unwrap_or(0.0).powi(2);
-        let (turn, shift) = (of(Source::RobotRotation), of(Source::RobotPosition));
-        let lever = metric.fixed_view::<3, 3>(0, 0).trace() / 3.0;
         Some(Say {
             log_weight: 0.0,
             x: x.retract(&self.projection.step.fixed_rows::<6>(0).into_owned()),
             covariance: self.projection.covariance(&covariance).fixed_view::<6, 6>(0, 0).into(),
-            missed: self.projection.missed + shift + turn * lever,
+            missed: self.projection.missed_once(&self.fit, metric),
         })
     }
 
@@ -240,6 +237,15 @@ pub(super) fn with_waves(views: &Views, problem: &Problem, waves: &Waves) -> Pro
     wider
 }
 
+/// How many poses of the robot are in the way of one point: a camera on the flange looks from one, and the tool goes to
+/// another one.
+pub(super) fn poses(setup: Setup) -> f64 {
+    match setup {
+        Setup::EyeInHand => 2.0,
+        Setup::EyeToHand => 1.0,
+    }
+}
+
 /// What a residual costs: the mean square over points of the target.
 pub(super) fn metric(views: &Views) -> Matrix6<f64> {
     projection::metric(&points(views))
@@ -283,12 +289,7 @@ impl Reach for ByPlace {
 
     fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64> {
         let j = point_jacobian(p);
-        // a camera on the flange looks from one pose, and the tool goes to another one
-        let poses = match self.setup {
-            Setup::EyeInHand => 2.0,
-            Setup::EyeToHand => 1.0,
-        };
-        j * self.more * j.transpose() + Matrix3::identity() * (poses * self.missed)
+        j * self.more * j.transpose() + Matrix3::identity() * (poses(self.setup) * self.missed)
     }
 
     fn share_of_noise(&self) -> f64 {

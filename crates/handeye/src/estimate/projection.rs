@@ -23,7 +23,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, SMatrix, Vector3, Vector6};
 
-use super::{JointFit, Problem};
+use super::{JointFit, Problem, Source};
 use crate::{
     HandEye,
     math::{lie, linalg},
@@ -90,6 +90,14 @@ impl Projection {
         let step = Vector12::from_iterator(step.iter().copied());
         let missed = missed / (3.0 * rows.len() as f64);
         Some(Self { carry, step, sampling: inverse * sum * inverse, missed })
+    }
+
+    /// Variance per axis (m²) of what the robot misses where it goes once, with the rigid answer: its errors from pose to
+    /// pose are in it.
+    pub fn missed_once(&self, fit: &JointFit, metric: &Matrix6<f64>) -> f64 {
+        let of = |source| fit.noise.sigma(source).unwrap_or(0.0).powi(2);
+        let lever = metric.fixed_view::<3, 3>(0, 0).trace() / 3.0;
+        self.missed + of(Source::RobotPosition) + of(Source::RobotRotation) * lever
     }
 
     /// Covariance of the rigid answer, for one of all unknowns of the fit.
