@@ -9,7 +9,7 @@ use handeye::{
     quaternion_xyzw,
 };
 
-use super::{mm, section};
+use super::{escape, mm, section};
 
 /// Empty where no arm was examined, or nothing found.
 pub(super) fn arm(c: &Calibration) -> String {
@@ -51,17 +51,16 @@ pub(super) fn correction(c: &Calibration) -> String {
     };
     let rows = row("that lie near one another", &found.by_place)
         + &row("that follow one another", &found.by_time);
-    let offer = match found.model {
-        Some(_) => {
-            "<code>handeye compensate POSES --result calibration.json</code> says where to send the robot, for \
+    let offer = match c.correction() {
+        Ok(_) => "<code>handeye compensate POSES --result calibration.json</code> says where to send the robot, for \
              poses that were computed with the transform above."
-        }
-        None => "That is too little: no correction is offered.",
+            .to_owned(),
+        Err(why) => format!("No correction is offered: {}.", escape(&why)),
     };
     let content = format!(
         "<p>This robot errs from place to place. What its error is at a place was tried out on captures that were \
-         left out in blocks. {offer}</p><table><tr><th class=\"words\">captures left out</th><th>missed as it \
-         is</th><th>with poses corrected</th><th></th></tr>{rows}</table><p class=\"note\">mm, root mean square \
+         left out in blocks. {offer}</p><table><tr><th class=\"words\">captures left out</th><th>error with the \
+         transform alone</th><th>error with poses corrected</th><th></th></tr>{rows}</table><p class=\"note\">mm, root mean square \
          over the points of the target.</p>"
     );
     section("Correcting poses", "", &content)

@@ -218,7 +218,7 @@ fn facts(c: &Calibration) -> Vec<(String, String)> {
     if let Some(tre) = c.predicted_tre_mm.as_ref().filter(|_| c.verdict != Verdict::Rejected) {
         all.push((format!("{:.2} mm", tre.p95), "predicted error, 95 %".to_owned()));
         all.push((format!("{:.2} mm", tre.rms), "predicted error, RMS".to_owned()));
-        if let Some(mm) = tre.at_task_p95 {
+        if let Some(mm) = tre.at_task_p95.filter(|mm| *mm > 1.01 * tre.p95) {
             all.push((format!("{mm:.2} mm"), "95 %, with the robot's own errors".to_owned()));
         }
     }
