@@ -362,15 +362,25 @@ def test_joint_values_of_a_robot_in_motion(arm, tmp_path):
     assert abs(calibration.to_dict()["time_offset_s"] - 0.04) < 2e-3
 
 
-def test_ctrl_c_leaves_nothing_behind(bags, tmp_path):
+def names_in(folder):
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
+
+
+def test_ctrl_c_leaves_nothing_half_done(bags, tmp_path):
+    """Nothing at all, or the whole folder where it came after the last file had been written."""
+    extract(bags["sqlite"], tmp_path / "whole", base="base_link", flange="tool0")
+    whole = names_in(tmp_path / "whole")
+    shutil.rmtree(tmp_path / "whole")
     code = f"import handeye; handeye.extract_bag({str(bags['sqlite'])!r}, {str(tmp_path / 'out')!r}, base='base_link', flange='tool0')"
     for after_s in (0.3, 0.5, 0.8):
         process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
         time.sleep(after_s)
         process.send_signal(signal.SIGINT)
         process.wait(timeout=20)
-        if process.returncode != 0:
-            assert not list(tmp_path.iterdir())
+        left = list(tmp_path.iterdir())
+        if left or process.returncode == 0:
+            assert left == [tmp_path / "out"]
+            assert names_in(tmp_path / "out") == whole
         shutil.rmtree(tmp_path / "out", ignore_errors=True)
 
 
