@@ -1,4 +1,4 @@
-//! Numbers: motions, matrices, least squares, chance, threads. Nothing here knows of robots or cameras.
+//! Numbers: motions, matrices, least squares, chance, small sets, threads. Nothing here knows of robots or cameras.
 
 pub(crate) mod gram;
 pub(crate) mod jacobi;
@@ -8,3 +8,4 @@ pub(crate) mod optimize;
 pub mod parallel;
 pub mod random;
 pub(crate) mod statistics;
+pub(crate) mod subsets;

@@ -25,6 +25,7 @@ use crate::{
         linalg::median,
         optimize::{self, Damping, Problem, Rules, Singular, Tried},
         random::Random,
+        subsets::{self, Draw},
     },
 };
 
@@ -63,9 +64,10 @@ pub struct PointFit {
 pub const FEWEST: usize = 4;
 /// From so many captures on, some few tell which ones agree.
 const MANY: usize = 7;
-/// Captures in a trial, and trials: with a third of the captures wrong, five of them are right in
-/// one trial of eight.
-const TRIAL: (usize, usize) = (5, 60);
+/// Captures in a trial.
+const IN_TRIAL: usize = 5;
+/// Trials: with a third of the captures wrong, five of them are right in one trial of eight.
+const TRIALS: usize = 60;
 /// A capture farther off than this (squared, standard deviations of three axes: one of 1e5) does not
 /// agree.
 const FAR: f64 = 26.0;
@@ -211,18 +213,13 @@ fn consensus(views: &[PointView], agrees: &mut [bool]) -> Result<State, Error> {
     if views.len() < MANY {
         return from_all_starts(views).ok_or_else(undetermined);
     }
-    let mut random = Random::new(views.len() as u64);
     let off = |s: &State| median(views.iter().map(|v| s.residual(v).norm()));
-    let trial = |_| {
-        let mut order: Vec<usize> = (0..views.len()).collect();
-        for k in 0..TRIAL.0 {
-            let rest = (views.len() - k) as f64;
-            order.swap(k, k + (random.unit() * rest) as usize);
-        }
-        let few: Vec<PointView> = order[..TRIAL.0].iter().map(|&k| views[k]).collect();
-        from_all_starts(&few).map(|s| (off(&s), s))
+    let trial = |few: [usize; IN_TRIAL]| {
+        from_all_starts(&few.map(|k| views[k])).map(|state| (off(&state), state))
     };
-    let best = (0..TRIAL.1).filter_map(trial).min_by(|a, b| a.0.total_cmp(&b.0));
+    let draw = Draw::Shuffled(Random::new(views.len() as u64));
+    let trials = subsets::drawn(views.len(), TRIALS, draw);
+    let best = trials.filter_map(trial).min_by(|a, b| a.0.total_cmp(&b.0));
     let (_, state) = best.ok_or_else(undetermined)?;
     // a trial of few captures misses the others by more than their noise: nobody right is left out
     let limit = NEAR * off(&state) + LEAST_SIGMA;
