@@ -9,3 +9,5 @@ pub mod parallel;
 pub mod random;
 pub(crate) mod statistics;
 pub(crate) mod subsets;
+
+pub use jacobi::nearest_rotation;
