@@ -1,6 +1,6 @@
 //! The ways to write a rotation in numbers, and back.
 
-use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::euler::{self, Axes, Sense};
 
@@ -99,19 +99,9 @@ pub fn rotation_near(m: &Matrix3<f64>) -> Result<UnitQuaternion<f64>, String> {
     if m.determinant() < 0.0 {
         return Err("the matrix mirrors (its determinant is -1): an axis is turned round".into());
     }
-    Ok(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(nearest_rotation(
-        *m,
-    ))))
-}
-
-/// The orthonormal factor of `m`: Newton's iteration for the polar decomposition (Higham 1986).
-fn nearest_rotation(mut m: Matrix3<f64>) -> Matrix3<f64> {
-    for _ in 0..4 {
-        if let Some(inverse) = m.transpose().try_inverse() {
-            m = 0.5 * (m + inverse);
-        }
-    }
-    m
+    let nearest = handeye::math::nearest_rotation(m).ok_or("the matrix is no rotation")?;
+    // of its two quaternions the one that its matrix gives
+    Ok(UnitQuaternion::from_rotation_matrix(&nearest.to_rotation_matrix()))
 }
 
 #[cfg(test)]
@@ -150,5 +140,28 @@ mod tests {
         let read = Rotation::Matrix.read(&n).unwrap();
         assert!(read.angle_to(&turn) < 1e-4);
         assert!((read.norm() - 1.0).abs() < 1e-15);
+    }
+
+    /// The orthonormal factor of `m`, by Newton's iteration (N. Higham, SIAM J. Sci. Stat. Comput. 7, 1986).
+    fn orthonormal_factor(mut m: Matrix3<f64>) -> Matrix3<f64> {
+        for _ in 0..6 {
+            m = 0.5 * (m + m.transpose().try_inverse().unwrap());
+        }
+        m
+    }
+
+    #[test]
+    fn the_rotation_near_a_matrix_is_its_orthonormal_factor() {
+        let mut random = handeye::math::random::Random::new(5);
+        let mut most = 0.0_f64;
+        for digits in [1e3_f64, 1e4, 1e6, 1e9, 1e16] {
+            for _ in 0..2000 {
+                let turn = UnitQuaternion::new(random.normal3() * 2.0);
+                let m = turn.to_rotation_matrix().matrix().map(|x| (x * digits).round() / digits);
+                let found = rotation_near(&m).unwrap().to_rotation_matrix();
+                most = most.max((found.matrix() - orthonormal_factor(m)).amax());
+            }
+        }
+        assert!(most < 2e-15, "{most}");
     }
 }

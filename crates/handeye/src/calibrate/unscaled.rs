@@ -13,6 +13,7 @@
 use crate::{
     Config, Error, PosePair, Session,
     calibrate::settle::{self, Captures, Stand},
+    math::subsets::{self, Draw},
     solve::{FEWEST_POSES, andreff},
 };
 
@@ -74,11 +75,8 @@ const DRAWN: usize = FEWEST_POSES + 1;
 /// As [`andreff::solve_with_scale`].
 pub(crate) fn first_scale(pairs: &[PosePair]) -> Result<f64, Error> {
     let whole = andreff::solve_with_scale(pairs);
-    let sets = draws(pairs.len()).into_iter();
-    let small = sets.filter_map(|set| {
-        let some: Vec<PosePair> = set.into_iter().map(|i| pairs[i]).collect();
-        andreff::solve_with_scale(&some).ok()
-    });
+    let small =
+        draws(pairs.len()).filter_map(|set| andreff::solve_with_scale(&set.map(|i| pairs[i])).ok());
     let score = |s: &andreff::Scaled| {
         let metric: Vec<PosePair> = pairs.iter().map(|p| p.farther(s.scale)).collect();
         settle::residual(&s.hand_eye, &metric)
@@ -91,21 +89,9 @@ pub(crate) fn first_scale(pairs: &[PosePair]) -> Result<f64, Error> {
     }
 }
 
-/// Small sets spread over all captures: multiples of irrational numbers, without their whole part,
-/// fill the unit interval evenly (H. Weyl, *Math. Annalen* 77, 1916).
-fn draws(n: usize) -> Vec<[usize; DRAWN]> {
-    if n <= DRAWN {
-        return vec![];
-    }
-    let irrational = [2_f64.sqrt(), 3_f64.sqrt(), 5_f64.sqrt(), 7_f64.sqrt()];
-    let draw = |k: usize| {
-        let one = |x: f64| ((k as f64 * x).fract() * n as f64) as usize;
-        let mut set = irrational.map(|x| one(x).min(n - 1));
-        set.sort_unstable();
-        set
-    };
-    let all = (1..=DRAWS).map(draw);
-    all.filter(|s| s.windows(2).all(|w| w[0] != w[1])).collect()
+/// Small sets spread over all captures; none where these are no more than one set.
+fn draws(n: usize) -> impl Iterator<Item = [usize; DRAWN]> {
+    subsets::drawn(n, if n > DRAWN { DRAWS } else { 0 }, Draw::Even)
 }
 
 #[cfg(test)]

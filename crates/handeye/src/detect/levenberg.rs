@@ -2,10 +2,17 @@
 
 use nalgebra::{Const, DimMin, SMatrix, SVector};
 
+use crate::math::optimize::{self, Damping, End, Problem, Rules, Singular, Stop, Tried};
+
 /// Rounding to 8 bits alone leaves this variance, grey values squared.
 pub(super) const ROUNDING_VARIANCE: f64 = 1.0 / 12.0;
 /// Most steps of a fit; it usually takes four.
-const MOST_STEPS: usize = 30;
+const RULES: Rules = Rules {
+    most_steps: 30,
+    damping: Damping { most: 1e6, ..Damping::from(1e-3) },
+    slack: 0.0,
+    singular: Singular::Ends,
+};
 /// Damping below this hardly shortens a step.
 const FREE: f64 = 0.05;
 
@@ -104,6 +111,57 @@ pub(super) struct Descent<const N: usize> {
     pub settled: bool,
 }
 
+/// A model of a patch of pixels, a parameter between bounds, and what a short step is.
+struct Fit<'a, const N: usize, F, S> {
+    linearise: F,
+    bounded: &'a Bounded,
+    short: S,
+}
+
+impl<const N: usize, F, S> Problem for Fit<'_, N, F, S>
+where
+    F: Fn(&SVector<f64, N>) -> Option<Linearised<N>>,
+    S: Fn(&SVector<f64, N>) -> bool,
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
+{
+    type Point = SVector<f64, N>;
+    type Equations = Linearised<N>;
+    type Step = SVector<f64, N>;
+
+    fn equations(&self, at: &SVector<f64, N>) -> Option<Linearised<N>> {
+        (self.linearise)(at)
+    }
+
+    fn cost(&self, here: &Linearised<N>) -> f64 {
+        here.cost
+    }
+
+    fn step(
+        &self,
+        at: &SVector<f64, N>,
+        here: &Linearised<N>,
+        damping: f64,
+    ) -> Option<SVector<f64, N>> {
+        let step = here.step(damping, None)?;
+        if self.bounded.holds(at, &step) {
+            return here.step(damping, Some(self.bounded.parameter));
+        }
+        Some(step)
+    }
+
+    fn moved(&self, at: &SVector<f64, N>, step: &SVector<f64, N>) -> SVector<f64, N> {
+        self.bounded.after(at, step)
+    }
+
+    fn is_last(&self, tried: &Tried<SVector<f64, N>>) -> bool {
+        tried.is_taken && (self.short)(tried.step)
+    }
+
+    fn is_trusted(&self, step: &SVector<f64, N>, damping: f64, begun: bool) -> bool {
+        begun && damping < FREE && (self.short)(step)
+    }
+}
+
 /// Steps until one is `short`, the first excepted. `None` where there is no direction to go.
 pub(super) fn descend<const N: usize>(
     start: SVector<f64, N>,
@@ -115,36 +173,14 @@ where
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     let mut at = start;
-    let mut there = linearise(&at)?;
-    let mut damping = 1e-3;
-    let mut last = None;
-    let mut settled = false;
-    for _ in 0..MOST_STEPS {
-        let mut step = there.step(damping, None)?;
-        if bounded.holds(&at, &step) {
-            step = there.step(damping, Some(bounded.parameter))?;
-        }
-        let next = bounded.after(&at, &step);
-        if last.is_some() && damping < FREE && short(&step) {
-            (at, last, settled) = (next, Some(step), true);
-            break;
-        }
-        match linearise(&next) {
-            Some(better) if better.cost <= there.cost => {
-                (at, there, last) = (next, better, Some(step));
-                damping *= 0.1;
-                settled = short(&step);
-            }
-            // rounding: no step makes it better
-            _ if damping > 1e6 => settled = true,
-            _ => damping *= 10.0,
-        }
-        if settled {
-            break;
-        }
-    }
-    let step = last.unwrap_or_else(SVector::zeros);
-    there.cost.is_finite().then_some(Descent { at, there, step, settled })
+    let fit = Fit::<N, _, _> { linearise, bounded, short };
+    let here = fit.equations(&at)?;
+    let End { there, step, stop } = optimize::descend(&fit, &mut at, here, &RULES);
+    let step = step.unwrap_or_else(SVector::zeros);
+    // rounding may forbid a better step
+    let settled = matches!(stop, Stop::Converged | Stop::NoBetter);
+    let is_answer = stop != Stop::Singular && there.cost.is_finite();
+    is_answer.then_some(Descent { at, there, step, settled })
 }
 
 #[cfg(test)]

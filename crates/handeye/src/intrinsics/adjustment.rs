@@ -14,6 +14,7 @@ use crate::{
     math::{
         lie::{self, hat},
         linalg::median,
+        optimize::{self, Damping, Problem, Rules, Singular, Stop, Tried},
     },
     model::camera::LENS_PARAMETERS,
 };
@@ -26,8 +27,13 @@ const FARTHEST: f64 = 5.0;
 const HUBER: f64 = 1.5;
 /// Rounds of re-weighting.
 const ROUNDS: usize = 3;
-/// Most steps of one adjustment.
-const MOST_STEPS: usize = 60;
+/// Of one adjustment with weights held still.
+const RULES: Rules = Rules {
+    most_steps: 60,
+    damping: Damping { least: 1e-12, most: 1e7, ..Damping::from(1e-4) },
+    slack: 0.0,
+    singular: Singular::IsDamped,
+};
 /// The adjustment ends when the cost falls by less than this share.
 const CONVERGED: f64 = 1e-10;
 /// Half of all squared lengths of a 2-vector of unit normal deviates are below this.
@@ -76,6 +82,41 @@ struct Normals {
     gradient: Shared,
     blocks: Vec<Block>,
     cost: f64,
+}
+
+/// A change of all parameters.
+struct Step {
+    shared: Shared,
+    poses: Vec<Vector6<f64>>,
+}
+
+/// The least squares of an adjustment, weights held still.
+struct Arrow;
+
+impl Problem for Arrow {
+    type Point = Adjustment;
+    type Equations = Normals;
+    type Step = Step;
+
+    fn equations(&self, at: &Adjustment) -> Option<Normals> {
+        Some(at.normals())
+    }
+
+    fn cost(&self, here: &Normals) -> f64 {
+        here.cost
+    }
+
+    fn step(&self, at: &Adjustment, here: &Normals, damping: f64) -> Option<Step> {
+        at.step(here, damping)
+    }
+
+    fn moved(&self, at: &Adjustment, step: &Step) -> Adjustment {
+        at.moved(step)
+    }
+
+    fn is_last(&self, tried: &Tried<Step>) -> bool {
+        tried.is_taken && tried.before - tried.after <= CONVERGED * tried.before
+    }
 }
 
 impl Adjustment {
@@ -175,37 +216,13 @@ impl Adjustment {
     }
 
     fn minimise(&mut self) -> Option<()> {
-        let mut normals = self.normals();
-        let mut damping = 1e-4;
-        for _ in 0..MOST_STEPS {
-            let Some(next) = self.step(&normals, damping) else {
-                damping *= 10.0;
-                if damping > 1e8 {
-                    return None;
-                }
-                continue;
-            };
-            let after = next.normals();
-            if after.cost <= normals.cost {
-                let fallen = normals.cost - after.cost;
-                let done = fallen <= CONVERGED * normals.cost;
-                (*self, normals) = (next, after);
-                damping = (damping * 0.1f64).max(1e-12);
-                if done {
-                    break;
-                }
-            } else {
-                damping *= 10.0;
-                if damping > 1e8 {
-                    break;
-                }
-            }
-        }
-        normals.cost.is_finite().then_some(())
+        let here = self.normals();
+        let end = optimize::descend(&Arrow, self, here, &RULES);
+        (end.stop != Stop::Singular && end.there.cost.is_finite()).then_some(())
     }
 
-    /// One damped step of all parameters.
-    fn step(&self, normals: &Normals, damping: f64) -> Option<Self> {
+    /// A damped step of the shared parameters, and one of each pose.
+    fn step(&self, normals: &Normals, damping: f64) -> Option<Step> {
         let grow = 1.0 + damping;
         let (mut reduced, mut right) = (normals.shared, -normals.gradient);
         (0..LENS_PARAMETERS).for_each(|k| reduced[(k, k)] *= grow);
@@ -221,13 +238,20 @@ impl Adjustment {
         }
         self.fix(&mut reduced, &mut right);
         let shared = reduced.cholesky()?.solve(&right);
+        let of_pose = |(block, inverse): (&Block, Matrix6<f64>)| {
+            -inverse * (block.gradient + block.cross.transpose() * shared)
+        };
+        let poses = normals.blocks.iter().zip(inverses).map(of_pose).collect();
+        Some(Step { shared, poses })
+    }
+
+    fn moved(&self, step: &Step) -> Self {
         let mut next = self.clone();
-        next.camera = self.camera.moved_lens(&shared);
-        for ((view, block), inverse) in next.views.iter_mut().zip(&normals.blocks).zip(inverses) {
-            let delta = -inverse * (block.gradient + block.cross.transpose() * shared);
-            view.pose *= lie::exp(&delta);
+        next.camera = self.camera.moved_lens(&step.shared);
+        for (view, delta) in next.views.iter_mut().zip(&step.poses) {
+            view.pose *= lie::exp(delta);
         }
-        Some(next)
+        next
     }
 
     /// Takes the parameters that are not fitted out of the equations.

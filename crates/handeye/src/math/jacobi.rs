@@ -83,7 +83,7 @@ pub(crate) fn leading<const N: usize>(m: &SMatrix<f64, N, N>) -> Option<SVector<
 
 /// The rotation nearest to `m` in the Frobenius norm, also where `m` mirrors; `None` when several
 /// are as near.
-pub(crate) fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
+pub fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
     let (xx, yy, zz) = (m[(0, 0)], m[(1, 1)], m[(2, 2)]);
     let turn = (m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)]);
     let both = (m[(0, 1)] + m[(1, 0)], m[(0, 2)] + m[(2, 0)], m[(1, 2)] + m[(2, 1)]);

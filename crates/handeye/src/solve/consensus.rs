@@ -18,7 +18,10 @@
 
 use crate::{
     Anchor, Camera, Error, HandEye, Mount, Pose, PosePair, Target,
-    math::linalg::median,
+    math::{
+        linalg::median,
+        subsets::{self, Draw},
+    },
     model::residual::Residual,
     solve::{
         self, FEWEST_POSES, Method, View, few_axes, graduated::graduated, half_turns,
@@ -120,27 +123,12 @@ fn pair(capture: &Readings, reading: usize) -> PosePair {
     }
 }
 
-/// All triples of few captures, a fixed pseudo-random choice of many.
+/// All triples of few captures, some of many.
 fn triples(n: usize) -> Vec<[usize; 3]> {
-    if n * (n - 1) * (n - 2) / 6 <= DRAWS {
-        let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-        return pairs.flat_map(|(i, j)| (j + 1..n).map(move |k| [i, j, k])).collect();
+    if subsets::count(n, 3) <= DRAWS {
+        return subsets::all(n).collect();
     }
-    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut draw = |n: usize| {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((state >> 33) as usize) % n
-    };
-    let mut all = Vec::with_capacity(DRAWS);
-    while all.len() < DRAWS {
-        let mut t = [draw(n), draw(n), draw(n)];
-        t.sort_unstable();
-        if t[0] != t[1] && t[1] != t[2] {
-            all.push(t);
-        }
-    }
-    all
+    subsets::drawn(n, DRAWS, Draw::DISTINCT).collect()
 }
 
 /// Answers of one triple, for the combinations of readings that its motions allow. Where the

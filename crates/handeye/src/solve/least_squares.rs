@@ -14,7 +14,10 @@ use nalgebra::{DMatrix, Matrix6, SMatrix, SVector, Vector6};
 use crate::{
     HandEye, PosePair,
     detect::Sight,
-    math::{lie, linalg},
+    math::{
+        lie, linalg,
+        optimize::{self, Damping, Problem, Rules, Singular, Tried},
+    },
 };
 
 /// One capture as the fit sees it.
@@ -56,8 +59,19 @@ pub(crate) type Matrix12 = SMatrix<f64, 12, 12>;
 pub(crate) type Vector12 = SVector<f64, 12>;
 type Matrix6x12 = SMatrix<f64, 6, 12>;
 
-/// Steps of one fit; it takes five from a closed form.
-const MOST_STEPS: usize = 100;
+/// Of one fit: steps of Gauss and Newton as long as these lower the cost; from a closed form it takes five.
+const RULES: Rules = Rules {
+    most_steps: 100,
+    damping: Damping {
+        start: 0.0,
+        negligible: 1e-9,
+        raised: 1e-6,
+        least: 0.0,
+        most: 1e8_f64.next_down(),
+    },
+    slack: 0.0,
+    singular: Singular::IsDamped,
+};
 /// The fit has converged when a step changes the cost by less than this part of it.
 const COST_CHANGE: f64 = 1e-14;
 /// The residual of one view, `r_i`.
@@ -106,40 +120,44 @@ pub(crate) fn moved(at: &HandEye, step: &Vector12) -> HandEye {
     }
 }
 
-/// Levenberg-Marquardt for weights held still.
-fn minimise(views: &[View], weights: &[Matrix6<f64>], start: &HandEye) -> (HandEye, Normal) {
-    let mut at = *start;
-    let mut here = normal(views, weights, &at);
-    let mut damping = 0.0;
-    for _ in 0..MOST_STEPS {
-        let Some(step) = damped_step(&here, damping) else {
-            damping = raised(damping);
-            if damping > 1e8 {
-                break;
-            }
-            continue;
-        };
-        let next = moved(&at, &step);
-        let there = normal(views, weights, &next);
-        let gain = here.cost - there.cost;
-        if gain < 0.0 && gain.abs() > COST_CHANGE * here.cost && damping < 1e8 {
-            damping = raised(damping);
-            continue;
-        }
-        let done = gain.abs() <= COST_CHANGE * here.cost || !gain.is_finite();
-        if gain >= 0.0 {
-            (at, here) = (next, there);
-            damping *= 0.1;
-        }
-        if done {
-            break;
-        }
-    }
-    (at, here)
+/// Views with weights held still.
+struct Weighted<'a> {
+    views: &'a [View],
+    weights: &'a [Matrix6<f64>],
 }
 
-fn raised(damping: f64) -> f64 {
-    if damping < 1e-9 { 1e-6 } else { damping * 10.0 }
+impl Problem for Weighted<'_> {
+    type Point = HandEye;
+    type Equations = Normal;
+    type Step = Vector12;
+
+    fn equations(&self, at: &HandEye) -> Option<Normal> {
+        Some(normal(self.views, self.weights, at))
+    }
+
+    fn cost(&self, here: &Normal) -> f64 {
+        here.cost
+    }
+
+    fn step(&self, _: &HandEye, here: &Normal, damping: f64) -> Option<Vector12> {
+        damped_step(here, damping)
+    }
+
+    fn moved(&self, at: &HandEye, step: &Vector12) -> HandEye {
+        moved(at, step)
+    }
+
+    fn is_last(&self, tried: &Tried<Vector12>) -> bool {
+        let gain = tried.before - tried.after;
+        gain.is_nan() || gain.abs() <= COST_CHANGE * tried.before
+    }
+}
+
+fn minimise(views: &[View], weights: &[Matrix6<f64>], start: &HandEye) -> HandEye {
+    let problem = Weighted { views, weights };
+    let mut at = *start;
+    optimize::descend(&problem, &mut at, normal(views, weights, start), &RULES);
+    at
 }
 
 fn damped_step(at: &Normal, damping: f64) -> Option<Vector12> {
@@ -157,12 +175,12 @@ fn damped_step(at: &Normal, damping: f64) -> Option<Vector12> {
 pub(crate) fn fit_fixed_weights(views: &[View], start: &HandEye, metres_per_rad: f64) -> HandEye {
     let rotation = metres_per_rad * metres_per_rad;
     let weight = Matrix6::from_diagonal(&Vector6::new(rotation, rotation, rotation, 1.0, 1.0, 1.0));
-    minimise(views, &vec![weight; views.len()], start).0
+    minimise(views, &vec![weight; views.len()], start)
 }
 
 /// Fits both unknowns with a weight for each view, 6 x 6 on its residual (rotation first).
 pub(crate) fn fit_weighted(views: &[View], weights: &[Matrix6<f64>], start: &HandEye) -> HandEye {
-    minimise(views, weights, start).0
+    minimise(views, weights, start)
 }
 
 #[cfg(test)]

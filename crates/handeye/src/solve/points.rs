@@ -20,7 +20,13 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, SVector, Vector3, Vector6};
 
 use crate::{
     Anchor, Camera, Error, Mount, Point, Pose,
-    math::{lie, linalg::median, random::Random},
+    math::{
+        lie,
+        linalg::median,
+        optimize::{self, Damping, Problem, Rules, Singular, Tried},
+        random::Random,
+        subsets::{self, Draw},
+    },
 };
 
 /// One capture.
@@ -58,9 +64,10 @@ pub struct PointFit {
 pub const FEWEST: usize = 4;
 /// From so many captures on, some few tell which ones agree.
 const MANY: usize = 7;
-/// Captures in a trial, and trials: with a third of the captures wrong, five of them are right in
-/// one trial of eight.
-const TRIAL: (usize, usize) = (5, 60);
+/// Captures in a trial.
+const IN_TRIAL: usize = 5;
+/// Trials: with a third of the captures wrong, five of them are right in one trial of eight.
+const TRIALS: usize = 60;
 /// A capture farther off than this (squared, standard deviations of three axes: one of 1e5) does not
 /// agree.
 const FAR: f64 = 26.0;
@@ -68,6 +75,15 @@ const FAR: f64 = 26.0;
 const NEAR: f64 = 3.5;
 /// Steps of a fit from a start, and of the last one.
 const STEPS: (usize, usize) = (12, 40);
+/// Of a fit with noises held still.
+const RULES: Rules = Rules {
+    most_steps: STEPS.1,
+    damping: Damping { least: 1e-12, most: 1e8, ..Damping::from(1e-6) },
+    slack: 1e-12,
+    singular: Singular::Ends,
+};
+/// A step this small (rad and m alike) is the last.
+const STEP: f64 = 1e-12;
 /// Rounds of fit, noise and agreement.
 const ROUNDS: usize = 6;
 /// Standard deviation of what nothing determines.
@@ -146,7 +162,7 @@ pub(crate) fn fit_points(views: &[PointView]) -> Result<PointFit, Error> {
     }
     let used = chosen(views, &agrees);
     state = descend(&used, state, Some(robot), STEPS.1);
-    let (mut h, _, _) = equations(&used, &state, Some(robot));
+    let mut h = Weighted { views: &used, robot: Some(robot) }.normal(&state).h;
     (0..9).for_each(|k| h[(k, k)] += FREE_SIGMA.powi(-2));
     let covariance =
         crate::math::linalg::inverse_spd(&nalgebra::DMatrix::from_column_slice(9, 9, h.as_slice()))
@@ -197,18 +213,13 @@ fn consensus(views: &[PointView], agrees: &mut [bool]) -> Result<State, Error> {
     if views.len() < MANY {
         return from_all_starts(views).ok_or_else(undetermined);
     }
-    let mut random = Random::new(views.len() as u64);
     let off = |s: &State| median(views.iter().map(|v| s.residual(v).norm()));
-    let trial = |_| {
-        let mut order: Vec<usize> = (0..views.len()).collect();
-        for k in 0..TRIAL.0 {
-            let rest = (views.len() - k) as f64;
-            order.swap(k, k + (random.unit() * rest) as usize);
-        }
-        let few: Vec<PointView> = order[..TRIAL.0].iter().map(|&k| views[k]).collect();
-        from_all_starts(&few).map(|s| (off(&s), s))
+    let trial = |few: [usize; IN_TRIAL]| {
+        from_all_starts(&few.map(|k| views[k])).map(|state| (off(&state), state))
     };
-    let best = (0..TRIAL.1).filter_map(trial).min_by(|a, b| a.0.total_cmp(&b.0));
+    let draw = Draw::Shuffled(Random::new(views.len() as u64));
+    let trials = subsets::drawn(views.len(), TRIALS, draw);
+    let best = trials.filter_map(trial).min_by(|a, b| a.0.total_cmp(&b.0));
     let (_, state) = best.ok_or_else(undetermined)?;
     // a trial of few captures misses the others by more than their noise: nobody right is left out
     let limit = NEAR * off(&state) + LEAST_SIGMA;
@@ -255,43 +266,71 @@ fn with_rotation(views: &[PointView], r: &Matrix3<f64>) -> Option<State> {
     Some(State { x: pose, p: x.fixed_rows::<3>(3).into_owned() })
 }
 
-/// Normal matrix, gradient and cost; `None` weighs all alike.
-fn equations(views: &[PointView], s: &State, robot: Option<f64>) -> (Nine, SVector<f64, 9>, f64) {
-    let (mut h, mut g, mut cost) = (Nine::zeros(), SVector::<f64, 9>::zeros(), 0.0);
-    for v in views {
-        let (e, j) = (s.residual(v), s.jacobian(v));
-        let noise = robot.map_or_else(Matrix3::identity, |robot| s.noise(v, robot));
-        let Some(factor) = noise.cholesky() else { return (h, g, f64::INFINITY) };
-        h += j.transpose() * factor.solve(&j);
-        g += j.transpose() * factor.solve(&e);
-        cost += e.dot(&factor.solve(&e));
-    }
-    (h, g, cost)
+/// Normal matrix, gradient and cost.
+struct Normal {
+    h: Nine,
+    g: SVector<f64, 9>,
+    cost: f64,
 }
 
-/// Levenberg-Marquardt.
-fn descend(views: &[PointView], start: State, robot: Option<f64>, steps: usize) -> State {
-    let mut state = start;
-    let (mut h, mut g, mut cost) = equations(views, &state, robot);
-    let mut damping = 1e-6;
-    for _ in 0..steps {
-        let mut damped = h;
-        let floor = 1e-12 * h.trace();
-        (0..9).for_each(|k| damped[(k, k)] += damping * h[(k, k)] + floor);
-        let Some(factor) = damped.cholesky() else { break };
-        let step = -factor.solve(&g);
-        let next = state.moved(&step);
-        let (h2, g2, c2) = equations(views, &next, robot);
-        if c2 <= cost * (1.0 + 1e-12) {
-            (state, h, g, cost) = (next, h2, g2, c2);
-            damping = (0.1 * damping).max(1e-12);
-        } else {
-            damping *= 10.0;
+/// Captures, each with its noise and the robot's variance; `None` weighs all alike.
+struct Weighted<'a> {
+    views: &'a [PointView],
+    robot: Option<f64>,
+}
+
+impl Weighted<'_> {
+    /// Infinite cost where a noise is none.
+    fn normal(&self, s: &State) -> Normal {
+        let mut sum = Normal { h: Nine::zeros(), g: SVector::zeros(), cost: 0.0 };
+        for v in self.views {
+            let (e, j) = (s.residual(v), s.jacobian(v));
+            let noise = self.robot.map_or_else(Matrix3::identity, |robot| s.noise(v, robot));
+            let Some(factor) = noise.cholesky() else {
+                return Normal { cost: f64::INFINITY, ..sum };
+            };
+            sum.h += j.transpose() * factor.solve(&j);
+            sum.g += j.transpose() * factor.solve(&e);
+            sum.cost += e.dot(&factor.solve(&e));
         }
-        if step.norm() < 1e-12 || damping > 1e9 {
-            break;
-        }
+        sum
     }
+}
+
+impl Problem for Weighted<'_> {
+    type Point = State;
+    type Equations = Normal;
+    type Step = SVector<f64, 9>;
+
+    fn equations(&self, at: &State) -> Option<Normal> {
+        Some(self.normal(at))
+    }
+
+    fn cost(&self, here: &Normal) -> f64 {
+        here.cost
+    }
+
+    fn step(&self, _: &State, here: &Normal, damping: f64) -> Option<SVector<f64, 9>> {
+        let mut damped = here.h;
+        let floor = 1e-12 * here.h.trace();
+        (0..9).for_each(|k| damped[(k, k)] += damping * here.h[(k, k)] + floor);
+        Some(-damped.cholesky()?.solve(&here.g))
+    }
+
+    fn moved(&self, at: &State, step: &SVector<f64, 9>) -> State {
+        at.moved(step)
+    }
+
+    fn is_last(&self, tried: &Tried<SVector<f64, 9>>) -> bool {
+        tried.step.norm() < STEP
+    }
+}
+
+fn descend(views: &[PointView], start: State, robot: Option<f64>, most_steps: usize) -> State {
+    let problem = Weighted { views, robot };
+    let mut state = start;
+    let here = problem.normal(&state);
+    optimize::descend(&problem, &mut state, here, &Rules { most_steps, ..RULES });
     state
 }
 

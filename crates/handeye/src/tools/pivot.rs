@@ -21,7 +21,7 @@ use serde::Serialize;
 use crate::{
     Base, Error, Flange, Point, Pose, Verdict,
     estimate::observability::axis_name,
-    math::{linalg, statistics},
+    math::{linalg, statistics, subsets},
 };
 
 /// Fewest poses: with three a wrong one cannot be told from the others.
@@ -315,11 +315,8 @@ fn best_core(poses: &[Pose<Base, Flange>]) -> Vec<usize> {
 const MOST_TRIPLES: usize = 400;
 
 /// All triples of few poses, evenly taken ones of many.
-fn triples(n: usize) -> Vec<Vec<usize>> {
-    let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-    let all = pairs.flat_map(|(i, j)| (j + 1..n).map(move |k| vec![i, j, k]));
-    let count = n * n.saturating_sub(1) * n.saturating_sub(2) / 6;
-    all.step_by((count / MOST_TRIPLES).max(1)).collect()
+fn triples(n: usize) -> impl Iterator<Item = [usize; 3]> {
+    subsets::all(n).step_by((subsets::count(n, 3) / MOST_TRIPLES).max(1))
 }
 
 /// Takes in the most probable pose until none is left that belongs.

@@ -15,6 +15,7 @@ use crate::{
     math::{
         lie::{self, hat},
         linalg::median,
+        optimize::{self, Damping, Problem, Rules, Singular, Stop, Tried},
     },
 };
 
@@ -24,8 +25,13 @@ const HUBER: f64 = 1.5;
 const FARTHEST: f64 = 5.0;
 /// Rounds of re-weighting; three suffice for a few bad corners.
 const ROUNDS: usize = 4;
-/// Most steps of one Levenberg-Marquardt run.
-const MOST_STEPS: usize = 50;
+/// Of one fit with weights held still.
+const RULES: Rules = Rules {
+    most_steps: 50,
+    damping: Damping { least: 1e-12, most: 1e8, ..Damping::from(1e-6) },
+    slack: 0.0,
+    singular: Singular::Ends,
+};
 /// A step this small (rad and m alike) ends the run.
 const STEP: f64 = 1e-11;
 /// Equations' worth of belief in what other images say about lens model and print.
@@ -188,50 +194,34 @@ impl<'a> Fit<'a> {
         Some((pixel - corner.pixel, by_point * by_pose))
     }
 
-    /// `JᵀWJ`, `JᵀWr` and `rᵀWr`; infinite cost when a corner is behind the camera.
-    fn linearise(&self, pose: &Isometry3<f64>) -> (Matrix6<f64>, Vector6<f64>, f64) {
-        let (mut normal, mut gradient, mut cost) = (Matrix6::zeros(), Vector6::zeros(), 0.0);
+    /// Infinite cost when a corner is behind the camera.
+    fn linearise(&self, pose: &Isometry3<f64>) -> Normal {
+        let mut sum = Normal { h: Matrix6::zeros(), g: Vector6::zeros(), cost: 0.0 };
         for corner in self.seen.iter().filter(|c| c.weight > 0.0) {
             let Some((r, j)) = self.residual(pose, corner) else {
-                return (normal, gradient, f64::INFINITY);
+                return Normal { cost: f64::INFINITY, ..sum };
             };
             let w = self.information(corner) * corner.weight;
-            normal += j.transpose() * w * j;
-            gradient += j.transpose() * (w * r);
-            cost += r.dot(&(w * r));
+            sum.h += j.transpose() * w * j;
+            sum.g += j.transpose() * (w * r);
+            sum.cost += r.dot(&(w * r));
         }
         for corner in self.felt.iter().filter(|c| c.weight > 0.0) {
             let (point, j) = moved(pose, &corner.in_target);
             let r = point - corner.in_camera;
             let w = corner.information * (corner.weight / self.felt_scale);
-            normal += j.transpose() * w * j;
-            gradient += j.transpose() * (w * r);
-            cost += r.dot(&(w * r));
+            sum.h += j.transpose() * w * j;
+            sum.g += j.transpose() * (w * r);
+            sum.cost += r.dot(&(w * r));
         }
-        (normal, gradient, cost)
+        sum
     }
 
     fn minimise(&self, start: Isometry3<f64>) -> Option<Isometry3<f64>> {
         let mut pose = start;
-        let (mut normal, mut gradient, mut cost) = self.linearise(&pose);
-        let mut damping = 1e-6;
-        for _ in 0..MOST_STEPS {
-            let mut damped = normal;
-            (0..6).for_each(|k| damped[(k, k)] *= 1.0 + damping);
-            let step = -damped.cholesky()?.solve(&gradient);
-            let next = pose * lie::exp(&step);
-            let (n, g, c) = self.linearise(&next);
-            if c <= cost {
-                (pose, normal, gradient, cost) = (next, n, g, c);
-                damping = (damping * 0.1).max(1e-12);
-            } else {
-                damping *= 10.0;
-            }
-            if step.norm() < STEP || damping > 1e9 {
-                break;
-            }
-        }
-        cost.is_finite().then_some(pose)
+        let here = self.linearise(&pose);
+        let end = optimize::descend(self, &mut pose, here, &RULES);
+        (end.stop != Stop::Singular && end.there.cost.is_finite()).then_some(pose)
     }
 
     /// `τ²` so that the squared residuals sum up to the degrees of freedom; the 3D corners' factor
@@ -271,8 +261,8 @@ impl<'a> Fit<'a> {
     }
 
     fn summary(&self, pose: &Isometry3<f64>) -> Option<PosedTarget> {
-        let (normal, _, cost) = self.linearise(pose);
-        let covariance = normal.cholesky()?.inverse();
+        let Normal { h, cost, .. } = self.linearise(pose);
+        let covariance = h.cholesky()?.inverse();
         let used: Vec<&Seen> = self.seen.iter().filter(|c| c.weight > 0.0).collect();
         if used.len() < FEWEST {
             return None;
@@ -307,6 +297,42 @@ impl<'a> Fit<'a> {
         let eye = pose.inverse().translation.vector;
         let in_front = |c: &Seen| (pose * nalgebra::Point3::from(c.in_target)).z > 0.0;
         eye.z < 0.0 && self.seen.iter().all(in_front)
+    }
+}
+
+/// `JᵀWJ`, `JᵀWr` and `rᵀWr`.
+pub(in crate::detect) struct Normal {
+    h: Matrix6<f64>,
+    g: Vector6<f64>,
+    cost: f64,
+}
+
+/// The pose, perturbed on the right.
+impl Problem for Fit<'_> {
+    type Point = Isometry3<f64>;
+    type Equations = Normal;
+    type Step = Vector6<f64>;
+
+    fn equations(&self, pose: &Isometry3<f64>) -> Option<Normal> {
+        Some(self.linearise(pose))
+    }
+
+    fn cost(&self, here: &Normal) -> f64 {
+        here.cost
+    }
+
+    fn step(&self, _: &Isometry3<f64>, here: &Normal, damping: f64) -> Option<Vector6<f64>> {
+        let mut damped = here.h;
+        (0..6).for_each(|k| damped[(k, k)] *= 1.0 + damping);
+        Some(-damped.cholesky()?.solve(&here.g))
+    }
+
+    fn moved(&self, pose: &Isometry3<f64>, step: &Vector6<f64>) -> Isometry3<f64> {
+        pose * lie::exp(step)
+    }
+
+    fn is_last(&self, tried: &Tried<Vector6<f64>>) -> bool {
+        tried.step.norm() < STEP
     }
 }
 

@@ -7,7 +7,12 @@ use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 use super::Reason;
 use crate::{
     Point, SurfaceCorner,
-    math::{linalg::median, random::Random, statistics::MAD},
+    math::{
+        linalg::median,
+        random::Random,
+        statistics::MAD,
+        subsets::{self, Draw},
+    },
 };
 
 /// Planes tried by least median of squares: with half the points good, one of eight is.
@@ -194,11 +199,9 @@ pub(crate) fn tukey(r: f64) -> f64 {
 /// The plane through three samples whose median absolute residual is least, and that residual.
 fn least_median(samples: &[Sample], seed: u64) -> Option<(Vector3<f64>, f64)> {
     let samples: Vec<&Sample> = samples.iter().step_by(samples.len().div_ceil(JUDGES)).collect();
-    let mut random = Random::new(seed);
     let mut best: Option<(Vector3<f64>, f64)> = None;
-    for _ in 0..TRIES {
-        let mut pick = || samples[(random.unit() * samples.len() as f64) as usize];
-        let three = [pick(), pick(), pick()];
+    for three in subsets::drawn(samples.len(), TRIES, Draw::Repeating(Random::new(seed))) {
+        let three: [&Sample; 3] = three.map(|k| samples[k]);
         let a = Matrix3::from_rows(&three.map(|s| row(&s.at).transpose()));
         let b = Vector3::from_iterator(three.iter().map(|s| 1.0 / s.point.z));
         if a.determinant().abs() < 1.0 {

@@ -26,8 +26,11 @@ use crate::{
         noise::Variances,
         system::state::{BoardBlock, Level, State, System},
     },
-    math::linalg,
-    solve::least_squares::{self},
+    math::{
+        linalg,
+        optimize::{self, Damping, Rules, Singular, Tried},
+    },
+    solve::least_squares,
 };
 pub(crate) use groups::Steps;
 use sights::Sights;
@@ -36,6 +39,20 @@ use views::{SeenMount, divide};
 /// A step shorter than this, squared and in units of the information, needs no check: the model is
 /// as good as linear there.
 const NEAR: f64 = 1e-2;
+
+/// Of the search for one step that lowers the cost, the undamped one first.
+const RULES: Rules = Rules {
+    most_steps: 20,
+    damping: Damping {
+        start: 0.0,
+        negligible: f64::MIN_POSITIVE,
+        raised: 1e-4,
+        least: 0.0,
+        most: f64::INFINITY,
+    },
+    slack: 1e-12,
+    singular: Singular::IsDamped,
+};
 
 /// Standard deviation (rad, m) of what nothing determines: far beyond any answer, and yet a number
 /// that the algebra can work with. No measurement notices it.
@@ -159,20 +176,9 @@ impl System {
 
     /// One damped step that lowers the cost; its squared length in units of the information.
     pub(crate) fn advance(&self, problem: &Problem, state: &mut State) -> f64 {
-        let mut damping = 0.0;
-        for _ in 0..20 {
-            if let Some(step) = self.step(damping) {
-                let length = step.dot(&(&self.h * &step));
-                let next = state.moved(&step);
-                let near = length < NEAR;
-                if near || self.cost_at(problem, &next) <= self.cost * (1.0 + 1e-12) {
-                    *state = next;
-                    return length;
-                }
-            }
-            damping = if damping == 0.0 { 1e-4 } else { damping * 10.0 };
-        }
-        0.0
+        let here = Cost(self.cost);
+        let end = optimize::descend(&Advance { problem, system: self }, state, here, &RULES);
+        end.step.map_or(0.0, |step| step.length)
     }
 
     fn step(&self, damping: f64) -> Option<DVector<f64>> {
@@ -246,6 +252,54 @@ impl System {
             cost: self.cost,
             log_likelihood: -0.5 * (self.log_determinant + log_h + log_prior + self.cost),
         }
+    }
+}
+
+/// The cost of a state, for the equations and weights of another.
+#[derive(Clone, Copy)]
+struct Cost(f64);
+
+struct Step {
+    by: DVector<f64>,
+    /// Squared, in units of the information.
+    length: f64,
+}
+
+/// One step from where a system stands: the next one needs a system with the noise of there.
+struct Advance<'a> {
+    problem: &'a Problem,
+    system: &'a System,
+}
+
+impl optimize::Problem for Advance<'_> {
+    type Point = State;
+    type Equations = Cost;
+    type Step = Step;
+
+    fn equations(&self, at: &State) -> Option<Cost> {
+        Some(Cost(self.system.cost_at(self.problem, at)))
+    }
+
+    fn cost(&self, here: &Cost) -> f64 {
+        here.0
+    }
+
+    fn step(&self, _: &State, _: &Cost, damping: f64) -> Option<Step> {
+        let by = self.system.step(damping)?;
+        let length = by.dot(&(&self.system.h * &by));
+        Some(Step { by, length })
+    }
+
+    fn moved(&self, at: &State, step: &Step) -> State {
+        at.moved(&step.by)
+    }
+
+    fn is_last(&self, tried: &Tried<Step>) -> bool {
+        tried.is_taken
+    }
+
+    fn is_trusted(&self, step: &Step, _: f64, _: bool) -> bool {
+        step.length < NEAR
     }
 }
 
