@@ -8,7 +8,7 @@ use std::{
 use handeye::{Calibration, Config, Session, Verdict, register::IcpConfig};
 use handeye_io::{
     Dataset, ResultFolder,
-    calibrate::{calibrate_dataset, write_run},
+    calibrate::{calibrate_dataset, corrected_files, write_run},
     checkup::can_be_checked,
     export::Format,
     report::dataset_html,
@@ -40,7 +40,8 @@ pub fn run(args: &CalibrateArgs, manners: &Manners) -> Result<u8, Failure> {
         }
     }
     if let (Some(out), Some(folder)) = (&args.out, &folder) {
-        let exports = export_accepted(out, &calibration, &formats, manners)?;
+        let mut exports = export_accepted(out, &calibration, &formats, manners)?;
+        exports.extend(corrected_files(&dataset, &calibration));
         let page = dataset_html(&dataset, &calibration, &session);
         write((out, folder), &calibration, &page, exports, manners)?;
     }

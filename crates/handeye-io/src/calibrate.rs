@@ -110,6 +110,23 @@ const PAGE: &str = "report.html";
 /// The corrected model of the arm, where one was found.
 const ARM: &str = "corrected_arm.json";
 
+/// The same in the words of the URDF that it was given as.
+const URDF: &str = "corrected_arm.urdf";
+/// The same as Universal Robots' description package reads it.
+const KINEMATICS: &str = "corrected_kinematics.yaml";
+
+/// The corrected arm in the words of the file that it was given as, names and contents: a URDF, and for an arm of
+/// Universal Robots its `kinematics`. None where no arm was corrected, or it was not given as a URDF.
+pub fn corrected_files(dataset: &Dataset, calibration: &Calibration) -> Vec<(String, Vec<u8>)> {
+    let (Some(urdf), Some(arm)) = (&dataset.urdf, &calibration.arm) else { return vec![] };
+    let files = [
+        (URDF, robot::corrected::urdf(urdf, &arm.model)),
+        (KINEMATICS, robot::corrected::kinematics(urdf, &arm.model)),
+    ];
+    let whole = |(name, text): (&str, Option<String>)| Some((name.to_owned(), text?.into_bytes()));
+    files.into_iter().filter_map(whole).collect()
+}
+
 /// What was written.
 pub struct Written {
     /// The page.
@@ -146,6 +163,11 @@ pub fn write_run(
     match &calibration.arm {
         Some(arm) => run.files.push((ARM.to_owned(), robot::arm_file(&arm.model).into_bytes())),
         None => run.absent.push(ARM),
+    }
+    for name in [URDF, KINEMATICS] {
+        if run.files.iter().all(|(there, _)| there != name) {
+            run.absent.push(name);
+        }
     }
     let replaced_another_run = folder.publish(&run)?;
     Ok(Written { page: out.join(PAGE), replaced_another_run })

@@ -27,6 +27,7 @@ use crate::{
     bag,
     error::{Error, unusable},
     files, image,
+    robot::Urdf,
     scan::{self, ScanOptions},
 };
 pub use draft::Question;
@@ -87,6 +88,8 @@ pub struct Dataset {
     pub known_position: Option<KnownPosition>,
     /// The robot's arm, where its poses come from joint values.
     pub arm: Option<Arm>,
+    /// The file that describes it, where that is a URDF.
+    pub urdf: Option<Urdf>,
     /// What the manifest says of the noise.
     pub noise: Noise,
     /// What the job tolerates.

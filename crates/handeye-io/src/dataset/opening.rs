@@ -91,6 +91,10 @@ impl Opening {
                 Some(spec) => poses::arm(spec, &self.source, &self.root)?,
                 None => None,
             },
+            urdf: match &m.robot {
+                Some(spec) => poses::urdf(spec, &self.root)?,
+                None => None,
+            },
             noise: self.noise(&m.noise)?,
             limits: self.limits(m)?,
             answer_frame: match m.answer.frame {

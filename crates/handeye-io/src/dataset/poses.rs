@@ -316,13 +316,23 @@ impl Writing {
 
 /// The arm, where the robot's poses are those of its flange by its own joints.
 pub(super) fn arm(spec: &RobotSpec, source: &Source, root: &Path) -> Result<Option<Arm>, Error> {
-    let of_flange = spec.direction == Some(RobotDirection::BaseFromFlange)
-        && matches!(spec.frame, PoseFrame::Flange);
-    if !of_flange || spec.table().notation.as_deref() != Some("joints") {
+    if !by_joints(spec) {
         return Ok(None);
     }
     let table = spec.with_arm(source)?;
     Ok(Reading::of(&table, "robot", source, root)?.arm().cloned())
+}
+
+/// The file in which that arm is described, where it is a URDF.
+pub(super) fn urdf(spec: &RobotSpec, root: &Path) -> Result<Option<Urdf>, Error> {
+    let Some(urdf) = spec.urdf.as_ref().filter(|_| by_joints(spec)) else { return Ok(None) };
+    Urdf::read(&root.join(&urdf.file), &urdf.base, &urdf.flange).map(Some)
+}
+
+fn by_joints(spec: &RobotSpec) -> bool {
+    spec.direction == Some(RobotDirection::BaseFromFlange)
+        && matches!(spec.frame, PoseFrame::Flange)
+        && spec.table().notation.as_deref() == Some("joints")
 }
 
 /// The tool whose poses are recorded; the flange itself unless the manifest says otherwise.

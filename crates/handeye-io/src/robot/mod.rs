@@ -2,6 +2,7 @@
 //! make a rotation; `makers` and the files beside it say them. Reading and writing use the same data.
 
 mod abb;
+pub(crate) mod corrected;
 mod dh;
 mod euler;
 mod generic;

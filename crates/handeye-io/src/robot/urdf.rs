@@ -36,8 +36,17 @@ pub(crate) struct UrdfSpec {
 pub struct Urdf {
     arm: Arm,
     joints: Vec<String>,
+    origins: Vec<Origin>,
     text: String,
     links: (String, String),
+}
+
+/// Where a joint that moves stands, all joint values zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Origin {
+    pub(crate) base_from_joint: Isometry3<f64>,
+    /// As the file has it.
+    pub(crate) parent_from_joint: Isometry3<f64>,
 }
 
 /// A joint as the file has it.
@@ -84,9 +93,9 @@ impl Urdf {
         }
         let joints = joints(&root, path)?;
         let (start, chain) = chain(&joints, base, flange, path)?;
-        let (arm, names) = arm(start, &chain, path)?;
+        let (arm, joints, origins) = arm(start, &chain, path)?;
         let links = (base.to_owned(), flange.to_owned());
-        Ok(Urdf { arm, joints: names, text: text.into(), links })
+        Ok(Urdf { arm, joints, origins, text: text.into(), links })
     }
 
     /// The arm; joint values are in rad and m.
@@ -97,6 +106,11 @@ impl Urdf {
     /// The names of its joints, from the base outwards.
     pub fn joint_names(&self) -> &[String] {
         &self.joints
+    }
+
+    /// Where its joints stand, in their order.
+    pub(crate) fn origins(&self) -> &[Origin] {
+        &self.origins
     }
 
     /// The file's text.
@@ -212,9 +226,13 @@ fn in_order<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.collect::<std::collections::BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(", ")
 }
 
-/// The arm of a chain, and the names of the joints that move.
-fn arm(start: Isometry3<f64>, chain: &[&Joint], path: &Path) -> Result<(Arm, Vec<String>), Error> {
-    let (mut here, mut axes, mut names) = (start, vec![], vec![]);
+/// The arm of a chain, and the names and places of the joints that move.
+fn arm(
+    start: Isometry3<f64>,
+    chain: &[&Joint],
+    path: &Path,
+) -> Result<(Arm, Vec<String>, Vec<Origin>), Error> {
+    let (mut here, mut axes, mut names, mut origins) = (start, vec![], vec![], vec![]);
     for joint in chain {
         here *= joint.parent_from_joint;
         if joint.kind == "fixed" {
@@ -222,6 +240,8 @@ fn arm(start: Isometry3<f64>, chain: &[&Joint], path: &Path) -> Result<(Arm, Vec
         }
         axes.push(axis(joint, &here, path)?);
         names.push(joint.name.clone());
+        let parent_from_joint = joint.parent_from_joint;
+        origins.push(Origin { base_from_joint: here, parent_from_joint });
     }
     if axes.is_empty() || axes.len() > MOST_JOINTS {
         let what = format!("{} joints move between the two links", axes.len());
@@ -229,7 +249,7 @@ fn arm(start: Isometry3<f64>, chain: &[&Joint], path: &Path) -> Result<(Arm, Vec
     }
     let arm = Arm::of_axes(&axes, &Pose::claim(here));
     arm.check().map_err(|source| Error::Values { place: Place::file(path), source })?;
-    Ok((arm, names))
+    Ok((arm, names, origins))
 }
 
 fn axis(joint: &Joint, base_from_joint: &Isometry3<f64>, path: &Path) -> Result<Axis, Error> {

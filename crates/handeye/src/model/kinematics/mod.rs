@@ -244,6 +244,11 @@ impl Arm {
         all
     }
 
+    /// Frames in the base where all joint values are zero: each joint turns about, or slides along, the z axis of its own.
+    pub fn joint_frames(&self) -> Vec<Isometry3<f64>> {
+        self.places(&[]).iter().map(|place| place.turning).collect()
+    }
+
     /// The same arm with these parameters larger by these values.
     pub fn moved(&self, which: &[Deviation], by: &[f64]) -> Arm {
         let mut arm = self.clone();
