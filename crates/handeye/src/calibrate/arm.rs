@@ -7,15 +7,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::joint::held_out_views;
+use super::{joint::held_out_views, reach::Erring};
 use crate::{
-    Observation, Pose, Setup, Touch,
+    Base, Flange, Observation, Pose, Setup, Touch,
     calibrate::{
         config::Config,
         result::{ArmDeviation, ArmHeldOut, ArmResult},
         views::Views,
     },
-    estimate::{Extra, ExtraKind, JointFit, Problem, Source, evaluate, joint},
+    estimate::{Extra, ExtraKind, JointFit, Problem, Source, evaluate, joint, place::Place},
     findings::RobotFinding,
     math::lie,
     model::{
@@ -121,13 +121,7 @@ struct Look<'a> {
 
 impl Look<'_> {
     fn without_systematic(&self, fit: &JointFit) -> JointFit {
-        joint::refit(&self.plain(), fit, &self.config.known)
-    }
-
-    fn plain(&self) -> Problem {
-        let keep = |e: &&Extra| !matches!(e.kind, ExtraKind::Systematic(_));
-        let extras = self.problem.extras.iter().filter(keep).copied().collect();
-        Problem { extras, ..self.problem.clone() }
+        joint::refit(&self.problem.without_systematic(), fit, &self.config.known)
     }
 
     /// The fit with these deviations free about an arm that has moved by so much already.
@@ -160,7 +154,7 @@ impl Look<'_> {
     /// The problem with every robot pose where this arm puts it, and how it moves from there.
     fn about(&self, arm: &Arm, which: &[Deviation]) -> Problem {
         let (setup, n) = (self.views.session.setup, which.len());
-        let mut problem = self.plain();
+        let mut problem = self.problem.without_systematic();
         for (view, o) in problem.views.iter_mut().zip(&self.views.used) {
             let correction = correction(self.model, arm, &o.joints);
             let base_from_flange = corrected(&o.base_from_flange, &correction);
@@ -255,20 +249,20 @@ fn without_arm(fit: &JointFit) -> JointFit {
 }
 
 /// `model flange⁻¹ · arm flange`: what puts a flange right, on its right.
-fn correction(model: &Arm, arm: &Arm, joints: &[f64]) -> Pose<crate::Flange, crate::Flange> {
+fn correction(model: &Arm, arm: &Arm, joints: &[f64]) -> Pose<Flange, Flange> {
     model.base_from_flange(joints).inverse() * arm.base_from_flange(joints)
 }
 
 fn corrected(
-    flange: &Pose<crate::Base, crate::Flange>,
-    correction: &Pose<crate::Flange, crate::Flange>,
-) -> Pose<crate::Base, crate::Flange> {
+    flange: &Pose<Base, Flange>,
+    correction: &Pose<Flange, Flange>,
+) -> Pose<Base, Flange> {
     *flange * *correction
 }
 
 /// Refuses joint values that do not lead to the flange poses beside them.
 fn consistent(views: &Views, model: &Arm) -> Result<(), RobotFinding> {
-    let apart = |joints: &[f64], flange: &Pose<crate::Base, crate::Flange>| {
+    let apart = |joints: &[f64], flange: &Pose<Base, Flange>| {
         let there = model.base_from_flange(joints);
         let apart = Residual::between(&there, flange);
         apart.distance > CONSISTENT.distance || apart.angle > CONSISTENT.angle
@@ -287,6 +281,33 @@ fn consistent(views: &Views, model: &Arm) -> Result<(), RobotFinding> {
     }
 }
 
+impl Erring for ArmFit {
+    fn fit(&self) -> &JointFit {
+        &self.fit
+    }
+
+    fn is_own(&self, kind: ExtraKind) -> bool {
+        matches!(kind, ExtraKind::Arm(_))
+    }
+
+    fn says(&self, at: &Place) -> Pose<Base, Flange> {
+        self.model.base_from_flange(&at.joints)
+    }
+
+    fn really(&self, at: &Place) -> Pose<Base, Flange> {
+        self.corrected().base_from_flange(&at.joints)
+    }
+
+    fn reaching(&self, flange: &Pose<Base, Flange>, near: &Place) -> Option<Place> {
+        let joints = self.corrected().inverse(flange, &near.joints)?;
+        Some(Place::new(&self.model.base_from_flange(&joints), &joints))
+    }
+
+    fn by_own(&self, at: &Place) -> DMatrix<f64> {
+        self.arm.by_deviations(&at.joints, &self.which)
+    }
+}
+
 /// A deviation is known when the data make its standard deviation smaller than this part of what
 /// was believed.
 const OBSERVED: f64 = 0.9;
@@ -301,11 +322,6 @@ impl ArmFit {
     /// The arm with all that was found.
     pub(super) fn corrected(&self) -> Arm {
         self.model.moved(&self.which, &self.values())
-    }
-
-    /// How a flange at these joint values moves with the deviations still free.
-    pub(super) fn by_deviations(&self, joints: &[f64]) -> DMatrix<f64> {
-        self.arm.by_deviations(joints, &self.which)
     }
 
     /// That it deviates.

@@ -5,7 +5,7 @@
 
 use super::{
     arm::ArmFit,
-    place::{Model, metric, with_waves},
+    place::{Model, errors, metric, places, with_waves},
 };
 use crate::{
     Camera, Mount, Pose, Target,
@@ -16,7 +16,7 @@ use crate::{
     },
     estimate::{
         ExtraKind, JointFit, KnownNoise, Problem, Source,
-        compensation::{self, ByArm, ByPlace, Compensation, RobotErrors},
+        compensation::{self, ByArm, Compensation, RobotErrors},
         joint,
         place::{Kernel, Place, Waves},
         projection::{self, Asked},
@@ -35,15 +35,11 @@ pub(super) fn by_place(
     rigid: &Pose<Mount, Camera>,
     known: &KnownNoise,
 ) -> Option<CompensationResult> {
-    let places = places(views);
+    let places = places(views, &[]);
     let metric = metric(views);
-    let waves = Waves::fine(model.kernel, &places);
-    let problem = with_waves(views, &model.plain, &waves);
+    let waves = Waves::fine(model.kernel, &self::places(views, &model.touches));
+    let problem = with_waves((views, &model.touches), &model.plain, &waves);
     let fit = joint::refit(&problem, &model.fit, known);
-    let arm = match model.kernel {
-        Kernel::Joints(_) => views.session.arm.clone(),
-        Kernel::Pose { .. } => None,
-    };
     let gain = |blocks: Vec<Vec<usize>>| {
         let missed = |asked| {
             projection::missed_without(&problem, &fit, (asked, &metric), &blocks).map(|m| m * 1e3)
@@ -51,22 +47,11 @@ pub(super) fn by_place(
         Some(BlockGain { rigid_mm: missed(Asked::Rigid)?, corrected_mm: missed(Asked::Whole)? })
     };
     let gains = Gains::of(&places, gain)?;
+    let errors = errors(views, model.kernel, &waves, &fit);
     // errors by the joints cannot be told of a pose without the arm
-    let applies = arm.is_some() || matches!(model.kernel, Kernel::Pose { .. });
-    let sigma = |source| fit.noise.sigma(source).unwrap_or(0.0);
+    let applies = errors.arm.is_some() || matches!(model.kernel, Kernel::Pose { .. });
+    let errors = RobotErrors::ByPlace(errors);
     let is_own = |kind: ExtraKind| kind.level().is_some();
-    let own: Vec<f64> = (0..fit.extras.len())
-        .filter(|&k| is_own(fit.extras[k].kind))
-        .map(|k| fit.values[k])
-        .collect();
-    let errors = RobotErrors::ByPlace(ByPlace {
-        kernel: model.kernel,
-        waves: waves.by_about.row_iter().map(|row| row.iter().copied().collect()).collect(),
-        about: waves.about,
-        strengths: own.chunks_exact(6).map(|six| std::array::from_fn(|k| six[k])).collect(),
-        level: [sigma(Source::PlaceRotation), sigma(Source::PlacePosition)],
-        arm,
-    });
     let offered = applies && gains.pay();
     let model = if offered { compensation(views, &fit, rigid, errors, is_own) } else { None };
     Some(gains.with(model))
@@ -79,7 +64,7 @@ pub(super) fn by_arm(
     without: (&Problem, &JointFit),
     rigid: &Pose<Mount, Camera>,
 ) -> Option<CompensationResult> {
-    let (places, metric) = (places(views), metric(views));
+    let (places, metric) = (places(views, &[]), metric(views));
     let gain = |blocks: Vec<Vec<usize>>| {
         let missed = |(problem, fit): (&Problem, &JointFit)| {
             let asked = (Asked::Whole, &metric);
@@ -120,10 +105,6 @@ impl Gains {
     fn with(self, model: Option<Compensation>) -> CompensationResult {
         CompensationResult { by_place: self.by_place, by_time: self.by_time, model }
     }
-}
-
-fn places(views: &Views) -> Vec<Place> {
-    views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints)).collect()
 }
 
 /// `errors` are made of those extras that are `own`.

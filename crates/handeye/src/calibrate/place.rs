@@ -9,13 +9,20 @@
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 
-use super::{alike::WAY_OF_A_TURN, reach::Reach, workpiece::inflation};
+use super::{
+    alike::WAY_OF_A_TURN,
+    reach::{Erring, Reach, ToolReach},
+    workpiece::inflation,
+};
 use crate::{
-    Camera, Mount, Point, Pose, Setup, Target,
+    Base, Camera, Flange, Mount, Point, Pose, Setup, Target,
     calibrate::{config::Config, limits::MOST_PREDICTED_MM, result::BlockGain, views::Views},
     estimate::{
-        JointFit, Problem, Source, joint,
+        ExtraKind, JointFit, Problem, Source,
+        compensation::ByPlace as Errors,
+        joint,
         place::{self, Kernel, Place, Waves},
+        predict::Volume,
         projection::{self, Projection},
     },
     findings::RobotFinding,
@@ -52,6 +59,8 @@ pub(super) struct ByPlace {
     setup: Setup,
     /// The fit's answer.
     x: Pose<Mount, Camera>,
+    /// What touches say of the way that its tool goes.
+    tool: Option<ToolReach>,
 }
 
 /// A fit with errors by place.
@@ -60,7 +69,10 @@ pub(super) struct Model {
     /// The problem without such errors.
     pub plain: Problem,
     pub problem: Problem,
+    /// The touches behind the problem's boards, in their order.
+    pub touches: Vec<usize>,
     pub fit: JointFit,
+    errors: Errors,
     projection: Projection,
     /// By how much the logarithm of the likelihood gains.
     gain: f64,
@@ -74,43 +86,39 @@ struct Say {
     missed: f64,
 }
 
-/// Looks whether the robot errs by place; `None` where nothing speaks for it. Touches say themselves where the tool
-/// goes, and how far views are off there: with them, a systematic difference stands for it.
+/// Looks whether the robot errs by place; `None` where nothing speaks for it. `touches` are those behind the problem's
+/// boards, in their order: they say where the tool goes in the `volume`.
 pub(super) fn look(
     views: &Views,
-    problem: &Problem,
-    fit: &JointFit,
+    (problem, fit): (&Problem, &JointFit),
+    touches: &[usize],
+    volume: &Volume,
     config: &Config,
 ) -> Option<ByPlace> {
     let metric = metric(views);
-    let enough = problem.views.len() >= FEWEST_VIEWS && problem.boards.is_empty();
+    let told = touches.iter().all(|&k| views.session.touches[k].base_from_flange.is_some());
     // of a robot in motion, errors of place and of time are one
     let moves = views.used.iter().any(|o| o.velocity.is_some());
-    if !enough || moves || !determines(fit, &metric) {
+    if problem.views.len() < FEWEST_VIEWS || !told || moves || !determines(fit, &metric) {
         return None;
     }
-    let places: Vec<Place> =
-        views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints)).collect();
-    let jointed = places.iter().all(Place::has_joints);
-    let kernels = Kernel::OF_POSES.into_iter().chain(jointed.then_some(Kernel::OF_JOINTS));
-    let kernels: Vec<Kernel> = kernels.collect();
-    let promise = |kernel: &Kernel| {
-        let waves = Waves::new(*kernel, &places);
-        let wider = with_waves(views, problem, &waves);
-        let expected = place::expected_gain(&wider, fit)?;
-        (expected > NOTICED).then_some((expected, (*kernel, wider)))
+    let look = Look { views, touches, volume, config, metric };
+    // a systematic difference stands for what errors by place need not leave open
+    let plain = match touches {
+        [] => (problem.clone(), fit.clone()),
+        _ => {
+            let plain = problem.without_systematic();
+            let fit = joint::refit(&plain, fit, &config.known);
+            (plain, fit)
+        }
     };
-    let mut promising: Vec<(f64, (Kernel, Problem))> = kernels.iter().filter_map(promise).collect();
-    promising.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let promising = promising.into_iter().take(MOST_FITTED);
-    let models: Vec<Model> = promising
-        .filter_map(|(_, wider)| Model::new(wider, (problem, fit), &metric, config))
-        .collect();
-    let unpromising = (kernels.len() - models.len()) as f64 / kernels.len() as f64;
+    let bar = fit.log_likelihood.max(plain.1.log_likelihood);
+    let (models, tried) = look.models((&plain.0, &plain.1), bar);
     let best = (0..models.len()).max_by(|&a, &b| models[a].gain.total_cmp(&models[b].gain))?;
     if models[best].gain < NOTICED {
         return None;
     }
+    let unpromising = (tried - models.len()) as f64 / tried as f64;
     let independent = Say {
         // what promised too little to be fitted counts as independent errors
         log_weight: (1.0 + unpromising).ln(),
@@ -118,36 +126,126 @@ pub(super) fn look(
         covariance: fit.covariance.as_ref()?.fixed_view::<6, 6>(0, 0) * inflation(fit)?,
         missed: 0.0,
     };
-    let weight = |m: &Model| m.gain - (kernels.len() as f64).ln();
-    let say = |m: &Model| Some(Say { log_weight: weight(m), ..m.say(&metric)? });
+    let weight = |m: &Model| m.gain - (tried as f64).ln();
+    let say = |m: &Model| Some(Say { log_weight: weight(m), ..look.say(m)? });
     let says = std::iter::once(Some(independent)).chain(models.iter().map(say));
     let says: Vec<Say> = says.collect::<Option<_>>()?;
     let setup = views.session.setup;
     if models[best].gain < GAIN * (1.0 + FEW_FOR_GAIN / problem.views.len() as f64) {
         let Together { step, more, missed, share } = Together::of(&says, 0, &says[0].covariance);
-        return Some(ByPlace { x: says[0].x, model: None, step, more, missed, share, setup });
+        let (x, model, tool) = (says[0].x, None, None);
+        return Some(ByPlace { x, model, step, more, missed, share, setup, tool });
     }
-    let own = models[best].without_sampling()?;
+    let tool = look.tool(&models[best]);
+    let own = match &tool {
+        Some(_) => says[best + 1].covariance,
+        None => models[best].without_sampling()?,
+    };
     let Together { step, more, missed, share } = Together::of(&says, best + 1, &own);
     let model = models.into_iter().nth(best)?;
     let x = model.fit.hand_eye.mount_from_camera;
-    let step = model.projection.step.fixed_rows::<6>(0) + step;
-    Some(ByPlace { x, model: Some(model), step, more, missed, share, setup })
+    let step = match tool {
+        Some(_) => step,
+        None => model.projection.step.fixed_rows::<6>(0) + step,
+    };
+    Some(ByPlace { x, model: Some(model), step, more, missed, share, setup, tool })
+}
+
+/// What errors by place are looked for in.
+struct Look<'a> {
+    views: &'a Views<'a>,
+    touches: &'a [usize],
+    volume: &'a Volume,
+    config: &'a Config,
+    metric: Matrix6<f64>,
+}
+
+impl Look<'_> {
+    /// Fits with errors over the lengths that promise most, and how many lengths there are; gains are over `bar`.
+    fn models(&self, plain: (&Problem, &JointFit), bar: f64) -> (Vec<Model>, usize) {
+        let places = places(self.views, self.touches);
+        let jointed = places.iter().all(Place::has_joints);
+        let kernels = Kernel::OF_POSES.into_iter().chain(jointed.then_some(Kernel::OF_JOINTS));
+        let kernels: Vec<Kernel> = kernels.collect();
+        let promise = |kernel: &Kernel| {
+            let waves = Waves::new(*kernel, &places);
+            let wider = with_waves((self.views, self.touches), plain.0, &waves);
+            let expected = place::expected_gain(&wider, plain.1)?;
+            (expected > NOTICED).then_some((expected, (*kernel, waves, wider)))
+        };
+        let mut promising: Vec<_> = kernels.iter().filter_map(promise).collect();
+        promising.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let promising = promising.into_iter().take(MOST_FITTED);
+        let fitted = promising.filter_map(|(_, wider)| self.model(wider, plain, bar));
+        (fitted.collect(), kernels.len())
+    }
+
+    fn model(
+        &self,
+        (kernel, waves, problem): (Kernel, Waves, Problem),
+        (plain, near): (&Problem, &JointFit),
+        bar: f64,
+    ) -> Option<Model> {
+        let fit = joint::refit(&problem, near, &self.config.known);
+        let projection = Projection::new(&problem, &fit, &fit.values, &self.metric)?;
+        let gain = fit.log_likelihood - bar;
+        let errors = errors(self.views, kernel, &waves, &fit);
+        let (plain, touches) = (plain.clone(), self.touches.to_vec());
+        Some(Model { kernel, plain, problem, touches, fit, errors, projection, gain })
+    }
+
+    /// Where touches say how the tool is held: the way that it goes.
+    fn tool(&self, model: &Model) -> Option<ToolReach> {
+        if self.touches.is_empty() { None } else { ToolReach::new(self.views, model, self.volume) }
+    }
+
+    fn say(&self, model: &Model) -> Option<Say> {
+        let Some(tool) = self.tool(model) else { return model.say(&self.metric) };
+        let covariance = model.fit.covariance.as_ref()? * inflation(&model.fit)?;
+        let (x, covariance) = tool.rigid(&covariance)?;
+        // what it misses is in the covariance
+        Some(Say { log_weight: 0.0, x, covariance, missed: 0.0 })
+    }
+}
+
+impl Erring for Model {
+    fn fit(&self) -> &JointFit {
+        &self.fit
+    }
+
+    fn is_own(&self, kind: ExtraKind) -> bool {
+        kind.level().is_some()
+    }
+
+    fn says(&self, at: &Place) -> Pose<Base, Flange> {
+        at.base_from_flange
+    }
+
+    fn really(&self, at: &Place) -> Pose<Base, Flange> {
+        at.base_from_flange.retract(&self.errors.at(at))
+    }
+
+    /// To first order: errors hardly differ within themselves.
+    fn reaching(&self, flange: &Pose<Base, Flange>, near: &Place) -> Option<Place> {
+        let joints = match &self.errors.arm {
+            Some(arm) => arm.inverse(flange, &near.joints)?,
+            None => near.joints.clone(),
+        };
+        let there = Place::new(flange, &joints);
+        let says = flange.retract(&-self.errors.at(&there));
+        Some(Place { base_from_flange: says, ..there })
+    }
+
+    fn by_own(&self, at: &Place) -> DMatrix<f64> {
+        self.errors.by_unknowns(at).unknowns
+    }
+
+    fn rest(&self, at: &Place) -> [f64; 2] {
+        self.errors.by_unknowns(at).rest()
+    }
 }
 
 impl Model {
-    fn new(
-        (kernel, problem): (Kernel, Problem),
-        (plain, near): (&Problem, &JointFit),
-        metric: &Matrix6<f64>,
-        config: &Config,
-    ) -> Option<Self> {
-        let fit = joint::refit(&problem, near, &config.known);
-        let projection = Projection::new(&problem, &fit, &fit.values, metric)?;
-        let gain = fit.log_likelihood - near.log_likelihood;
-        Some(Self { kernel, plain: plain.clone(), problem, fit, projection, gain })
-    }
-
     /// What it says of the rigid answer.
     fn say(&self, metric: &Matrix6<f64>) -> Option<Say> {
         let x = self.fit.hand_eye.mount_from_camera;
@@ -225,16 +323,55 @@ fn determines(fit: &JointFit, metric: &Matrix6<f64>) -> bool {
     square.sqrt() * 1e3 < MOST_PREDICTED_MM
 }
 
-/// The problem with the strengths of the waves among its unknowns.
-pub(super) fn with_waves(views: &Views, problem: &Problem, waves: &Waves) -> Problem {
+/// Where the robot is in captures, then in touches.
+pub(super) fn places(views: &Views, touches: &[usize]) -> Vec<Place> {
+    let captured = views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints));
+    let touched = touches.iter().map(|&k| &views.session.touches[k]);
+    let touched = touched.filter_map(|t| Some(Place::new(&t.base_from_flange?, &t.joints)));
+    captured.chain(touched).collect()
+}
+
+/// The problem with the strengths of the waves over its [`places`] among its unknowns.
+pub(super) fn with_waves(
+    (views, touches): (&Views, &[usize]),
+    problem: &Problem,
+    waves: &Waves,
+) -> Problem {
     let setup = views.session.setup;
     let mut wider = problem.clone();
-    let rows = waves.at.row_iter().map(|row| row.transpose());
-    for ((view, o), row) in wider.views.iter_mut().zip(&views.used).zip(rows) {
+    let mut rows = waves.at.row_iter().map(|row| row.transpose());
+    for ((view, o), row) in wider.views.iter_mut().zip(&views.used).zip(&mut rows) {
         view.by_robot = Some(place::of_view(setup, &o.base_from_flange, &row).into());
+    }
+    let corners = wider.boards.iter_mut().flat_map(|b| &mut b.corners);
+    for ((corner, &k), row) in corners.zip(touches).zip(rows) {
+        corner.by_robot = views.session.touches[k]
+            .base_from_flange
+            .map(|flange| place::of_view(Setup::EyeInHand, &flange, &row).into());
     }
     wider.extras.extend(waves.extras(0));
     wider
+}
+
+/// Errors by place as a fit has them.
+pub(super) fn errors(views: &Views, kernel: Kernel, waves: &Waves, fit: &JointFit) -> Errors {
+    let arm = match kernel {
+        Kernel::Joints(_) => views.session.arm.clone(),
+        Kernel::Pose { .. } => None,
+    };
+    let own: Vec<f64> = (0..fit.extras.len())
+        .filter(|&k| fit.extras[k].kind.level().is_some())
+        .map(|k| fit.values[k])
+        .collect();
+    let sigma = |source| fit.noise.sigma(source).unwrap_or(0.0);
+    Errors {
+        kernel,
+        waves: waves.by_about.row_iter().map(|row| row.iter().copied().collect()).collect(),
+        about: waves.about.clone(),
+        strengths: own.chunks_exact(6).map(|six| std::array::from_fn(|k| six[k])).collect(),
+        level: [sigma(Source::PlaceRotation), sigma(Source::PlacePosition)],
+        arm,
+    }
 }
 
 /// How many poses of the robot are in the way of one point: a camera on the flange looks from one, and the tool goes to
@@ -284,19 +421,26 @@ impl ByPlace {
 
 impl Reach for ByPlace {
     fn shift(&self, p: &Vector3<f64>) -> Vector3<f64> {
-        point_jacobian(p) * self.step
+        let of_tool = self.tool.as_ref().map_or_else(Vector3::zeros, |tool| tool.shift(p));
+        point_jacobian(p) * self.step + of_tool
     }
 
     fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64> {
         let j = point_jacobian(p);
-        j * self.more * j.transpose() + Matrix3::identity() * (poses(self.setup) * self.missed)
+        let of_tool = self.tool.as_ref().map_or_else(Matrix3::zeros, |tool| tool.scatter(p));
+        let missed = Matrix3::identity() * (poses(self.setup) * self.missed);
+        j * self.more * j.transpose() + missed + of_tool
     }
 
     fn share_of_noise(&self) -> f64 {
-        self.share
+        // what touches say of the tool is no noise
+        if self.tool.is_some() { 0.0 } else { self.share }
     }
 
     fn by_unknowns(&self, p: &Vector3<f64>) -> Vec<(usize, Vector3<f64>)> {
+        if let Some(tool) = &self.tool {
+            return tool.by_unknowns(p);
+        }
         let Some(Model { fit, projection, .. }) = &self.model else { return vec![] };
         let by = point_jacobian(p) * projection.carry.fixed_rows::<6>(0);
         let kept = fit.extras.iter().enumerate().filter(|(_, e)| e.kind.level().is_some());
@@ -304,6 +448,10 @@ impl Reach for ByPlace {
     }
 
     fn rigid(&self, covariance: &DMatrix<f64>) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
+        if let Some(tool) = &self.tool {
+            let (x, own) = tool.rigid(covariance)?;
+            return Some((x.retract(&self.step), own + self.more));
+        }
         let x = self.x.retract(&self.step);
         let own = match &self.model {
             // the sample of places is in `more`

@@ -1,22 +1,45 @@
-//! What a robot does that does not know of its arm's deviations.
+//! What a robot does that does not know of its own errors.
 //!
-//! The camera sees a point `p`; it really lies at `X p`. The robot is asked for `m` instead, such
-//! that the arm as it is brings its tool there: the tool is held as it was in the nearest touches
-//! (without touches: as the target was in the nearest captures), the joint values that reach `X p`
-//! follow from the corrected arm, and `m` is where the arm as it was given puts the tool for these.
-//! `m` is not a rigid motion of `p`; the answer for the robot as it is comes nearest to it over the
-//! volume, and what is left adds to its error.
+//! The camera sees a point `p`; it really lies at `X p`. The robot is asked for `m` instead, such that it really brings
+//! its tool there: the tool is held as it was in the nearest touches (where none says how: as the target was in the
+//! nearest captures), the flange is where it must be for that, and `m` is where the robot believes the tool then. `m` is
+//! not a rigid motion of `p`; the answer for the robot as it is comes nearest to it over the volume, and what is left
+//! adds to its error.
 
 use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix6, Vector3};
 
-use super::arm::ArmFit;
 use crate::{
-    Camera, Flange, Mount, Pose, Setup,
+    Base, Camera, Flange, Mount, Pose, Setup,
     calibrate::views::Views,
-    estimate::{ExtraKind, predict::Volume},
-    model::kinematics::Arm,
+    estimate::{ExtraKind, JointFit, place::Place, predict::Volume},
     register::rigid_fit::{point_jacobian, rigid_fit},
 };
+
+/// A robot that is elsewhere than it says, as a fit has it.
+pub(super) trait Erring {
+    /// The fit in which it is.
+    fn fit(&self) -> &JointFit;
+
+    /// Whether an unknown is one of its errors.
+    fn is_own(&self, kind: ExtraKind) -> bool;
+
+    /// Where it says that its flange is.
+    fn says(&self, at: &Place) -> Pose<Base, Flange>;
+
+    /// Where it really is.
+    fn really(&self, at: &Place) -> Pose<Base, Flange>;
+
+    /// Where it must be for its flange to be there; looked for near a place.
+    fn reaching(&self, flange: &Pose<Base, Flange>, near: &Place) -> Option<Place>;
+
+    /// How its flange moves with each of its errors: a step on the right.
+    fn by_own(&self, at: &Place) -> DMatrix<f64>;
+
+    /// Variance per axis (rad², m²) of what these do not tell of its error there.
+    fn rest(&self, _at: &Place) -> [f64; 2] {
+        [0.0; 2]
+    }
+}
 
 /// Where a robot that does not know of its own errors must be sent, and what it misses then.
 pub(super) trait Reach {
@@ -39,28 +62,28 @@ pub(super) trait Reach {
 }
 
 /// A point of the volume.
-struct Place {
+struct Goal {
     /// In the camera.
     p: Vector3<f64>,
     /// `m - X p`, in camera axes, mean and scatter over the ways to go there.
     shift: Vector3<f64>,
     scatter: Matrix3<f64>,
-    /// How `m` moves with each deviation of the arm, in camera axes.
-    by_arm: Vec<Vector3<f64>>,
+    /// How `m` moves with each error of the robot, in camera axes.
+    by_own: Vec<Vector3<f64>>,
 }
 
-/// The volume as the robot reaches it.
-pub(super) struct ArmReach {
-    places: Vec<Place>,
-    /// Where the deviations stand among the unknowns.
+/// The volume as the robot reaches it with its tool.
+pub(super) struct ToolReach {
+    goals: Vec<Goal>,
+    /// Where the robot's errors stand among the unknowns.
     columns: Vec<usize>,
     x: Pose<Mount, Camera>,
 }
 
 /// A tool held somewhere.
 struct Held {
-    joints: Vec<f64>,
-    /// The flange there, by the corrected arm.
+    place: Place,
+    /// The flange there, as it really is.
     rotation: Matrix3<f64>,
     /// The tool in the flange, and where it was.
     tool: Vector3<f64>,
@@ -72,46 +95,46 @@ const NEAREST: usize = 3;
 /// So many captures stand for all from which the camera looks (eye-in-hand).
 const VIEWS: usize = 4;
 
-impl ArmReach {
-    /// `None` where the arm reaches no point of the volume.
-    pub fn new(views: &Views, found: &ArmFit, volume: &Volume) -> Option<Self> {
-        let work = Work::new(views, found)?;
-        let known: Vec<Option<Place>> = volume.points.iter().map(|p| work.place(p)).collect();
+impl ToolReach {
+    /// `None` where the robot reaches no point of the volume.
+    pub fn new(views: &Views, robot: &impl Erring, volume: &Volume) -> Option<Self> {
+        let work = Work::new(views, robot)?;
+        let known: Vec<Option<Goal>> = volume.points.iter().map(|p| work.goal(p)).collect();
         let near = |p: &Vector3<f64>| {
             let reached = known.iter().flatten();
             reached.min_by(|a, b| (a.p - p).norm().total_cmp(&(b.p - p).norm()))
         };
         let one =
-            |p: &Vector3<f64>| near(p).map(|k| Place { p: *p, by_arm: k.by_arm.clone(), ..*k });
-        let places = volume.points.iter().map(one).collect::<Option<Vec<_>>>()?;
-        let extras = found.fit.extras.iter().enumerate();
-        let columns =
-            extras.filter(|(_, e)| matches!(e.kind, ExtraKind::Arm(_))).map(|(k, _)| 12 + k);
-        Some(Self { places, columns: columns.collect(), x: found.fit.hand_eye.mount_from_camera })
+            |p: &Vector3<f64>| near(p).map(|k| Goal { p: *p, by_own: k.by_own.clone(), ..*k });
+        let goals = volume.points.iter().map(one).collect::<Option<Vec<_>>>()?;
+        let fit = robot.fit();
+        let extras = fit.extras.iter().enumerate();
+        let columns = extras.filter(|(_, e)| robot.is_own(e.kind)).map(|(k, _)| 12 + k);
+        Some(Self { goals, columns: columns.collect(), x: fit.hand_eye.mount_from_camera })
     }
 
-    fn near(&self, p: &Vector3<f64>) -> Option<&Place> {
-        let far = |k: &Place| (k.p - p).norm();
-        self.places.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
+    fn near(&self, p: &Vector3<f64>) -> Option<&Goal> {
+        let far = |k: &Goal| (k.p - p).norm();
+        self.goals.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
     /// A covariance that predicts what the robot misses all over the volume, where it is sent by a rigid motion;
     /// `squares` are `Σ JᵀJ` over it.
     fn missed(&self, motion: &Isometry3<f64>, squares: &Matrix6<f64>) -> Option<Matrix6<f64>> {
         let mut sum = Matrix6::zeros();
-        for place in &self.places {
-            let off = motion.transform_vector(&place.p) + motion.translation.vector
-                - (place.p + place.shift);
-            let j = point_jacobian(&place.p);
-            sum += j.transpose() * (off * off.transpose() + place.scatter) * j;
+        for goal in &self.goals {
+            let off = motion.transform_vector(&goal.p) + motion.translation.vector
+                - (goal.p + goal.shift);
+            let j = point_jacobian(&goal.p);
+            sum += j.transpose() * (off * off.transpose() + goal.scatter) * j;
         }
         let inverse = squares.try_inverse()?;
         // a pose of six unknowns carries each of them to points of three: half of it is their share
-        Some(inverse * sum * inverse * (0.5 * self.places.len() as f64))
+        Some(inverse * sum * inverse * (0.5 * self.goals.len() as f64))
     }
 }
 
-impl Reach for ArmReach {
+impl Reach for ToolReach {
     fn shift(&self, p: &Vector3<f64>) -> Vector3<f64> {
         self.near(p).map_or_else(Vector3::zeros, |k| k.shift)
     }
@@ -121,23 +144,23 @@ impl Reach for ArmReach {
     }
 
     fn by_unknowns(&self, p: &Vector3<f64>) -> Vec<(usize, Vector3<f64>)> {
-        let of = |k: &Place| self.columns.iter().copied().zip(k.by_arm.iter().copied()).collect();
+        let of = |k: &Goal| self.columns.iter().copied().zip(k.by_own.iter().copied()).collect();
         self.near(p).map_or_else(Vec::new, of)
     }
 
     /// That no rigid motion comes nearer is in the covariance: as if the answer were another one at every place, by as
     /// much as the robot misses it there.
     fn rigid(&self, covariance: &DMatrix<f64>) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
-        let from: Vec<Vector3<f64>> = self.places.iter().map(|k| k.p).collect();
-        let to: Vec<Vector3<f64>> = self.places.iter().map(|k| k.p + k.shift).collect();
+        let from: Vec<Vector3<f64>> = self.goals.iter().map(|k| k.p).collect();
+        let to: Vec<Vector3<f64>> = self.goals.iter().map(|k| k.p + k.shift).collect();
         let fit = rigid_fit(&from, &to).ok()?;
         let x = Pose::claim(self.x.iso() * fit.target_from_source);
         let mut squares = Matrix6::zeros();
         let mut by_all = DMatrix::zeros(6, covariance.nrows());
-        for place in &self.places {
-            let j = point_jacobian(&place.p);
+        for goal in &self.goals {
+            let j = point_jacobian(&goal.p);
             squares += j.transpose() * j;
-            for (k, column) in self.columns.iter().zip(&place.by_arm) {
+            for (k, column) in self.columns.iter().zip(&goal.by_own) {
                 let mut sum = by_all.column_mut(*k);
                 sum += j.transpose() * column;
             }
@@ -150,113 +173,123 @@ impl Reach for ArmReach {
     }
 }
 
-/// A shift, and how it moves with the deviations.
-type Sample = (Vector3<f64>, Vec<Vector3<f64>>);
-
-/// Both arms, and how the tool was held.
-struct Work<'a> {
-    found: &'a ArmFit,
-    setup: Setup,
-    x: Pose<Mount, Camera>,
-    model: &'a Arm,
-    real: Arm,
-    held: Vec<Held>,
-    /// Joint values from which the camera looks; none of them matter where it stands still.
-    views: Vec<Vec<f64>>,
+/// A shift, how it moves with the robot's errors, and the variance per axis (m²) of what these do not tell.
+struct Sample {
+    shift: Vector3<f64>,
+    by_own: Vec<Vector3<f64>>,
+    rest: f64,
 }
 
-impl<'a> Work<'a> {
-    fn new(views: &Views, found: &'a ArmFit) -> Option<Self> {
-        let (setup, x) = (views.session.setup, found.fit.hand_eye.mount_from_camera);
-        let (model, real) = (&found.model, found.corrected());
-        let tip = Vector3::from_fn(|k, _| {
-            found.fit.extra(ExtraKind::Tip(k)).map_or(0.0, |t: (f64, f64)| t.0)
-        });
-        let hold = |joints: &Vec<f64>, tool: Vector3<f64>| {
-            let flange = real.base_from_flange(joints);
+/// The robot, and how its tool was held.
+struct Work<'a, R> {
+    robot: &'a R,
+    x: Pose<Mount, Camera>,
+    held: Vec<Held>,
+    /// From where the camera looks; nowhere where it stands still.
+    views: Vec<Option<Place>>,
+}
+
+impl<'a, R: Erring> Work<'a, R> {
+    fn new(views: &Views, robot: &'a R) -> Option<Self> {
+        let (setup, fit) = (views.session.setup, robot.fit());
+        let x = fit.hand_eye.mount_from_camera;
+        let tip =
+            Vector3::from_fn(|k, _| fit.extra(ExtraKind::Tip(k)).map_or(0.0, |t: (f64, f64)| t.0));
+        let hold = |place: Place, tool: Vector3<f64>| {
+            let flange = robot.really(&place);
             let at = flange.rotation() * tool + flange.translation();
-            Held { joints: joints.clone(), rotation: flange.rotation(), tool, at }
+            Held { place, rotation: flange.rotation(), tool, at }
         };
+        let has_joints = views.used.iter().all(|o| !o.joints.is_empty());
         let touched = views.session.touches.iter().filter_map(|t| {
-            let flange = t.base_from_flange.filter(|_| t.joints.len() == model.joints.len())?;
-            Some(hold(&t.joints, (flange.inverse() * t.in_base).vector() + tip))
+            let flange = t.base_from_flange.filter(|_| !has_joints || !t.joints.is_empty())?;
+            let tool = (flange.inverse() * t.in_base).vector() + tip;
+            Some(hold(Place::new(&flange, &t.joints), tool))
         });
+        let seen = views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints));
         let mut held: Vec<Held> = touched.collect();
         if held.is_empty() {
             // the target is the tool, or as long as the camera's place on the flange
             let tool = match setup {
-                Setup::EyeToHand => found.fit.hand_eye.anchor_from_target.translation(),
+                Setup::EyeToHand => fit.hand_eye.anchor_from_target.translation(),
                 Setup::EyeInHand => x.translation(),
             };
-            held = views.used.iter().map(|o| hold(&o.joints, tool)).collect();
+            held = seen.clone().map(|place| hold(place, tool)).collect();
         }
-        let looking: Vec<Vec<f64>> = match setup {
-            Setup::EyeToHand => vec![vec![]],
+        let views: Vec<Option<Place>> = match setup {
+            Setup::EyeToHand => vec![None],
             Setup::EyeInHand => {
                 let step = views.used.len().div_ceil(VIEWS).max(1);
-                views.used.iter().step_by(step).map(|o| o.joints.clone()).collect()
+                seen.step_by(step).map(Some).collect()
             }
         };
-        (!held.is_empty()).then_some(Self { found, setup, x, model, real, held, views: looking })
+        (!held.is_empty()).then_some(Self { robot, x, held, views })
     }
 
-    fn place(&self, p: &Vector3<f64>) -> Option<Place> {
-        let mut all = vec![];
+    fn goal(&self, p: &Vector3<f64>) -> Option<Goal> {
+        let mut all: Vec<Sample> = vec![];
         for view in &self.views {
-            let there = self.in_base(view, p);
+            let there = self.in_base(view.as_ref(), p);
             let mut near: Vec<&Held> = self.held.iter().collect();
             near.sort_by(|a, b| (a.at - there).norm().total_cmp(&(b.at - there).norm()));
-            all.extend(near.iter().take(NEAREST).filter_map(|h| self.sample(view, h, p, &there)));
+            let ways = near.iter().take(NEAREST);
+            all.extend(ways.filter_map(|h| self.sample(view.as_ref(), h, p, &there)));
         }
         let n = all.len() as f64;
-        let shift = all.iter().map(|s| s.0).sum::<Vector3<f64>>() / n;
-        let off = |s: &Sample| (s.0 - shift) * (s.0 - shift).transpose();
+        let shift = all.iter().map(|s| s.shift).sum::<Vector3<f64>>() / n;
+        let off = |s: &Sample| {
+            (s.shift - shift) * (s.shift - shift).transpose() + Matrix3::identity() * s.rest
+        };
         let scatter = all.iter().map(off).sum::<Matrix3<f64>>() / n;
-        let by_arm = (0..all.first()?.1.len())
-            .map(|k| all.iter().map(|s| s.1[k]).sum::<Vector3<f64>>() / n)
+        let by_own = (0..all.first()?.by_own.len())
+            .map(|k| all.iter().map(|s| s.by_own[k]).sum::<Vector3<f64>>() / n)
             .collect();
-        Some(Place { p: *p, shift, scatter, by_arm })
+        Some(Goal { p: *p, shift, scatter, by_own })
     }
 
-    fn in_base(&self, view: &[f64], p: &Vector3<f64>) -> Vector3<f64> {
+    fn in_base(&self, view: Option<&Place>, p: &Vector3<f64>) -> Vector3<f64> {
         let on_mount = self.x.rotation() * p + self.x.translation();
-        match self.setup {
-            Setup::EyeToHand => on_mount,
-            Setup::EyeInHand => carried(&self.real.base_from_flange(view), &on_mount),
-        }
+        view.map_or(on_mount, |view| carried(&self.robot.really(view), &on_mount))
     }
 
-    /// One way to go there: the shift, and how it moves with the deviations.
+    /// One way to go there.
     fn sample(
         &self,
-        view: &[f64],
+        view: Option<&Place>,
         held: &Held,
         p: &Vector3<f64>,
         there: &Vector3<f64>,
     ) -> Option<Sample> {
+        let robot = self.robot;
         let flange = Pose::from_parts(&held.rotation, there - held.rotation * held.tool);
-        let joints = self.real.inverse(&flange, &held.joints)?;
-        let says = carried(&self.model.base_from_flange(&joints), &held.tool);
-        let reached =
-            held.rotation * point_jacobian(&held.tool) * self.found.by_deviations(&joints);
+        let place = robot.reaching(&flange, &held.place)?;
+        let says = carried(&robot.says(&place), &held.tool);
+        let reached = held.rotation * point_jacobian(&held.tool) * robot.by_own(&place);
         let on_mount = self.x.rotation() * p + self.x.translation();
-        let (m, by) = match self.setup {
-            Setup::EyeToHand => (says, -reached),
-            Setup::EyeInHand => {
-                let (at, really) =
-                    (self.model.base_from_flange(view), self.real.base_from_flange(view));
-                let seen =
-                    really.rotation() * point_jacobian(&on_mount) * self.found.by_deviations(view);
+        let of_tool = carried_variance(robot.rest(&place), &held.tool);
+        let (m, by, rest) = match view {
+            None => (says, -reached, of_tool),
+            Some(view) => {
+                let (at, really) = (robot.says(view), robot.really(view));
+                let seen = really.rotation() * point_jacobian(&on_mount) * robot.by_own(view);
                 let back = at.rotation().transpose();
-                (back * (says - at.translation()), back * (seen - reached))
+                let rest = of_tool + carried_variance(robot.rest(view), &on_mount);
+                (back * (says - at.translation()), back * (seen - reached), rest)
             }
         };
         let to_camera = self.x.rotation().transpose();
         let by = to_camera * by;
-        Some((to_camera * (m - on_mount), by.column_iter().map(Into::into).collect()))
+        let by_own = by.column_iter().map(Into::into).collect();
+        Some(Sample { shift: to_camera * (m - on_mount), by_own, rest })
     }
 }
 
 fn carried<A>(pose: &Pose<A, Flange>, p: &Vector3<f64>) -> Vector3<f64> {
     pose.rotation() * p + pose.translation()
+}
+
+/// Variance per axis of a point so far from a flange whose rotation and position have these.
+fn carried_variance([turn, shift]: [f64; 2], p: &Vector3<f64>) -> f64 {
+    // two of three axes turn a point
+    shift + turn * p.norm_squared() * 2.0 / 3.0
 }

@@ -7,7 +7,7 @@ use super::{
     best_rigid::BestRigid,
     compensation,
     place::{self, ByPlace},
-    reach::{ArmReach, Reach},
+    reach::{Reach, ToolReach},
     workpiece::Workpiece,
 };
 use crate::{
@@ -46,7 +46,7 @@ impl Robot {
         let reach = arm.as_ref().and_then(|a| reach(views, a, volume));
         let place = match &reach {
             Some(_) => None,
-            None => place::look(views, problem, fit, config),
+            None => place::look(views, (problem, fit), used, volume, config),
         };
         Self { arm, reach, place, inconsistent }
     }
@@ -119,5 +119,5 @@ fn reach(views: &Views, arm: &ArmFit, volume: &Volume) -> Option<Box<dyn Reach>>
     if arm.problem.boards.is_empty() {
         return Some(Box::new(BestRigid::new(views, arm)?));
     }
-    Some(Box::new(ArmReach::new(views, arm, volume)?))
+    Some(Box::new(ToolReach::new(views, arm, volume)?))
 }

@@ -189,14 +189,14 @@ impl Compensation {
         base_from_flange: Pose<Base, Flange>,
         of_camera: &Matrix6<f64>,
     ) -> Corrected {
-        let By { unknowns, level, known } = self.errors.by_unknowns(place);
+        let by = self.errors.by_unknowns(place);
+        let ([turn, shift], By { unknowns, known, .. }) = (by.rest(), by);
         let n = unknowns.ncols();
         let mut by_all = DMatrix::zeros(6, 6 + n);
         by_all.view_mut((0, 0), (6, 6)).copy_from(of_camera);
         by_all.view_mut((0, 6), (6, n)).copy_from(&unknowns);
         let own = &by_all * self.full_covariance(6 + n) * by_all.transpose();
-        let [turn, shift] =
-            [0, 1].map(|k| level[k].powi(2) * (1.0 - known) + self.robot[k].powi(2));
+        let (turn, shift) = (turn + self.robot[0].powi(2), shift + self.robot[1].powi(2));
         let rest = Vector6::new(turn, turn, turn, shift, shift, shift);
         let covariance = own.fixed_view::<6, 6>(0, 0) + Matrix6::from_diagonal(&rest);
         Corrected { base_from_flange, covariance, known }
@@ -209,20 +209,27 @@ impl Compensation {
 }
 
 /// How errors move with what they are made of.
-struct By {
+pub(crate) struct By {
     /// A step on the right, for each.
-    unknowns: DMatrix<f64>,
+    pub unknowns: DMatrix<f64>,
     /// Size of errors of which nothing is known: rad, m.
     level: [f64; 2],
     /// Share of their variance that is.
     known: f64,
 }
 
+impl By {
+    /// Variance per axis (rad², m²) of what that does not tell.
+    pub fn rest(&self) -> [f64; 2] {
+        self.level.map(|level| level.powi(2) * (1.0 - self.known))
+    }
+}
+
 impl RobotErrors {
     /// The robot's error at a pose that it reports: a step on the right.
     fn at(&self, reported: &Pose<Base, Flange>) -> Vector6<f64> {
         match self {
-            Self::ByPlace(place) => place.at(reported),
+            Self::ByPlace(place) => place.at(&place.place(reported)),
             Self::ByArm(arm) => {
                 let really = arm.joints(reported).map(|q| arm.corrected.base_from_flange(&q));
                 really.map_or_else(Vector6::zeros, |r| reported.local(&r))
@@ -250,7 +257,7 @@ impl RobotErrors {
 
     fn by_unknowns(&self, reported: &Pose<Base, Flange>) -> By {
         match self {
-            Self::ByPlace(place) => place.by_unknowns(reported),
+            Self::ByPlace(place) => place.by_unknowns(&place.place(reported)),
             Self::ByArm(arm) => match arm.joints(reported) {
                 Some(q) => {
                     let unknowns = arm.corrected.by_deviations(&q, &arm.deviations);
@@ -269,16 +276,18 @@ impl ByArm {
 }
 
 impl ByPlace {
-    fn at(&self, reported: &Pose<Base, Flange>) -> Vector6<f64> {
-        let waves = self.waves_at(reported);
+    /// The robot's error at a place: a step on the right.
+    pub(crate) fn at(&self, place: &Place) -> Vector6<f64> {
+        let waves = self.waves_at(place);
         let sum = waves.iter().zip(&self.strengths);
         let twist = sum.fold(Vector6::zeros(), |all, (wave, s)| all + Vector6::from(*s) * *wave);
-        place::of_flange(reported) * twist
+        place::of_flange(&place.base_from_flange) * twist
     }
 
-    fn by_unknowns(&self, reported: &Pose<Base, Flange>) -> By {
-        let waves = self.waves_at(reported);
-        let m = place::of_flange(reported);
+    /// How that moves with the strengths.
+    pub(crate) fn by_unknowns(&self, place: &Place) -> By {
+        let waves = self.waves_at(place);
+        let m = place::of_flange(&place.base_from_flange);
         let mut unknowns = DMatrix::zeros(6, 6 * waves.len());
         for (k, wave) in waves.iter().enumerate() {
             unknowns.view_mut((0, 6 * k), (6, 6)).copy_from(&(m * *wave));
@@ -286,13 +295,16 @@ impl ByPlace {
         By { unknowns, level: self.level, known: waves.norm_squared().min(1.0) }
     }
 
-    fn waves_at(&self, flange: &Pose<Base, Flange>) -> DVector<f64> {
+    /// The place of a pose that the robot reports: joint values only where the arm is known.
+    fn place(&self, flange: &Pose<Base, Flange>) -> Place {
         let joints = |arm: &Arm| arm.inverse(flange, &nearest_joints(&self.about, flange));
-        let joints = self.arm.as_ref().and_then(joints).unwrap_or_default();
-        let place = Place::new(flange, &joints);
+        Place::new(flange, &self.arm.as_ref().and_then(joints).unwrap_or_default())
+    }
+
+    fn waves_at(&self, place: &Place) -> DVector<f64> {
         let mut waves = DVector::zeros(self.strengths.len());
         for (about, row) in self.about.iter().zip(&self.waves) {
-            let near = self.kernel.at(&place, about);
+            let near = self.kernel.at(place, about);
             waves.iter_mut().zip(row).for_each(|(w, by)| *w += near * by);
         }
         waves

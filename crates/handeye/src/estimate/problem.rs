@@ -2,7 +2,7 @@
 
 use crate::{
     HandEye, KnownPosition, Setup,
-    estimate::{Extra, NoiseModel, TouchedBoard},
+    estimate::{Extra, ExtraKind, NoiseModel, TouchedBoard},
     solve::View,
 };
 use nalgebra::{DMatrix, DVector};
@@ -20,6 +20,14 @@ pub struct Problem {
     pub extras: Vec<Extra>,
     /// What the user knows of where the camera sits.
     pub known_position: Option<KnownPosition>,
+}
+
+impl Problem {
+    /// The same where nothing stands for what views and touches differ by.
+    pub(crate) fn without_systematic(&self) -> Self {
+        let keep = |e: &&Extra| !matches!(e.kind, ExtraKind::Systematic(_));
+        Self { extras: self.extras.iter().filter(keep).copied().collect(), ..self.clone() }
+    }
 }
 
 /// The answer, and how sure it is.
