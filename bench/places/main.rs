@@ -270,7 +270,7 @@ fn run_touched(kind: Kind, seed: u64) -> Option<Outcome> {
                 let k = exact.placements.iter().position(|o| o.id == touch.placement)?;
                 vec![(Pose::identity(), truth.camera_from_target[cell.captures + k])]
             }
-            Setup::EyeInHand => (kind.captures..cell.captures)
+            Setup::EyeInHand => (if env::var("INS").is_ok() { 0..kind.captures } else { kind.captures..cell.captures })
                 .map(|k| {
                     let flange = exact.observations[k].base_from_flange.rename();
                     (flange, truth.camera_from_target[k])
@@ -288,6 +288,8 @@ fn run_touched(kind: Kind, seed: u64) -> Option<Outcome> {
         let codes: Vec<&str> = found.warnings.iter().map(|w| w.code.as_ref()).collect();
         println!("    {seed} {} {codes:?} {:?} {:?}", found.method, stated.p95, stated.at_task_p95);
     }
+    if env::var("SAY").is_ok() { let m = (all.iter().map(|e| e * e).sum::<f64>() / all.len() as f64).sqrt();
+        println!("      rms {m:.3} stated rms {:.3} {:?}", stated.rms, found.error_budget.iter().map(|b| (b.source.clone(), b.sigma.clone(), b.at_workpiece_mm)).collect::<Vec<_>>()); }
     let within = |mm: f64| all.iter().filter(|e| **e <= mm).count() as f64 / all.len() as f64;
     Some(Outcome {
         accepted: found.verdict == handeye::Verdict::Accepted,

@@ -90,11 +90,13 @@ fn fuse(
     let (paired, unseen) = captures::pair_touches(views, fit);
     let (boards, trusted, wrong) = right_touches(views, &paired, optics, (problem, fit));
     let joint = joint::fit(views, &boards, &problem.extras, fit, &config.known);
-    let (tip, of_touches) = joint.as_ref().map(|j| j.findings(views)).unwrap_or_default();
-    let notes = &mut evidence.notes;
-    notes.add(unseen.then(wrong).then(of_touches));
     let used = joint.as_ref().map_or(&[][..], |j| &j.used);
     let (best, whole) = joint.as_ref().map_or((fit, problem), |j| (&j.fit, &j.problem));
+    let robot = Robot::look(views, (whole, best), used, volume, config);
+    let of_joint = |j: &joint::Joint| j.findings(views, robot.explains_tip(whole));
+    let (tip, of_touches) = joint.as_ref().map(of_joint).unwrap_or_default();
+    let notes = &mut evidence.notes;
+    notes.add(unseen.then(wrong).then(of_touches));
     let as_declared = joint.as_ref().map_or(*as_declared, |j| j.as_declared);
     if !notes.rejects
         && let Some((scale, said)) =
@@ -103,7 +105,6 @@ fn fuse(
         evidence.target_scale = Some(scale);
         notes.add(said);
     }
-    let robot = Robot::look(views, (whole, best), used, volume, config);
     let (determined, open) = name_free(views, fit, best);
     notes.add(open);
     notes.add(Notes::of(known_position::judge(whole, best, views, &config.known)));

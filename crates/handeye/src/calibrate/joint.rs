@@ -308,8 +308,9 @@ impl Joint {
         })
     }
 
-    /// A tip that is off, and what is said of it, of rejected touches and of a conflict of views and touches.
-    pub(super) fn findings(&self, views: &Views) -> (Option<TipResult>, Notes) {
+    /// A tip that is off, unless that is `explained` by something else, and what is said of it, of rejected touches and of
+    /// a conflict of views and touches.
+    pub(super) fn findings(&self, views: &Views, explained: bool) -> (Option<TipResult>, Notes) {
         let outlier = |&(k, p_value): &(usize, f64)| {
             let touch = &views.session.touches[k];
             let (corner, placement) = (touch.corner, touch.placement.clone());
@@ -317,7 +318,7 @@ impl Joint {
         };
         let mut notes = Notes::of(self.left_out.iter().map(outlier));
         let Some(conflict) = self.conflict else { return (None, notes) };
-        let tip = self.wrong_tip.as_ref().map(|tip| {
+        let tip = self.wrong_tip.as_ref().filter(|_| !explained).map(|tip| {
             notes.note(TouchFinding::TipOff {
                 offset_mm: (tip.offset * 1e3).into(),
                 in_flange: tip.in_flange,

@@ -20,6 +20,7 @@ use crate::{
     estimate::{
         ExtraKind, JointFit, Problem, Source,
         compensation::ByPlace as Errors,
+        extra::TIP_PRIOR,
         joint,
         place::{self, Kernel, Place, Waves},
         predict::Volume,
@@ -103,17 +104,10 @@ pub(super) fn look(
         return None;
     }
     let look = Look { views, touches, volume, config, metric };
-    // a systematic difference stands for what errors by place need not leave open
-    let plain = match touches {
-        [] => (problem.clone(), fit.clone()),
-        _ => {
-            let plain = problem.without_systematic();
-            let fit = joint::refit(&plain, fit, &config.known);
-            (plain, fit)
-        }
-    };
-    let bar = fit.log_likelihood.max(plain.1.log_likelihood);
-    let (models, tried) = look.models((&plain.0, &plain.1), bar);
+    let without = look.without(problem, fit);
+    let levels = without.iter().map(|(_, fit)| fit.log_likelihood);
+    let bar = levels.fold(fit.log_likelihood, f64::max);
+    let (models, tried) = look.models(&without, bar);
     let best = (0..models.len()).max_by(|&a, &b| models[a].gain.total_cmp(&models[b].gain))?;
     if models[best].gain < NOTICED {
         return None;
@@ -161,29 +155,49 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
+    /// The problem without errors by place, and without what stands for them: a systematic difference between views and
+    /// touches, a tip that is elsewhere.
+    fn without(&self, problem: &Problem, fit: &JointFit) -> Vec<(Problem, JointFit)> {
+        if self.touches.is_empty() {
+            return vec![(problem.clone(), fit.clone())];
+        }
+        let plain = problem.without_systematic();
+        let believed = plain.with_tip(self.config.known.tip_m.unwrap_or(TIP_PRIOR));
+        let both = [Some(plain), believed].into_iter().flatten();
+        let refitted = |p: Problem| {
+            let fit = joint::refit(&p, fit, &self.config.known);
+            (p, fit)
+        };
+        both.map(refitted).collect()
+    }
+
     /// Fits with errors over the lengths that promise most, and how many lengths there are; gains are over `bar`.
-    fn models(&self, plain: (&Problem, &JointFit), bar: f64) -> (Vec<Model>, usize) {
+    fn models(&self, without: &[(Problem, JointFit)], bar: f64) -> (Vec<Model>, usize) {
         let places = places(self.views, self.touches);
         let jointed = places.iter().all(Place::has_joints);
         let kernels = Kernel::OF_POSES.into_iter().chain(jointed.then_some(Kernel::OF_JOINTS));
         let kernels: Vec<Kernel> = kernels.collect();
-        let promise = |kernel: &Kernel| {
+        let promise = |kernel: &Kernel, plain: &(Problem, JointFit)| {
             let waves = Waves::new(*kernel, &places);
-            let wider = with_waves((self.views, self.touches), plain.0, &waves);
-            let expected = place::expected_gain(&wider, plain.1)?;
+            let wider = with_waves((self.views, self.touches), &plain.0, &waves);
+            let expected = place::expected_gain(&wider, &plain.1)?;
             (expected > NOTICED).then_some((expected, (*kernel, waves, wider)))
         };
-        let mut promising: Vec<_> = kernels.iter().filter_map(promise).collect();
-        promising.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let promising = promising.into_iter().take(MOST_FITTED);
-        let fitted = promising.filter_map(|(_, wider)| self.model(wider, plain, bar));
-        (fitted.collect(), kernels.len())
+        let of = |plain: &(Problem, JointFit)| {
+            let mut promising: Vec<_> =
+                kernels.iter().filter_map(|kernel| promise(kernel, plain)).collect();
+            promising.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let promising = promising.into_iter().take(MOST_FITTED);
+            let fitted = promising.filter_map(|(_, wider)| self.model(wider, plain, bar));
+            fitted.collect::<Vec<_>>()
+        };
+        (without.iter().flat_map(of).collect(), kernels.len() * without.len())
     }
 
     fn model(
         &self,
         (kernel, waves, problem): (Kernel, Waves, Problem),
-        (plain, near): (&Problem, &JointFit),
+        (plain, near): &(Problem, JointFit),
         bar: f64,
     ) -> Option<Model> {
         let fit = joint::refit(&problem, near, &self.config.known);
@@ -231,7 +245,7 @@ impl Erring for Model {
             Some(arm) => arm.inverse(flange, &near.joints)?,
             None => near.joints.clone(),
         };
-        let there = Place::new(flange, &joints);
+        let there = Place { base_from_flange: *flange, joints, ..near.clone() };
         let says = flange.retract(&-self.errors.at(&there));
         Some(Place { base_from_flange: says, ..there })
     }
@@ -327,7 +341,7 @@ fn determines(fit: &JointFit, metric: &Matrix6<f64>) -> bool {
 pub(super) fn places(views: &Views, touches: &[usize]) -> Vec<Place> {
     let captured = views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints));
     let touched = touches.iter().map(|&k| &views.session.touches[k]);
-    let touched = touched.filter_map(|t| Some(Place::new(&t.base_from_flange?, &t.joints)));
+    let touched = touched.filter_map(|t| Some(Place::new(&t.base_from_flange?, &t.joints).touching()));
     captured.chain(touched).collect()
 }
 
@@ -405,6 +419,12 @@ fn points(views: &Views) -> Vec<Vector3<f64>> {
 }
 
 impl ByPlace {
+    /// Whether a tip that is elsewhere was an error by place.
+    pub(super) fn explains_tip(&self, given: &Problem) -> bool {
+        let model = self.model.as_ref();
+        model.is_some_and(|m| m.problem.tip_prior() != given.tip_prior())
+    }
+
     /// That it does, by how much, and what is left where its poses are corrected; `None` where that is open.
     pub(super) fn finding(&self, corrected: Option<BlockGain>) -> Option<RobotFinding> {
         let model = self.model.as_ref()?;

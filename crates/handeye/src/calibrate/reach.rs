@@ -204,7 +204,7 @@ impl<'a, R: Erring> Work<'a, R> {
         let touched = views.session.touches.iter().filter_map(|t| {
             let flange = t.base_from_flange.filter(|_| !has_joints || !t.joints.is_empty())?;
             let tool = (flange.inverse() * t.in_base).vector() + tip;
-            Some(hold(Place::new(&flange, &t.joints), tool))
+            Some(hold(Place::new(&flange, &t.joints).touching(), tool))
         });
         let seen = views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints));
         let mut held: Vec<Held> = touched.collect();

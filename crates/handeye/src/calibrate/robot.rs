@@ -63,6 +63,11 @@ impl Robot {
         }
     }
 
+    /// Whether what views and touches differ by is its errors, and not a tip that is elsewhere.
+    pub(super) fn explains_tip(&self, given: &Problem) -> bool {
+        self.place.as_ref().is_some_and(|p| p.explains_tip(given))
+    }
+
     /// Where such a robot must be sent.
     pub(super) fn reach(&self) -> Option<&dyn Reach> {
         let of_arm = self.reach.as_deref();

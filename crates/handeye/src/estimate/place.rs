@@ -35,12 +35,20 @@ pub struct Place {
     /// Its joint values (rad); none where they are not known.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<f64>,
+    /// Whether its tool touches something there.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub touches: bool,
 }
 
 impl Place {
     /// The flange in the base, and the joint values (rad) where they are known.
     pub fn new(base_from_flange: &Pose<Base, Flange>, joints: &[f64]) -> Self {
-        Self { base_from_flange: *base_from_flange, joints: joints.to_vec() }
+        Self { base_from_flange: *base_from_flange, joints: joints.to_vec(), touches: false }
+    }
+
+    /// The same where its tool touches something.
+    pub fn touching(self) -> Self {
+        Self { touches: true, ..self }
     }
 
     /// Whether joint values are known.
@@ -78,7 +86,8 @@ impl Kernel {
 
     /// Correlation of the errors at two places.
     pub fn at(&self, a: &Place, b: &Place) -> f64 {
-        match self {
+        let alike = if a.touches == b.touches { 1.0 } else { std::env::var("RHO").map_or(0.5, |v| v.parse().unwrap()) };
+        alike * match self {
             Self::Pose { distance, angle } => {
                 let (a, b) = (&a.base_from_flange, &b.base_from_flange);
                 let way = (a.translation() - b.translation()).norm_squared() / distance.powi(2);
