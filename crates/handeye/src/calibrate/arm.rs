@@ -7,7 +7,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{joint::held_out_views, reach::Erring};
+use super::{
+    joint::{WRONG_TIP_PRIOR, held_out_views},
+    reach::Erring,
+};
 use crate::{
     Base, Flange, Observation, Pose, Setup, Touch,
     calibrate::{
@@ -288,6 +291,10 @@ impl Erring for ArmFit {
 
     fn is_own(&self, kind: ExtraKind) -> bool {
         matches!(kind, ExtraKind::Arm(_))
+    }
+
+    fn learns_tip(&self) -> bool {
+        self.problem.tip_prior() == Some(WRONG_TIP_PRIOR)
     }
 
     fn says(&self, at: &Place) -> Pose<Base, Flange> {

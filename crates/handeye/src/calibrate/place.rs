@@ -11,7 +11,8 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::{
     alike::WAY_OF_A_TURN,
-    reach::{Erring, Reach, ToolReach},
+    joint::WRONG_TIP_PRIOR,
+    reach::{Erring, Nearest, Reach, ToolReach},
     workpiece::inflation,
 };
 use crate::{
@@ -216,9 +217,10 @@ impl Look<'_> {
     fn say(&self, model: &Model) -> Option<Say> {
         let Some(tool) = self.tool(model) else { return model.say(&self.metric) };
         let covariance = model.fit.covariance.as_ref()? * inflation(&model.fit)?;
-        let (x, covariance) = tool.rigid(&covariance)?;
-        // what it misses is in the covariance
-        Some(Say { log_weight: 0.0, x, covariance, missed: 0.0 })
+        let Nearest { x, covariance, variance, .. } = tool.answer(&covariance)?;
+        let once = model.projection.missed_once(&model.fit, &self.metric) - model.projection.missed;
+        let missed = variance / poses(self.views.session.setup) + once;
+        Some(Say { log_weight: 0.0, x, covariance, missed })
     }
 }
 
@@ -229,6 +231,10 @@ impl Erring for Model {
 
     fn is_own(&self, kind: ExtraKind) -> bool {
         kind.level().is_some()
+    }
+
+    fn learns_tip(&self) -> bool {
+        self.problem.tip_prior() == Some(WRONG_TIP_PRIOR)
     }
 
     fn says(&self, at: &Place) -> Pose<Base, Flange> {
@@ -448,8 +454,9 @@ impl Reach for ByPlace {
     fn scatter(&self, p: &Vector3<f64>) -> Matrix3<f64> {
         let j = point_jacobian(p);
         let of_tool = self.tool.as_ref().map_or_else(Matrix3::zeros, |tool| tool.scatter(p));
-        let missed = Matrix3::identity() * (poses(self.setup) * self.missed);
-        j * self.more * j.transpose() + missed + of_tool
+        // a tool's own way says what is missed at each point
+        let missed = if self.tool.is_some() { 0.0 } else { poses(self.setup) * self.missed };
+        j * self.more * j.transpose() + Matrix3::identity() * missed + of_tool
     }
 
     fn share_of_noise(&self) -> f64 {

@@ -6,7 +6,7 @@
 //! not a rigid motion of `p`; the answer for the robot as it is comes nearest to it over the volume, and what is left
 //! adds to its error.
 
-use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix6, Vector3};
+use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix3xX, Matrix6, Vector3};
 
 use crate::{
     Base, Camera, Flange, Mount, Pose, Setup,
@@ -34,6 +34,9 @@ pub(super) trait Erring {
 
     /// How its flange moves with each of its errors: a step on the right.
     fn by_own(&self, at: &Place) -> DMatrix<f64>;
+
+    /// Whether it learns where its tip really is; else it goes on with the one that it believes in.
+    fn learns_tip(&self) -> bool;
 
     /// Variance per axis (rad², m²) of what these do not tell of its error there.
     fn rest(&self, _at: &Place) -> [f64; 2] {
@@ -80,20 +83,31 @@ pub(super) struct ToolReach {
     x: Pose<Mount, Camera>,
 }
 
+/// The rigid answer that comes nearest to where a robot must be sent.
+pub(super) struct Nearest {
+    pub x: Pose<Mount, Camera>,
+    pub covariance: Matrix6<f64>,
+    /// What the robot misses with it all over the volume, as a covariance of the answer.
+    everywhere: Matrix6<f64>,
+    /// The same as a mean variance per axis, m².
+    pub variance: f64,
+}
+
 /// A tool held somewhere.
 struct Held {
     place: Place,
     /// The flange there, as it really is.
     rotation: Matrix3<f64>,
-    /// The tool in the flange, and where it was.
+    /// The tool in the flange, as it is and as the robot believes it, and where it was.
     tool: Vector3<f64>,
+    believed: Vector3<f64>,
     at: Vector3<f64>,
 }
 
 /// So many of the nearest ways to hold the tool are looked at.
-const NEAREST: usize = 3;
+const NEAREST: usize = 6;
 /// So many captures stand for all from which the camera looks (eye-in-hand).
-const VIEWS: usize = 4;
+const VIEWS: usize = 8;
 
 impl ToolReach {
     /// `None` where the robot reaches no point of the volume.
@@ -109,7 +123,7 @@ impl ToolReach {
         let goals = volume.points.iter().map(one).collect::<Option<Vec<_>>>()?;
         let fit = robot.fit();
         let extras = fit.extras.iter().enumerate();
-        let columns = extras.filter(|(_, e)| robot.is_own(e.kind)).map(|(k, _)| 12 + k);
+        let columns = extras.filter(|(_, e)| acts(robot, e.kind)).map(|(k, _)| 12 + k);
         Some(Self { goals, columns: columns.collect(), x: fit.hand_eye.mount_from_camera })
     }
 
@@ -118,19 +132,45 @@ impl ToolReach {
         self.goals.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
-    /// A covariance that predicts what the robot misses all over the volume, where it is sent by a rigid motion;
-    /// `squares` are `Σ JᵀJ` over it.
-    fn missed(&self, motion: &Isometry3<f64>, squares: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-        let mut sum = Matrix6::zeros();
+    /// The rigid answer that comes nearest.
+    pub fn answer(&self, covariance: &DMatrix<f64>) -> Option<Nearest> {
+        let from: Vec<Vector3<f64>> = self.goals.iter().map(|k| k.p).collect();
+        let to: Vec<Vector3<f64>> = self.goals.iter().map(|k| k.p + k.shift).collect();
+        let motion = rigid_fit(&from, &to).ok()?.target_from_source;
+        let mut squares = Matrix6::zeros();
+        let mut by_all = DMatrix::zeros(6, covariance.nrows());
+        for goal in &self.goals {
+            let j = point_jacobian(&goal.p);
+            squares += j.transpose() * j;
+            for (k, column) in self.columns.iter().zip(&goal.by_own) {
+                let mut sum = by_all.column_mut(*k);
+                sum += j.transpose() * column;
+            }
+        }
+        by_all.view_mut((0, 0), (6, 6)).copy_from(&squares);
+        let inverse = squares.try_inverse()?;
+        let carry = DMatrix::from_column_slice(6, 6, inverse.as_slice()) * by_all;
+        let own = &carry * covariance * carry.transpose();
+        let (everywhere, variance) = self.missed(&motion, &inverse);
+        let x = Pose::claim(self.x.iso() * motion);
+        Some(Nearest { x, covariance: own.fixed_view::<6, 6>(0, 0).into(), everywhere, variance })
+    }
+
+    /// A covariance that predicts what the robot misses all over the volume, where it is sent by a rigid motion, and the
+    /// mean variance per axis of that; `inverse` is that of `Σ JᵀJ` over it.
+    fn missed(&self, motion: &Isometry3<f64>, inverse: &Matrix6<f64>) -> (Matrix6<f64>, f64) {
+        let (mut sum, mut variance) = (Matrix6::zeros(), 0.0);
+        let n = self.goals.len() as f64;
         for goal in &self.goals {
             let off = motion.transform_vector(&goal.p) + motion.translation.vector
                 - (goal.p + goal.shift);
             let j = point_jacobian(&goal.p);
-            sum += j.transpose() * (off * off.transpose() + goal.scatter) * j;
+            let all = off * off.transpose() + goal.scatter;
+            sum += j.transpose() * all * j;
+            variance += all.trace() / (3.0 * n);
         }
-        let inverse = squares.try_inverse()?;
         // a pose of six unknowns carries each of them to points of three: half of it is their share
-        Some(inverse * sum * inverse * (0.5 * self.goals.len() as f64))
+        (inverse * sum * inverse * (0.5 * n), variance)
     }
 }
 
@@ -151,25 +191,8 @@ impl Reach for ToolReach {
     /// That no rigid motion comes nearer is in the covariance: as if the answer were another one at every place, by as
     /// much as the robot misses it there.
     fn rigid(&self, covariance: &DMatrix<f64>) -> Option<(Pose<Mount, Camera>, Matrix6<f64>)> {
-        let from: Vec<Vector3<f64>> = self.goals.iter().map(|k| k.p).collect();
-        let to: Vec<Vector3<f64>> = self.goals.iter().map(|k| k.p + k.shift).collect();
-        let fit = rigid_fit(&from, &to).ok()?;
-        let x = Pose::claim(self.x.iso() * fit.target_from_source);
-        let mut squares = Matrix6::zeros();
-        let mut by_all = DMatrix::zeros(6, covariance.nrows());
-        for goal in &self.goals {
-            let j = point_jacobian(&goal.p);
-            squares += j.transpose() * j;
-            for (k, column) in self.columns.iter().zip(&goal.by_own) {
-                let mut sum = by_all.column_mut(*k);
-                sum += j.transpose() * column;
-            }
-        }
-        by_all.view_mut((0, 0), (6, 6)).copy_from(&squares);
-        let carry = DMatrix::from_column_slice(6, 6, squares.try_inverse()?.as_slice()) * by_all;
-        let own = &carry * covariance * carry.transpose();
-        let missed = self.missed(&fit.target_from_source, &squares)?;
-        Some((x, own.fixed_view::<6, 6>(0, 0) + missed))
+        let Nearest { x, covariance, everywhere, .. } = self.answer(covariance)?;
+        Some((x, covariance + everywhere))
     }
 }
 
@@ -195,16 +218,17 @@ impl<'a, R: Erring> Work<'a, R> {
         let x = fit.hand_eye.mount_from_camera;
         let tip =
             Vector3::from_fn(|k, _| fit.extra(ExtraKind::Tip(k)).map_or(0.0, |t: (f64, f64)| t.0));
-        let hold = |place: Place, tool: Vector3<f64>| {
+        let unlearned = if robot.learns_tip() { Vector3::zeros() } else { tip };
+        let hold = |place: Place, tool: Vector3<f64>, believed: Vector3<f64>| {
             let flange = robot.really(&place);
             let at = flange.rotation() * tool + flange.translation();
-            Held { place, rotation: flange.rotation(), tool, at }
+            Held { place, rotation: flange.rotation(), tool, believed, at }
         };
         let has_joints = views.used.iter().all(|o| !o.joints.is_empty());
         let touched = views.session.touches.iter().filter_map(|t| {
             let flange = t.base_from_flange.filter(|_| !has_joints || !t.joints.is_empty())?;
             let tool = (flange.inverse() * t.in_base).vector() + tip;
-            Some(hold(Place::new(&flange, &t.joints).touching(), tool))
+            Some(hold(Place::new(&flange, &t.joints).touching(), tool, tool - unlearned))
         });
         let seen = views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints));
         let mut held: Vec<Held> = touched.collect();
@@ -214,7 +238,7 @@ impl<'a, R: Erring> Work<'a, R> {
                 Setup::EyeToHand => fit.hand_eye.anchor_from_target.translation(),
                 Setup::EyeInHand => x.translation(),
             };
-            held = seen.clone().map(|place| hold(place, tool)).collect();
+            held = seen.clone().map(|place| hold(place, tool, tool)).collect();
         }
         let views: Vec<Option<Place>> = match setup {
             Setup::EyeToHand => vec![None],
@@ -247,6 +271,16 @@ impl<'a, R: Erring> Work<'a, R> {
         Some(Goal { p: *p, shift, scatter, by_own })
     }
 
+    /// The same with the tip before, where it acts: turned into the base like this.
+    fn with_tip(&self, by_own: Matrix3xX<f64>, rotation: &Matrix3<f64>) -> Matrix3xX<f64> {
+        let extras = &self.robot.fit().extras;
+        let is_tip = |kind| matches!(kind, ExtraKind::Tip(_)) && acts(self.robot, kind);
+        let n = extras.iter().filter(|e| is_tip(e.kind)).count();
+        let mut all = by_own.insert_columns(0, n, 0.0);
+        all.view_mut((0, 0), (3, n)).copy_from(&rotation.columns(0, n));
+        all
+    }
+
     fn in_base(&self, view: Option<&Place>, p: &Vector3<f64>) -> Vector3<f64> {
         let on_mount = self.x.rotation() * p + self.x.translation();
         view.map_or(on_mount, |view| carried(&self.robot.really(view), &on_mount))
@@ -263,8 +297,9 @@ impl<'a, R: Erring> Work<'a, R> {
         let robot = self.robot;
         let flange = Pose::from_parts(&held.rotation, there - held.rotation * held.tool);
         let place = robot.reaching(&flange, &held.place)?;
-        let says = carried(&robot.says(&place), &held.tool);
+        let says = carried(&robot.says(&place), &held.believed);
         let reached = held.rotation * point_jacobian(&held.tool) * robot.by_own(&place);
+        let reached = self.with_tip(reached, &held.rotation);
         let on_mount = self.x.rotation() * p + self.x.translation();
         let of_tool = carried_variance(robot.rest(&place), &held.tool);
         let (m, by, rest) = match view {
@@ -272,6 +307,7 @@ impl<'a, R: Erring> Work<'a, R> {
             Some(view) => {
                 let (at, really) = (robot.says(view), robot.really(view));
                 let seen = really.rotation() * point_jacobian(&on_mount) * robot.by_own(view);
+                let seen = self.with_tip(seen, &Matrix3::zeros());
                 let back = at.rotation().transpose();
                 let rest = of_tool + carried_variance(robot.rest(view), &on_mount);
                 (back * (says - at.translation()), back * (seen - reached), rest)
@@ -282,6 +318,11 @@ impl<'a, R: Erring> Work<'a, R> {
         let by_own = by.column_iter().map(Into::into).collect();
         Some(Sample { shift: to_camera * (m - on_mount), by_own, rest })
     }
+}
+
+/// Whether an unknown says where the robot goes: one of its errors, or of a tip that it does not learn.
+fn acts(robot: &impl Erring, kind: ExtraKind) -> bool {
+    robot.is_own(kind) || (matches!(kind, ExtraKind::Tip(_)) && !robot.learns_tip())
 }
 
 fn carried<A>(pose: &Pose<A, Flange>, p: &Vector3<f64>) -> Vector3<f64> {

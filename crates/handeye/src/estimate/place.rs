@@ -86,7 +86,7 @@ impl Kernel {
 
     /// Correlation of the errors at two places.
     pub fn at(&self, a: &Place, b: &Place) -> f64 {
-        let alike = if a.touches == b.touches { 1.0 } else { std::env::var("RHO").map_or(0.5, |v| v.parse().unwrap()) };
+        let alike = if a.touches == b.touches { 1.0 } else { TOUCHING };
         alike * match self {
             Self::Pose { distance, angle } => {
                 let (a, b) = (&a.base_from_flange, &b.base_from_flange);
@@ -105,6 +105,9 @@ impl Kernel {
     }
 }
 
+/// Correlation of the errors of one place with and without a tool that touches something: it loads the arm, and nothing
+/// says by how much.
+const TOUCHING: f64 = 0.5;
 /// Waves stop where they carry all but this part of the variance, on average: the rest is as good as noise.
 const LEFT: f64 = 0.05;
 /// Most waves.
