@@ -36,7 +36,12 @@ impl BestRigid {
         for &k in &deviations {
             values[k] = number(k).and_then(|which| whole.get(which)).copied().unwrap_or(values[k]);
         }
-        let projection = Projection::new(&arm.problem, fit, &values, &metric)?;
+        let projection = Projection::new(
+            (&arm.problem, fit),
+            &values,
+            &metric,
+            &place::work(views, &fit.hand_eye),
+        )?;
         let missed = projection.missed_once(fit, &metric);
         let (x, setup) = (fit.hand_eye.mount_from_camera, views.session.setup);
         Some(Self { projection, deviations, x, missed, setup })

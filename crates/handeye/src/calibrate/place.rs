@@ -16,7 +16,7 @@ use super::{
     workpiece::inflation,
 };
 use crate::{
-    Base, Camera, Flange, Mount, Point, Pose, Setup, Target,
+    Base, Camera, Flange, HandEye, Mount, Point, Pose, Setup, Target, Workspace,
     calibrate::{config::Config, limits::MOST_PREDICTED_MM, result::BlockGain, views::Views},
     estimate::{
         ExtraKind, JointFit, Problem, Source,
@@ -202,7 +202,8 @@ impl Look<'_> {
         bar: f64,
     ) -> Option<Model> {
         let fit = joint::refit(&problem, near, &self.config.known);
-        let projection = Projection::new(&problem, &fit, &fit.values, &self.metric)?;
+        let at = work(self.views, &near.hand_eye);
+        let projection = Projection::new((&problem, &fit), &fit.values, &self.metric, &at)?;
         let gain = fit.log_likelihood - bar;
         let errors = errors(self.views, kernel, &waves, &fit);
         let (plain, touches) = (plain.clone(), self.touches.to_vec());
@@ -406,6 +407,29 @@ pub(super) fn poses(setup: Setup) -> f64 {
 /// What a residual costs: the mean square over points of the target.
 pub(super) fn metric(views: &Views) -> Matrix6<f64> {
     projection::metric(&points(views))
+}
+
+/// Fewest captures in a workspace that stand for the poses in it.
+const FEWEST_AT_WORK: usize = 8;
+
+/// The captures that are like the robot's work: those whose target lies in the workspace where one is given and enough of
+/// them do, else all.
+pub(super) fn work(views: &Views, hand_eye: &HandEye) -> Vec<usize> {
+    let all: Vec<usize> = (0..views.views.len()).collect();
+    let Some(Workspace { minimum, maximum }) = &views.session.workspace else { return all };
+    let points = points(views);
+    let middle = points.iter().sum::<Vector3<f64>>() / points.len().max(1) as f64;
+    let is_inside = |i: &usize| {
+        let pair = &views.views[*i].pair;
+        let seen = pair.camera_from_target * Point::from_vector(middle);
+        let at = match views.session.setup {
+            Setup::EyeToHand => (hand_eye.mount_from_camera * seen).vector(),
+            Setup::EyeInHand => seen.vector(),
+        };
+        (0..3).all(|k| minimum[k] <= at[k] && at[k] <= maximum[k])
+    };
+    let inside: Vec<usize> = all.iter().copied().filter(is_inside).collect();
+    if inside.len() < FEWEST_AT_WORK { all } else { inside }
 }
 
 /// Points of the target, about the origin of the residuals.

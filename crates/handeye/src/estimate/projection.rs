@@ -62,16 +62,16 @@ struct Row {
 }
 
 impl Projection {
-    /// `values` are those of the fit's extras; of an arm about which the fit is linear, whole ones. `None` where the
-    /// captures do not determine an answer.
+    /// For the views `at` which the robot works. `values` are those of the fit's extras; of an arm about which the fit is
+    /// linear, whole ones. `None` where these views do not determine an answer.
     pub fn new(
-        problem: &Problem,
-        fit: &JointFit,
+        (problem, fit): (&Problem, &JointFit),
         values: &DVector<f64>,
         metric: &Matrix6<f64>,
+        at: &[usize],
     ) -> Option<Self> {
         let n = problem.extras.len();
-        let rows: Vec<Row> = (0..problem.views.len()).map(|i| row(problem, fit, i)).collect();
+        let rows: Vec<Row> = at.iter().map(|&i| row(problem, fit, i)).collect();
         let (carry, inverse) = carry(rows.iter(), n, metric)?;
         let step = &carry * values;
         let covariance = fit.covariance.as_ref()?;
