@@ -17,8 +17,8 @@ mod section;
 use std::env;
 
 use handeye::{
-    Anchor, Calibration, Camera, Config, HandEye, LensSigma, Mount, Observation, Point, Pose, PosePair,
-    Session, Setup, Target, TargetPose, TargetSize, Workspace, calibrate,
+    Anchor, Calibration, Camera, Config, HandEye, LensSigma, Mount, Observation, Point, Pose,
+    PosePair, Session, Setup, Target, TargetPose, TargetSize, Workspace, calibrate,
     simulate::{ArmErrors, Cell, CellNoise, Viewing},
     solve::least_squares,
 };

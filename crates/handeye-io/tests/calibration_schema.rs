@@ -274,7 +274,7 @@ fn arm() -> Arm {
 
 /// Each kind of errors that a robot may have.
 fn errors() -> [RobotErrors; 3] {
-    let place = || Place { base_from_flange: Pose::identity(), joints: vec![0.0] };
+    let place = || Place::new(&Pose::identity(), &[0.0]).touching();
     let by = |kernel| {
         RobotErrors::ByPlace(ByPlace {
             kernel,

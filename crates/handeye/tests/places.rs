@@ -3,10 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use handeye::{
-    Calibration, Config, Observation, Session, Setup, TargetPose, Verdict, calibrate,
+    Calibration, Config, LensSigma, Observation, Session, Setup, TargetPose, TargetSize, Verdict,
+    Workspace, calibrate,
     simulate::{ArmErrors, Cell, CellNoise, Viewing},
 };
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 const CAPTURES: usize = 20;
 /// Poses that tell which rigid answer fits best.
@@ -172,4 +173,86 @@ fn a_correction_goes_through_its_file_and_one_that_was_changed_is_refused() {
     let model = again.compensation.as_mut().and_then(|c| c.model.as_mut()).unwrap();
     model.covariance.pop();
     assert!(again.correction().unwrap_err().contains("do not fit together"));
+}
+
+/// How far the tool is off at corners of boards that it has not touched (mm), with what is stated.
+fn tool(errors: ArmErrors, seed: u64) -> (Calibration, Vec<f64>) {
+    const TOUCHED: usize = 3;
+    let usual = Cell::new(Setup::EyeToHand, 700 + seed);
+    let cell = Cell {
+        captures: CAPTURES,
+        placements: TOUCHED + 12,
+        arm: Some(errors),
+        noise: CellNoise { robot_absolute_m: 0.0, robot_absolute_rad: 0.0, ..usual.noise },
+        viewing: Viewing { spin_rad: 1.0, tilt_rad: 0.6, ..usual.viewing },
+        ..usual
+    };
+    let (mut session, truth) = cell.session(seed).unwrap();
+    // lens and board are known: what is judged here is the robot
+    let lens = LensSigma { focal_px: Some(0.01), center_px: Some(0.01) };
+    (session.lens_sigma, session.target_size) = (Some(lens), TargetSize::Measured(1e-6));
+    session.arm = None;
+    session.observations.iter_mut().for_each(|o| o.joints.clear());
+    session.touches.iter_mut().for_each(|t| t.joints.clear());
+    let board = |k: usize| session.placements[k].id.clone();
+    let later: Vec<String> = (TOUCHED..session.placements.len()).map(board).collect();
+    let mut own = session.clone();
+    own.placements.truncate(TOUCHED);
+    own.touches.retain(|t| !later.contains(&t.placement));
+    let found = run(&own);
+    let x = found.hand_eye.mount_from_camera.unwrap();
+    let mut all = vec![];
+    for touch in session.touches.iter().filter(|t| later.contains(&t.placement)) {
+        let k = session.placements.iter().position(|p| p.id == touch.placement).unwrap();
+        let corner = session.target.as_ref().unwrap().corner(touch.corner).unwrap();
+        let at = x * (truth.camera_from_target[CAPTURES + k] * corner);
+        all.push((at.vector() - touch.in_base.vector()).norm() * 1e3);
+    }
+    (found, all)
+}
+
+#[test]
+fn a_tool_that_touched_goes_where_the_answer_says_though_the_robot_errs_by_place() {
+    let errors = ArmErrors { length_m: 1e-3, angle_rad: 2e-3, ..ArmErrors::default() };
+    let (mut within, mut count, mut named) = (0, 0, 0);
+    for seed in 0..6 {
+        let (found, all) = tool(errors, seed);
+        let stated = found.predicted_tre_mm.as_ref().unwrap().at_task_p95.unwrap();
+        within += all.iter().filter(|mm| **mm <= stated).count();
+        count += all.len();
+        named += usize::from(errs_by_place(&found));
+        // what the robot errs is no error of a tip that is where it is said to be
+        assert!(found.tip.is_none() || !errs_by_place(&found), "{seed}: {:?}", found.tip);
+    }
+    assert!(named >= 4, "{named} of 6");
+    assert!(within as f64 > 0.85 * f64::from(count as u32), "{within} of {count}");
+}
+
+#[test]
+fn a_workspace_says_where_the_robot_works() {
+    let errors = ArmErrors { length_m: 1e-3, angle_rad: 2e-3, ..ArmErrors::default() };
+    let (session, _) = many(40, errors, Setup::EyeInHand, 2);
+    let everywhere = run(&session);
+    assert!(errs_by_place(&everywhere));
+    let mut depths: Vec<f64> = session
+        .observations
+        .iter()
+        .map(|o| o.candidates[0].camera_from_target.translation().z)
+        .collect();
+    depths.sort_by(f64::total_cmp);
+    let answer = |farthest: f64| {
+        let workspace = Workspace {
+            minimum: Vector3::new(-2.0, -2.0, 0.0),
+            maximum: Vector3::new(2.0, 2.0, farthest),
+        };
+        run(&Session { workspace: Some(workspace), ..session.clone() })
+            .hand_eye
+            .mount_from_camera
+            .unwrap()
+    };
+    let x = everywhere.hand_eye.mount_from_camera.unwrap();
+    // all of it, half of it, and too little to tell
+    assert!(x.distance_to(&answer(10.0)) < 1e-9);
+    assert!(x.distance_to(&answer(depths[20])) > 1e-5);
+    assert!(x.distance_to(&answer(depths[3])) < 1e-9);
 }

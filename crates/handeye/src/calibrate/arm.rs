@@ -256,10 +256,7 @@ fn correction(model: &Arm, arm: &Arm, joints: &[f64]) -> Pose<Flange, Flange> {
     model.base_from_flange(joints).inverse() * arm.base_from_flange(joints)
 }
 
-fn corrected(
-    flange: &Pose<Base, Flange>,
-    correction: &Pose<Flange, Flange>,
-) -> Pose<Base, Flange> {
+fn corrected(flange: &Pose<Base, Flange>, correction: &Pose<Flange, Flange>) -> Pose<Base, Flange> {
     *flange * *correction
 }
 

@@ -348,7 +348,8 @@ fn determines(fit: &JointFit, metric: &Matrix6<f64>) -> bool {
 pub(super) fn places(views: &Views, touches: &[usize]) -> Vec<Place> {
     let captured = views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints));
     let touched = touches.iter().map(|&k| &views.session.touches[k]);
-    let touched = touched.filter_map(|t| Some(Place::new(&t.base_from_flange?, &t.joints).touching()));
+    let touched =
+        touched.filter_map(|t| Some(Place::new(&t.base_from_flange?, &t.joints).touching()));
     captured.chain(touched).collect()
 }
 

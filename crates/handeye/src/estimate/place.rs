@@ -87,21 +87,22 @@ impl Kernel {
     /// Correlation of the errors at two places.
     pub fn at(&self, a: &Place, b: &Place) -> f64 {
         let alike = if a.touches == b.touches { 1.0 } else { TOUCHING };
-        alike * match self {
-            Self::Pose { distance, angle } => {
-                let (a, b) = (&a.base_from_flange, &b.base_from_flange);
-                let way = (a.translation() - b.translation()).norm_squared() / distance.powi(2);
-                let turn = (a.rotation() - b.rotation()).norm_squared() / (2.0 * angle.powi(2));
-                (-0.5 * (way + turn)).exp()
+        alike
+            * match self {
+                Self::Pose { distance, angle } => {
+                    let (a, b) = (&a.base_from_flange, &b.base_from_flange);
+                    let way = (a.translation() - b.translation()).norm_squared() / distance.powi(2);
+                    let turn = (a.rotation() - b.rotation()).norm_squared() / (2.0 * angle.powi(2));
+                    (-0.5 * (way + turn)).exp()
+                }
+                Self::Joints(length) => {
+                    let one = |(p, q): (&f64, &f64)| {
+                        (-2.0 * (0.5 * (p - q)).sin().powi(2) / length.powi(2)).exp()
+                    };
+                    let sum: f64 = a.joints.iter().zip(&b.joints).map(one).sum();
+                    sum / a.joints.len().max(1) as f64
+                }
             }
-            Self::Joints(length) => {
-                let one = |(p, q): (&f64, &f64)| {
-                    (-2.0 * (0.5 * (p - q)).sin().powi(2) / length.powi(2)).exp()
-                };
-                let sum: f64 = a.joints.iter().zip(&b.joints).map(one).sum();
-                sum / a.joints.len().max(1) as f64
-            }
-        }
     }
 }
 
