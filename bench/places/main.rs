@@ -107,7 +107,7 @@ fn main() {
     if let Some(file) = file {
         let (name, head, columns) = match (touched, env::var("JOINTS").is_ok()) {
             (true, false) => ("places-touched", TOUCHED, TOUCHED_COLUMNS),
-            (true, true) => ("places-touched-joints", WITH_JOINTS, TOUCHED_COLUMNS),
+            (true, true) => ("places-touched-joints", WITH_BOTH, TOUCHED_COLUMNS),
             (false, true) => ("places-joints", WITH_JOINTS, COLUMNS),
             (false, false) => ("places", HEAD, COLUMNS),
         };
@@ -134,7 +134,8 @@ const COLUMNS: &str =
     "| cell | captures | named | off | of plain | squared | within | corrected | missed | within |
 |---|---|---|---|---|---|---|---|---|---|";
 
-const WITH_JOINTS: &str = "Joint values and the arm's model are given.\n";
+const WITH_JOINTS: &str = "### With joint values\n\nJoint values and the arm's model are given.\n";
+const WITH_BOTH: &str = "### With touches and joint values\n\nThe same.\n";
 const TOUCHED: &str = "### With touches
 
 The same arms with the corners of pictures; twelve corners are touched before (on three boards laid into the cell, or on the
