@@ -29,7 +29,7 @@ const FRESH: usize = 150;
 /// Boards that the tool goes to afterwards, where it touches some beforehand (eye-to-hand).
 const FRESH_BOARDS: usize = 40;
 
-/// Lens and board are as they are said to be: what is judged measures with them, not with what a fit makes of them.
+/// Lens and board are as they are said to be: the task measures with them, not with refined ones.
 const KNOWN: (Option<LensSigma>, TargetSize) =
     (Some(LensSigma { focal_px: Some(0.01), center_px: Some(0.01) }), TargetSize::Measured(1e-6));
 
@@ -111,8 +111,8 @@ fn main() {
             (false, true) => ("places-joints", WITH_JOINTS, COLUMNS),
             (false, false) => ("places", HEAD, COLUMNS),
         };
-        let told = format!("{trials} cells a row, seeds from {first}.");
-        section::write(file, name, &format!("{head}\n{columns}\n{rows}\n{told}"));
+        let remark = format!("{trials} cells a row, seeds from {first}.");
+        section::write(file, name, &format!("{head}\n{columns}\n{rows}\n{remark}"));
     }
 }
 
@@ -343,7 +343,7 @@ fn run(kind: Kind, seed: u64) -> Option<Outcome> {
         camera_from_target: truth.camera_from_target[k] * centre,
     };
     let fresh: Vec<PosePair> = (kind.captures..kind.captures + FRESH).map(pair).collect();
-    let region = env::var("REGION").ok().map(|how| Region::new(&fresh, kind.setup, how == "told"));
+    let region = env::var("REGION").ok().map(|how| Region::new(&fresh, kind.setup, how == "given"));
     let fresh = region.as_ref().map_or(fresh.clone(), |r| r.inside(&fresh));
     let lever = (points.iter().map(|p| (p - middle).norm_squared()).sum::<f64>() * 2.0
         / 3.0
@@ -372,7 +372,7 @@ fn run(kind: Kind, seed: u64) -> Option<Outcome> {
     if kind.bare {
         own = as_bare(&own, &centre);
     }
-    own.workspace = region.filter(|r| r.told).map(|r| r.bounds);
+    own.workspace = region.filter(|r| r.is_given).map(|r| r.bounds);
     let config = Config { max_error_mm: Some(50.0), ..Config::default() };
     let found = calibrate(&own, &config).ok()?;
     if env::var("SAY").is_ok() {
@@ -391,11 +391,11 @@ fn run(kind: Kind, seed: u64) -> Option<Outcome> {
 struct Region {
     bounds: Workspace,
     setup: Setup,
-    told: bool,
+    is_given: bool,
 }
 
 impl Region {
-    fn new(fresh: &[PosePair], setup: Setup, told: bool) -> Self {
+    fn new(fresh: &[PosePair], setup: Setup, is_given: bool) -> Self {
         let mut all: Vec<Vector3<f64>> = fresh.iter().map(|p| place(setup, p)).collect();
         match setup {
             Setup::EyeToHand => all.sort_by(|a, b| b.x.total_cmp(&a.x)),
@@ -404,7 +404,7 @@ impl Region {
         all.truncate(fresh.len() / 2);
         let low = all.iter().fold(all[0], |low, p| low.inf(p));
         let high = all.iter().fold(all[0], |high, p| high.sup(p));
-        Self { bounds: Workspace { minimum: low, maximum: high }, setup, told }
+        Self { bounds: Workspace { minimum: low, maximum: high }, setup, is_given }
     }
 
     fn inside(&self, fresh: &[PosePair]) -> Vec<PosePair> {
