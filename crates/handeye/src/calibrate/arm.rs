@@ -8,8 +8,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    joint::{WRONG_TIP_PRIOR, held_out_views},
-    reach::Erring,
+    joint::held_out_views,
+    reach::{Erring, UsedTouches},
 };
 use crate::{
     Base, Flange, Observation, Pose, Setup, Touch,
@@ -36,6 +36,9 @@ pub(super) struct ArmFit {
     pub model: Arm,
     pub arm: Arm,
     pub which: Vec<Deviation>,
+    /// The arm with all that was found.
+    pub corrected: Arm,
+    wrong_tip: bool,
     moved: Vec<f64>,
     prior_sigma: Vec<f64>,
     held_out: ArmHeldOut,
@@ -59,13 +62,12 @@ const ROUNDS: usize = 3;
 /// The deviations are found when none moves by more than this part of its standard deviation.
 const SETTLED: f64 = 0.05;
 
-/// Looks whether the arm deviates; `touches` are those of the session behind the problem's boards,
-/// in their order.
+/// Looks whether the arm deviates.
 pub(super) fn look(
     views: &Views,
     problem: &Problem,
     fit: &JointFit,
-    touches: &[usize],
+    touched: UsedTouches,
     config: &Config,
 ) -> Result<Option<ArmFit>, RobotFinding> {
     let Some(model) = &views.session.arm else { return Ok(None) };
@@ -76,7 +78,7 @@ pub(super) fn look(
         return Ok(None);
     }
     consistent(views, model)?;
-    let look = Look { views, model, problem, touches, config };
+    let look = Look { views, model, problem, touched, config };
     // a systematic difference stands for what an arm that is known need not leave open
     let rigid = look.without_systematic(fit);
     let mut best: Option<Trial> = None;
@@ -118,7 +120,7 @@ struct Look<'a> {
     views: &'a Views<'a>,
     model: &'a Arm,
     problem: &'a Problem,
-    touches: &'a [usize],
+    touched: UsedTouches<'a>,
     config: &'a Config,
 }
 
@@ -175,7 +177,7 @@ impl Look<'_> {
             view.by_robot = Some(by.into());
         }
         let corners = problem.boards.iter_mut().flat_map(|b| &mut b.corners);
-        for (corner, &k) in corners.zip(self.touches) {
+        for (corner, &k) in corners.zip(self.touched.used) {
             let touch = &self.views.session.touches[k];
             let (Some(flange), true) =
                 (touch.base_from_flange, touch.joints.len() == arm.joints.len())
@@ -226,7 +228,9 @@ impl Look<'_> {
             (moved, arm, now) = (next, there, trial);
         }
         let robot = |f: &JointFit| f.noise.sigma(Source::RobotPosition).unwrap_or(0.0) * 1e3;
-        ArmFit {
+        let found = ArmFit {
+            wrong_tip: self.touched.wrong_tip,
+            corrected: arm.clone(),
             robot_mm: (robot(given).max(robot(rigid)), robot(&now.fit)),
             problem: now.problem,
             fit: now.fit,
@@ -236,7 +240,9 @@ impl Look<'_> {
             moved,
             prior_sigma: now.prior_sigma,
             held_out,
-        }
+        };
+        let corrected = found.model.moved(&found.which, &found.values());
+        ArmFit { corrected, ..found }
     }
 }
 
@@ -290,20 +296,24 @@ impl Erring for ArmFit {
         matches!(kind, ExtraKind::Arm(_))
     }
 
-    fn learns_tip(&self) -> bool {
-        self.problem.tip_prior() == Some(WRONG_TIP_PRIOR)
+    fn corrects_tip(&self) -> bool {
+        self.wrong_tip
     }
 
-    fn says(&self, at: &Place) -> Pose<Base, Flange> {
+    fn knows(&self, at: &Place) -> bool {
+        at.joints.len() == self.model.joints.len()
+    }
+
+    fn reported(&self, at: &Place) -> Pose<Base, Flange> {
         self.model.base_from_flange(&at.joints)
     }
 
-    fn really(&self, at: &Place) -> Pose<Base, Flange> {
-        self.corrected().base_from_flange(&at.joints)
+    fn actual(&self, at: &Place) -> Pose<Base, Flange> {
+        self.corrected.base_from_flange(&at.joints)
     }
 
-    fn reaching(&self, flange: &Pose<Base, Flange>, near: &Place) -> Option<Place> {
-        let joints = self.corrected().inverse(flange, &near.joints)?;
+    fn place_for(&self, flange: &Pose<Base, Flange>, near: &Place) -> Option<Place> {
+        let joints = self.corrected.inverse(flange, &near.joints)?;
         Some(Place::new(&self.model.base_from_flange(&joints), &joints))
     }
 
@@ -321,11 +331,6 @@ impl ArmFit {
     pub(super) fn values(&self) -> Vec<f64> {
         let rest = |k| self.fit.extra(ExtraKind::Arm(k)).map_or(0.0, |x: (f64, f64)| x.0);
         self.moved.iter().enumerate().map(|(k, m)| m + rest(k)).collect()
-    }
-
-    /// The arm with all that was found.
-    pub(super) fn corrected(&self) -> Arm {
-        self.model.moved(&self.which, &self.values())
     }
 
     /// That it deviates.
@@ -350,7 +355,7 @@ impl ArmFit {
             }
         };
         ArmResult {
-            model: self.corrected(),
+            model: self.corrected.clone(),
             deviations: self.which.iter().enumerate().map(one).collect(),
             mount_from_camera: answer.mount_from_camera,
             anchor_from_target: answer.anchor_from_target,

@@ -10,6 +10,7 @@ use super::{
     joint::{self, Joint, held_out_views},
     known_position, named,
     optics::{self, MeasuredBy, Optics},
+    reach::UsedTouches,
     robot::Robot,
     size, verdict,
     workpiece::{Workpiece, volume},
@@ -90,10 +91,13 @@ fn fuse(
     let (paired, unseen) = captures::pair_touches(views, fit);
     let (boards, trusted, wrong) = right_touches(views, &paired, optics, (problem, fit));
     let joint = joint::fit(views, &boards, &problem.extras, fit, &config.known);
-    let used = joint.as_ref().map_or(&[][..], |j| &j.used);
+    let touched = UsedTouches {
+        used: joint.as_ref().map_or(&[][..], |j| &j.used),
+        wrong_tip: joint.as_ref().is_some_and(|j| j.wrong_tip.is_some()),
+    };
     let (best, whole) = joint.as_ref().map_or((fit, problem), |j| (&j.fit, &j.problem));
-    let robot = Robot::look(views, (whole, best), used, volume, config);
-    let of_joint = |j: &joint::Joint| j.findings(views, robot.explains_tip(whole));
+    let robot = Robot::look(views, (whole, best), touched, volume, config);
+    let of_joint = |j: &joint::Joint| j.findings(views, robot.explains_tip());
     let (tip, of_touches) = joint.as_ref().map(of_joint).unwrap_or_default();
     let notes = &mut evidence.notes;
     notes.add(unseen.then(wrong).then(of_touches));

@@ -76,7 +76,7 @@ pub(super) fn by_arm(
     let gains = Gains::of(&places, gain)?;
     let errors = RobotErrors::ByArm(ByArm {
         given: arm.model.clone(),
-        corrected: arm.corrected(),
+        corrected: arm.corrected.clone(),
         deviations: arm.which.clone(),
         seen: places,
     });

@@ -92,7 +92,7 @@ fn believed_tip(known: &KnownNoise) -> [Extra; 3] {
 }
 
 /// What is believed of a tip once it is known to be wrong, m per axis.
-pub(super) const WRONG_TIP_PRIOR: f64 = 20e-3;
+const WRONG_TIP_PRIOR: f64 = 20e-3;
 
 /// Tests whether the tip is where the robot believes it; if not, believes the data instead.
 fn free_wrong_tip(

@@ -2,7 +2,7 @@
 //!
 //! The camera sees a point `p`; it really lies at `X p`. The robot is asked for `m` instead, such that it really brings
 //! its tool there: the tool is held as it was in the nearest touches (where none says how: as the target was in the
-//! nearest captures), the flange is where it must be for that, and `m` is where the robot believes the tool then. `m` is
+//! nearest captures), the flange is where it must be for that, and `m` is where the controller reports the tool then. `m` is
 //! not a rigid motion of `p`; the answer for the robot as it is comes nearest to it over the volume, and what is left
 //! adds to its error.
 
@@ -15,30 +15,42 @@ use crate::{
     register::rigid_fit::{point_jacobian, rigid_fit},
 };
 
-/// A robot that is elsewhere than it says, as a fit has it.
+/// The touches that a fit rests on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct UsedTouches<'a> {
+    /// Those of the session behind the problem's boards, in their order.
+    pub used: &'a [usize],
+    /// Whether the tip was found to be wrong.
+    pub wrong_tip: bool,
+}
+
+/// A robot whose flange is not where the controller reports it, as a fit has it.
 pub(super) trait Erring {
-    /// The fit in which it is.
+    /// The fit.
     fn fit(&self) -> &JointFit;
 
     /// Whether an unknown is one of its errors.
     fn is_own(&self, kind: ExtraKind) -> bool;
 
-    /// Where it says that its flange is.
-    fn says(&self, at: &Place) -> Pose<Base, Flange>;
+    /// Whether its error at a place follows from what is recorded there.
+    fn knows(&self, at: &Place) -> bool;
 
-    /// Where it really is.
-    fn really(&self, at: &Place) -> Pose<Base, Flange>;
+    /// Where the controller reports the flange.
+    fn reported(&self, at: &Place) -> Pose<Base, Flange>;
 
-    /// Where it must be for its flange to be there; looked for near a place.
-    fn reaching(&self, flange: &Pose<Base, Flange>, near: &Place) -> Option<Place>;
+    /// Where the flange is.
+    fn actual(&self, at: &Place) -> Pose<Base, Flange>;
+
+    /// The place at which the flange is there, `near` another one; `None` where the arm does not reach.
+    fn place_for(&self, flange: &Pose<Base, Flange>, near: &Place) -> Option<Place>;
 
     /// How its flange moves with each of its errors: a step on the right.
     fn by_own(&self, at: &Place) -> DMatrix<f64>;
 
-    /// Whether it learns where its tip really is; else it goes on with the one that it believes in.
-    fn learns_tip(&self) -> bool;
+    /// Whether its controller gets the corrected tip; it goes on with the one that it has otherwise.
+    fn corrects_tip(&self) -> bool;
 
-    /// Variance per axis (rad², m²) of what these do not tell of its error there.
+    /// Variance per axis (rad², m²) of the part of its error there that does not follow from its unknowns.
     fn rest(&self, _at: &Place) -> [f64; 2] {
         [0.0; 2]
     }
@@ -98,9 +110,9 @@ struct Held {
     place: Place,
     /// The flange there, as it really is.
     rotation: Matrix3<f64>,
-    /// The tool in the flange, as it is and as the robot believes it, and where it was.
+    /// The tool in the flange, as it is and as the controller has it, and where it was.
     tool: Vector3<f64>,
-    believed: Vector3<f64>,
+    controllers: Vector3<f64>,
     at: Vector3<f64>,
 }
 
@@ -196,7 +208,7 @@ impl Reach for ToolReach {
     }
 }
 
-/// A shift, how it moves with the robot's errors, and the variance per axis (m²) of what these do not tell.
+/// A shift, how it moves with the robot's errors, and the variance per axis (m²) that does not follow from these.
 struct Sample {
     shift: Vector3<f64>,
     by_own: Vec<Vector3<f64>>,
@@ -218,17 +230,17 @@ impl<'a, R: Erring> Work<'a, R> {
         let x = fit.hand_eye.mount_from_camera;
         let tip =
             Vector3::from_fn(|k, _| fit.extra(ExtraKind::Tip(k)).map_or(0.0, |t: (f64, f64)| t.0));
-        let unlearned = if robot.learns_tip() { Vector3::zeros() } else { tip };
-        let hold = |place: Place, tool: Vector3<f64>, believed: Vector3<f64>| {
-            let flange = robot.really(&place);
+        let uncorrected = if robot.corrects_tip() { Vector3::zeros() } else { tip };
+        let hold = |place: Place, tool: Vector3<f64>, controllers: Vector3<f64>| {
+            let flange = robot.actual(&place);
             let at = flange.rotation() * tool + flange.translation();
-            Held { place, rotation: flange.rotation(), tool, believed, at }
+            Held { place, rotation: flange.rotation(), tool, controllers, at }
         };
-        let has_joints = views.used.iter().all(|o| !o.joints.is_empty());
         let touched = views.session.touches.iter().filter_map(|t| {
-            let flange = t.base_from_flange.filter(|_| !has_joints || !t.joints.is_empty())?;
+            let flange = t.base_from_flange?;
+            let place = Place::new(&flange, &t.joints).touching();
             let tool = (flange.inverse() * t.in_base).vector() + tip;
-            Some(hold(Place::new(&flange, &t.joints).touching(), tool, tool - unlearned))
+            robot.knows(&place).then(|| hold(place, tool, tool - uncorrected))
         });
         let seen = views.used.iter().map(|o| Place::new(&o.base_from_flange, &o.joints));
         let mut held: Vec<Held> = touched.collect();
@@ -283,7 +295,7 @@ impl<'a, R: Erring> Work<'a, R> {
 
     fn in_base(&self, view: Option<&Place>, p: &Vector3<f64>) -> Vector3<f64> {
         let on_mount = self.x.rotation() * p + self.x.translation();
-        view.map_or(on_mount, |view| carried(&self.robot.really(view), &on_mount))
+        view.map_or(on_mount, |view| carried(&self.robot.actual(view), &on_mount))
     }
 
     /// One way to go there.
@@ -296,21 +308,21 @@ impl<'a, R: Erring> Work<'a, R> {
     ) -> Option<Sample> {
         let robot = self.robot;
         let flange = Pose::from_parts(&held.rotation, there - held.rotation * held.tool);
-        let place = robot.reaching(&flange, &held.place)?;
-        let says = carried(&robot.says(&place), &held.believed);
+        let place = robot.place_for(&flange, &held.place)?;
+        let reported = carried(&robot.reported(&place), &held.controllers);
         let reached = held.rotation * point_jacobian(&held.tool) * robot.by_own(&place);
         let reached = self.with_tip(reached, &held.rotation);
         let on_mount = self.x.rotation() * p + self.x.translation();
         let of_tool = carried_variance(robot.rest(&place), &held.tool);
         let (m, by, rest) = match view {
-            None => (says, -reached, of_tool),
+            None => (reported, -reached, of_tool),
             Some(view) => {
-                let (at, really) = (robot.says(view), robot.really(view));
-                let seen = really.rotation() * point_jacobian(&on_mount) * robot.by_own(view);
+                let (at, actual) = (robot.reported(view), robot.actual(view));
+                let seen = actual.rotation() * point_jacobian(&on_mount) * robot.by_own(view);
                 let seen = self.with_tip(seen, &Matrix3::zeros());
                 let back = at.rotation().transpose();
                 let rest = of_tool + carried_variance(robot.rest(view), &on_mount);
-                (back * (says - at.translation()), back * (seen - reached), rest)
+                (back * (reported - at.translation()), back * (seen - reached), rest)
             }
         };
         let to_camera = self.x.rotation().transpose();
@@ -320,9 +332,9 @@ impl<'a, R: Erring> Work<'a, R> {
     }
 }
 
-/// Whether an unknown says where the robot goes: one of its errors, or of a tip that it does not learn.
+/// Whether an unknown moves where the robot goes: one of its errors, or of a tip that is not corrected.
 fn acts(robot: &impl Erring, kind: ExtraKind) -> bool {
-    robot.is_own(kind) || (matches!(kind, ExtraKind::Tip(_)) && !robot.learns_tip())
+    robot.is_own(kind) || (matches!(kind, ExtraKind::Tip(_)) && !robot.corrects_tip())
 }
 
 fn carried<A>(pose: &Pose<A, Flange>, p: &Vector3<f64>) -> Vector3<f64> {

@@ -7,7 +7,7 @@ use super::{
     best_rigid::BestRigid,
     compensation,
     place::{self, ByPlace},
-    reach::{Reach, ToolReach},
+    reach::{Reach, ToolReach, UsedTouches},
     workpiece::Workpiece,
 };
 use crate::{
@@ -31,22 +31,22 @@ pub(super) struct Robot {
 }
 
 impl Robot {
-    /// Looks at arm and places; `used` are the touches behind the problem's boards, in their order.
+    /// Looks at arm and places.
     pub(super) fn look(
         views: &Views,
         (problem, fit): (&Problem, &JointFit),
-        used: &[usize],
+        touched: UsedTouches,
         volume: &Volume,
         config: &Config,
     ) -> Self {
-        let (arm, inconsistent) = match arm::look(views, problem, fit, used, config) {
+        let (arm, inconsistent) = match arm::look(views, problem, fit, touched, config) {
             Ok(arm) => (arm, None),
             Err(finding) => (None, Some(finding)),
         };
         let reach = arm.as_ref().and_then(|a| reach(views, a, volume));
         let place = match &reach {
             Some(_) => None,
-            None => place::look(views, (problem, fit), used, volume, config),
+            None => place::look(views, (problem, fit), touched, volume, config),
         };
         Self { arm, reach, place, inconsistent }
     }
@@ -63,9 +63,9 @@ impl Robot {
         }
     }
 
-    /// Whether what views and touches differ by is its errors, and not a tip that is elsewhere.
-    pub(super) fn explains_tip(&self, given: &Problem) -> bool {
-        self.place.as_ref().is_some_and(|p| p.explains_tip(given))
+    /// Whether its errors are what looked like a wrong tip.
+    pub(super) fn explains_tip(&self) -> bool {
+        self.place.as_ref().is_some_and(ByPlace::explains_tip)
     }
 
     /// Where such a robot must be sent.

@@ -29,21 +29,13 @@ impl Problem {
         Self { extras: self.extras.iter().filter(keep).copied().collect(), ..self.clone() }
     }
 
-    /// How well the tip is believed to be known, m per axis; `None` where nothing is touched.
-    pub(crate) fn tip_prior(&self) -> Option<f64> {
-        self.extras.iter().find(|e| matches!(e.kind, ExtraKind::Tip(_))).map(|e| e.prior_sigma)
-    }
-
-    /// The same with this belief in the tip; `None` where it is the one that it has.
-    pub(crate) fn with_tip(&self, prior_sigma: f64) -> Option<Self> {
-        if self.tip_prior()? == prior_sigma {
-            return None;
-        }
-        let believed = |e: &Extra| match e.kind {
+    /// The same with another prior of the tip, m per axis.
+    pub(crate) fn with_tip(&self, prior_sigma: f64) -> Self {
+        let with_prior = |e: &Extra| match e.kind {
             ExtraKind::Tip(_) => Extra { prior_sigma, ..*e },
             _ => *e,
         };
-        Some(Self { extras: self.extras.iter().map(believed).collect(), ..self.clone() })
+        Self { extras: self.extras.iter().map(with_prior).collect(), ..self.clone() }
     }
 }
 
