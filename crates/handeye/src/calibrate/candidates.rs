@@ -333,7 +333,11 @@ impl Judge<'_> {
     /// The answer that does best for a robot that errs by its arm or by place, and does not know.
     fn robot_candidate(&self, fit: &JointFit) -> Option<Judged> {
         let (name, (x, covariance)) = self.of_robot.zip(self.workpiece.rigid())?;
-        let note = if name == BY_PLACE { NOTE_BY_PLACE } else { NOTE_WITH_ARM };
+        let note = match (name == BY_PLACE, self.paired.is_empty()) {
+            (false, _) => NOTE_WITH_ARM,
+            (true, true) => NOTE_BY_PLACE,
+            (true, false) => NOTE_BY_PLACE_TOUCHED,
+        };
         let views = self.views;
         let tre = self.workpiece.tre(&x);
         let placed = solve::place_target(&pairs_of(views), &x);
@@ -357,8 +361,10 @@ impl Judge<'_> {
 /// What to know of such answers.
 const NOTE_WITH_ARM: &str = "the arm's deviations are found, and the answer is made for the tool as it was held, where \
                              it is used: elsewhere views and touches may fit it worse";
-const NOTE_BY_PLACE: &str = "errors of the robot by place are allowed for: the answer is the rigid one that fits best \
-                             where the captures were taken";
+const NOTE_BY_PLACE: &str = "robot errors by place are part of the model: the answer is the rigid transform that fits best \
+                             at the captures";
+const NOTE_BY_PLACE_TOUCHED: &str = "robot errors by place are part of the model: the answer is the rigid transform that \
+                                     comes closest to where the tool must be sent, held as in the touches";
 
 /// The least predicted error wins; the residual has no say. With the choice comes the leave-one-out residual of each view.
 fn choose(candidates: &[Judged], volume: &Volume, config: &Config) -> Option<(Choice, HeldOut)> {
