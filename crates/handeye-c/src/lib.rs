@@ -173,7 +173,8 @@ pub unsafe extern "C" fn handeye_calibrate(
         };
         let (calibration, session) = calibrate_dataset(&dataset, &Config::default(), &|_, _| {})?;
         if let Some(out) = out.map(Path::new) {
-            write_results(out, &calibration, &dataset_html(&dataset, &calibration, &session))?;
+            let page = dataset_html(&dataset, &calibration, &session);
+            write_results(out, Some(&dataset), &calibration, &page)?;
         }
         told(calibration.verdict, &calibration)
     };

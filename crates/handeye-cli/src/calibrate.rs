@@ -8,7 +8,7 @@ use std::{
 use handeye::{Calibration, Config, Session, Verdict, register::IcpConfig};
 use handeye_io::{
     Dataset, ResultFolder,
-    calibrate::{calibrate_dataset, corrected_files, write_run},
+    calibrate::{calibrate_dataset, write_run},
     checkup::can_be_checked,
     export::Format,
     report::dataset_html,
@@ -40,10 +40,9 @@ pub fn run(args: &CalibrateArgs, manners: &Manners) -> Result<u8, Failure> {
         }
     }
     if let (Some(out), Some(folder)) = (&args.out, &folder) {
-        let mut exports = export_accepted(out, &calibration, &formats, manners)?;
-        exports.extend(corrected_files(&dataset, &calibration));
+        let exports = export_accepted(out, &calibration, &formats, manners)?;
         let page = dataset_html(&dataset, &calibration, &session);
-        write((out, folder), &calibration, &page, exports, manners)?;
+        write((out, folder), &dataset, (&calibration, &page), exports, manners)?;
     }
     if manners.json {
         output::json(&calibration); // last: what fails before is the one document
@@ -113,12 +112,12 @@ pub fn run_on(
 /// Writes everything that belongs to a run into its folder, together; returns the page's path.
 pub fn write(
     (out, folder): (&Path, &ResultFolder),
-    calibration: &Calibration,
-    page: &str,
+    dataset: &Dataset,
+    (calibration, page): (&Calibration, &str),
     exports: Vec<(String, Vec<u8>)>,
     manners: &Manners,
 ) -> Result<PathBuf, Failure> {
-    let written = write_run(out, folder, calibration, page, exports)?;
+    let written = write_run((out, folder), Some(dataset), calibration, page, exports)?;
     if !manners.quiet {
         if written.replaced_another_run {
             crate::output::note!(

@@ -72,7 +72,8 @@ pub fn run(args: &DemoArgs, manners: &Manners) -> Result<u8, Failure> {
     let still = Manners { quiet: true, ..manners.clone() };
     let page = dataset_html(&dataset, &calibration, &session);
     let results = calibrate::result_folder(&out)?;
-    let report = calibrate::write((&out, &results), &calibration, &page, vec![], &still)?;
+    let report =
+        calibrate::write((&out, &results), &dataset, (&calibration, &page), vec![], &still)?;
     tell(
         &Told { calibration: &calibration, off: off(&calibration)?, dataset: folder, report },
         manners,

@@ -106,6 +106,64 @@ fn init_finds_everything_that_a_simulation_wrote() {
     fs::remove_dir_all(out).unwrap();
 }
 
+/// An arm of Denavit-Hartenberg parameters as a URDF whose joints are counted from `first`: each joint turns in its own
+/// frame, its link is a fixed joint.
+fn as_urdf(arm: &Value, first: usize) -> String {
+    let mut text = String::from("<robot name=\"arm\"><link name=\"link_0\"/>");
+    let joints = arm["joints"].as_array().unwrap();
+    for (k, joint) in joints.iter().enumerate() {
+        let number = |key: &str| joint[key].as_f64().unwrap();
+        let (a, d, alpha, theta) =
+            (number("a"), number("d"), number("alpha"), number("theta_offset"));
+        text += &format!(
+            "<link name=\"turned_{k}\"/><link name=\"link_{}\"/><joint name=\"joint_{}\" type=\"revolute\"><parent \
+             link=\"link_{k}\"/><child link=\"turned_{k}\"/><origin rpy=\"0 0 {theta}\"/><axis xyz=\"0 0 1\"/></joint>\
+             <joint name=\"behind_{k}\" type=\"fixed\"><parent link=\"turned_{k}\"/><child link=\"link_{}\"/><origin \
+             xyz=\"{a} 0 {d}\" rpy=\"{alpha} 0 0\"/></joint>",
+            k + 1,
+            k + first,
+            k + 1
+        );
+    }
+    text + "</robot>"
+}
+
+#[test]
+fn an_arm_that_was_given_as_a_urdf_is_corrected_as_one() {
+    let out = folder("urdf");
+    let cell = out.join("cell");
+    let simulate = ["simulate", cell.to_str().unwrap(), "--setup", "eye-to-hand", "--arm"];
+    let more = ["--no-images", "--captures", "20", "--seed", "3"];
+    assert_eq!(handeye(&[&simulate[..], &more].concat()).0, 0);
+    let arm = serde_json::from_str(&fs::read_to_string(cell.join("arm.json")).unwrap()).unwrap();
+    fs::write(cell.join("arm.urdf"), as_urdf(&arm, 0)).unwrap();
+    let manifest = fs::read_to_string(cell.join("handeye.toml")).unwrap();
+    let urdf = "urdf = { file = \"arm.urdf\", base = \"link_0\", flange = \"link_6\" }";
+    let given = manifest.replace("dh = \"arm.json\"", urdf);
+    assert_ne!(given, manifest);
+    fs::write(cell.join("handeye.toml"), given).unwrap();
+    let result = out.join("result");
+    let calibrate = ["calibrate", cell.to_str().unwrap(), "--out", result.to_str().unwrap(), "-q"];
+    // the file has joint_1 to joint_6: the joint after joint_0 does not take the first one's values
+    let (code, _, said) = handeye(&calibrate);
+    assert_eq!(code, 1);
+    assert!(said.contains("there is no joint named joint_0"), "{said}");
+    fs::write(cell.join("arm.urdf"), as_urdf(&arm, 1)).unwrap();
+    let (code, _, said) = handeye(&calibrate);
+    assert_eq!(code, 0, "{said}");
+    // the corrected one is an arm that fits: calibrated with it, hardly anything is left to correct
+    let corrected = fs::read_to_string(result.join("corrected_arm.urdf")).unwrap();
+    assert!(corrected.contains("joint_6") && corrected != as_urdf(&arm, 1));
+    assert!(!result.join("corrected_kinematics.yaml").exists(), "no arm of Universal Robots");
+    fs::write(cell.join("arm.urdf"), corrected).unwrap();
+    let again = ["calibrate", cell.to_str().unwrap(), "--json"];
+    let (code, found, said) = handeye(&again);
+    assert_eq!(code, 0, "{said}");
+    let found: Value = serde_json::from_str(&found).unwrap();
+    assert_ne!(found["method"], "joint-with-arm");
+    fs::remove_dir_all(out).unwrap();
+}
+
 /// Joint values from files, of views and of touches; then another cell into the same folder.
 #[test]
 fn an_arm_that_is_not_as_its_model_says_is_corrected_from_files() {
@@ -124,6 +182,7 @@ fn an_arm_that_is_not_as_its_model_says_is_corrected_from_files() {
         ["robot_before_mm", "robot_after_mm"].map(|key| found["arm"][key].as_f64().unwrap());
     assert!(after < 0.4 * before, "{before} {after}");
     assert!(out.join("result/corrected_arm.json").exists());
+    assert!(!out.join("result/corrected_arm.urdf").exists(), "it was not given as one");
     // what the arm goes on missing is in what the answer says of itself
     let (code, tested, said) = handeye(&["verify", result, cell, "--json"]);
     let tested = answer(&tested);

@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = folder.join("result");
     std::fs::create_dir_all(&out)?;
     let page = dataset_html(&dataset, &result, &session);
-    println!("report: {}", write_results(&out, &result, &page)?.display());
+    println!("report: {}", write_results(&out, Some(&dataset), &result, &page)?.display());
     Ok(())
 }
 

@@ -117,7 +117,7 @@ const KINEMATICS: &str = "corrected_kinematics.yaml";
 
 /// The corrected arm in the words of the file that it was given as, names and contents: a URDF, and for an arm of
 /// Universal Robots its `kinematics`. None where no arm was corrected, or it was not given as a URDF.
-pub fn corrected_files(dataset: &Dataset, calibration: &Calibration) -> Vec<(String, Vec<u8>)> {
+fn corrected_files(dataset: &Dataset, calibration: &Calibration) -> Vec<(String, Vec<u8>)> {
     let (Some(urdf), Some(arm)) = (&dataset.urdf, &calibration.arm) else { return vec![] };
     let files = [
         (URDF, robot::corrected::urdf(urdf, &arm.model)),
@@ -135,13 +135,19 @@ pub struct Written {
     pub replaced_another_run: bool,
 }
 
-/// Writes a result, its page and, where one was found, the corrected arm into a folder; returns the page's path.
+/// Writes a result, its page and, where one was found, the corrected arm into a folder; returns the page's path. With the
+/// `dataset`, an arm that was given as a URDF is written as one too.
 ///
 /// # Errors
 /// A folder that does not take them; then its older files are as they were.
-pub fn write_results(out: &Path, calibration: &Calibration, page: &str) -> Result<PathBuf, Error> {
+pub fn write_results(
+    out: &Path,
+    dataset: Option<&Dataset>,
+    calibration: &Calibration,
+    page: &str,
+) -> Result<PathBuf, Error> {
     let folder = ResultFolder::open(out)?;
-    Ok(write_run(out, &folder, calibration, page, vec![])?.page)
+    Ok(write_run((out, &folder), dataset, calibration, page, vec![])?.page)
 }
 
 /// The same with files in other programs' formats beside them (name and content): all of them together, or none.
@@ -149,8 +155,8 @@ pub fn write_results(out: &Path, calibration: &Calibration, page: &str) -> Resul
 /// # Errors
 /// As [`write_results`].
 pub fn write_run(
-    out: &Path,
-    folder: &ResultFolder,
+    (out, folder): (&Path, &ResultFolder),
+    dataset: Option<&Dataset>,
     calibration: &Calibration,
     page: &str,
     exports: Vec<(String, Vec<u8>)>,
@@ -164,11 +170,10 @@ pub fn write_run(
         Some(arm) => run.files.push((ARM.to_owned(), robot::arm_file(&arm.model).into_bytes())),
         None => run.absent.push(ARM),
     }
-    for name in [URDF, KINEMATICS] {
-        if run.files.iter().all(|(there, _)| there != name) {
-            run.absent.push(name);
-        }
-    }
+    let corrected = dataset.map_or_else(Vec::new, |d| corrected_files(d, calibration));
+    let is_absent = |name: &&str| corrected.iter().all(|(there, _)| there != name);
+    run.absent.extend([URDF, KINEMATICS].iter().copied().filter(is_absent));
+    run.files.extend(corrected);
     let replaced_another_run = folder.publish(&run)?;
     Ok(Written { page: out.join(PAGE), replaced_another_run })
 }

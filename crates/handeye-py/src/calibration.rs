@@ -55,10 +55,11 @@ impl Calibrated {
         })
     }
 
-    /// Writes `calibration.json` and `report.html` into a folder.
+    /// Writes `calibration.json`, `report.html` and, where one was found, the corrected arm into a folder.
     fn write(&self, py: Python<'_>, out: PathBuf, title: &str) -> PyResult<PathBuf> {
         let page = self.report(py, title);
-        write_results(&out, &self.calibration, &page).map_err(|e| errors::of_files(py, &e))
+        let dataset = self.measured.as_ref().map(|(dataset, _)| dataset);
+        write_results(&out, dataset, &self.calibration, &page).map_err(|e| errors::of_files(py, &e))
     }
 
     /// Poses of the flange, corrected.

@@ -97,9 +97,11 @@ fn statements(code: &str) -> (Vec<(String, bool)>, String) {
     (all, rest)
 }
 
-/// Paths in the code itself that begin in another module: `super::a::b`, `crate::a::b`, `child::f`.
+/// Paths in the code itself that begin in another module: `super::a::b`, `crate::a::b`, `child::f`; who may see a thing,
+/// `pub(in crate::a)`, is no use of it.
 fn paths(code: &str) -> Vec<String> {
     let is_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+    let code = code.replace("pub(in crate::", "pub(in ");
     code.split(|c| !is_path(c)).filter(|word| word.contains("::")).map(String::from).collect()
 }
 
@@ -191,7 +193,7 @@ fn circles_are_found_through_parents_and_names_that_were_handed_on() {
     let files = [
         ("lib", "pub use room::Thing;"),
         ("room", "mod inner;\nmod other;\npub use inner::Thing;\nfn f() { other::g() }"),
-        ("room::inner", "pub struct Thing;"),
+        ("room::inner", "pub struct Thing;\npub(in crate::room) fn h() {}"),
         ("room::other", "use crate::Thing;\npub fn g() {}"),
     ];
     let with = |path: &str, code: &str| {

@@ -160,16 +160,18 @@ impl ArmModel {
 
     /// The joint values of a record: in order, by the model's names, or by names that end in the joint's number.
     pub(crate) fn values(&self, record: &Record) -> Result<Vec<f64>, Error> {
-        let own = |k: usize| self.names.get(k - 1).cloned();
-        let names_of = |k| own(k).into_iter().chain(joint_names(k)).collect();
-        let names: Vec<Vec<String>> = (1..=self.arm.joints.len()).map(names_of).collect();
-        let names: Vec<Vec<&str>> =
-            names.iter().map(|n| n.iter().map(String::as_str).collect()).collect();
-        let columns: Vec<&'static [&'static str]> = vec![&["a joint"]; names.len()];
+        let numbered: Vec<Vec<String>> = (1..=self.arm.joints.len()).map(joint_names).collect();
+        let own: Vec<Vec<String>> = self.names.iter().map(|name| vec![name.clone()]).collect();
         if record.names.is_empty() {
+            let columns: Vec<&'static [&'static str]> = vec![&["a joint"]; numbered.len()];
             return record.numbers(&columns, "the robot");
         }
-        let value = |n: &Vec<&str>| match record.number_named(n) {
+        // a model that counts from another number than the file would give a joint the value of its neighbour
+        let by_own = self.names.iter().any(|name| record.number_named(&[name]).is_some());
+        let names = if by_own { own } else { numbered };
+        let value = |n: &Vec<String>| match record
+            .number_named(&n.iter().map(String::as_str).collect::<Vec<_>>())
+        {
             Some(x) if x.is_finite() => Ok(x),
             Some(x) => {
                 Err(record.refuse(format!("{x} is not a finite number"), "exclude the capture"))
