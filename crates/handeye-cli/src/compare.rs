@@ -20,8 +20,6 @@ use crate::{
     output,
 };
 
-/// Results that agree differ by chance alone; below this chance they do not agree.
-const LEAST_CHANCE: f64 = 0.01;
 /// Where a part may lie, m before the camera.
 const BEFORE_CAMERA: f64 = 0.5;
 /// With more results than this, pairs are too many to read.
@@ -74,6 +72,7 @@ struct Combined {
 #[derive(Serialize)]
 struct Answer {
     agree: Option<bool>,
+    odd_one_out: Option<PathBuf>,
     test: Option<Agreement>,
     setup: Setup,
     name: String,
@@ -153,7 +152,8 @@ fn answer(
     let mm = |p: &Vector3<f64>| InUnits::of(scatter_at(p, answers, &found.mean), 1e3);
     let rotation = scatter_of_rotation(answers, &found.mean);
     Answer {
-        agree: found.agreement.map(|a| a.p_value >= LEAST_CHANCE),
+        agree: found.agreement.map(|a| a.is_given()),
+        odd_one_out: found.odd_one_out.map(|k| paths[k].clone()),
         test: found.agreement,
         setup: first.setup,
         name: first.name.clone(),
@@ -220,9 +220,15 @@ fn sentence(a: &Answer) -> String {
         return "NOT TESTED  a result states no covariance, so nothing says how far they may differ"
             .into();
     };
-    let verdict = match a.agree {
-        Some(true) => "AGREE  the results differ no more than their covariances allow",
-        _ => "DISAGREE  the results differ by more than their covariances allow",
+    let verdict = match (a.agree, &a.odd_one_out) {
+        (Some(true), _) => "AGREE  the results differ no more than their covariances allow".into(),
+        (_, None) => {
+            let what = "DISAGREE  the results differ by more than their covariances allow;";
+            format!("{what}\n       the covariance of the combined one is as large as they spread")
+        }
+        (_, Some(odd)) => {
+            format!("DISAGREE  {} is the odd one out:\n       the others agree", shortened(odd))
+        }
     };
     format!(
         "{verdict}\n       chi-square {:.1} at {} degrees of freedom, {}",

@@ -2,7 +2,9 @@
 //!
 //! Each result is `Tᵢ = M exp(δᵢ)` with `δᵢ ~ N(0, Sᵢ)`. The mean `M` minimises
 //! `Q = Σ ξᵢᵀ Sᵢ⁻¹ ξᵢ` with `ξᵢ = log(M⁻¹ Tᵢ)`; results that agree within their covariances have a
-//! `Q` that follows chi-square with `6 (n - 1)` degrees of freedom.
+//! `Q` that follows chi-square with `6 (n - 1)` degrees of freedom. Where they do not, each states too small an error:
+//! the covariance of the mean is larger by `Q / (6 (n - 1))` then, as their spread says (R. Birge, Physical Review 40,
+//! 1932).
 //!
 //! T. Barfoot and P. Furgale, *Associating uncertainty with three-dimensional poses for use in
 //! estimation problems*, IEEE T-RO 30(3), 2014; W. Cochran, *The combination of estimates from
@@ -31,10 +33,12 @@ pub struct Repetition {
 pub struct Repeat {
     /// Mean, weighted by the inverse covariances; unweighted where one is missing.
     pub mean: Pose<Mount, Camera>,
-    /// Covariance of the mean as the results state it; `None` where one states none.
+    /// Covariance of the mean: as the results state it, or larger where they spread more; `None` where one states none.
     pub covariance: Option<Matrix6<f64>>,
     /// The test; `None` where a covariance is missing.
     pub agreement: Option<Agreement>,
+    /// Which result it is without which the others agree, where all of them do not.
+    pub odd_one_out: Option<usize>,
 }
 
 /// The chi-square test.
@@ -46,6 +50,13 @@ pub struct Agreement {
     pub degrees_of_freedom: usize,
     /// How often results that agree differ by as much or more.
     pub p_value: f64,
+}
+
+impl Agreement {
+    /// Whether they differ no more than by chance.
+    pub fn is_given(&self) -> bool {
+        self.p_value >= LEAST_CHANCE
+    }
 }
 
 /// Scatter about the mean.
@@ -62,6 +73,10 @@ pub struct Scatter {
     pub standard_deviation: f64,
 }
 
+/// Results that agree differ by chance alone; below this chance they do not agree.
+const LEAST_CHANCE: f64 = 0.01;
+/// Fewest results of which one can be the odd one.
+const FEWEST_FOR_ODD: usize = 3;
 /// Rounds of Gauss-Newton; nearby poses need three.
 const MOST_ROUNDS: usize = 50;
 /// A step shorter than this (rad, m) ends it.
@@ -78,13 +93,31 @@ pub fn repeat(results: &[Repetition]) -> Result<Repeat, Error> {
     }
     let Some(covariances) = results.iter().map(|r| r.covariance).collect::<Option<Vec<_>>>() else {
         let (mean, _) = mean(results, &vec![Matrix6::identity(); results.len()])?;
-        return Ok(Repeat { mean, covariance: None, agreement: None });
+        return Ok(Repeat { mean, covariance: None, agreement: None, odd_one_out: None });
     };
     let weights = covariances.iter().enumerate().map(|(k, s)| information(k, s));
     let weights = weights.collect::<Result<Vec<_>, _>>()?;
     let (mean, covariance) = mean(results, &weights)?;
-    let agreement = Some(agreement(results, &weights, &mean));
-    Ok(Repeat { mean, covariance: Some(covariance), agreement })
+    let test = agreement(results, &weights, &mean);
+    let spread = (test.chi_square / test.degrees_of_freedom as f64).max(1.0);
+    let odd_one_out = if test.is_given() { None } else { odd_one_out(results, &weights) };
+    let (covariance, agreement) = (Some(covariance * spread), Some(test));
+    Ok(Repeat { mean, covariance, agreement, odd_one_out })
+}
+
+/// The only one without which the others agree.
+fn odd_one_out(results: &[Repetition], weights: &[Matrix6<f64>]) -> Option<usize> {
+    if results.len() < FEWEST_FOR_ODD {
+        return None;
+    }
+    let agree_without = |k: &usize| {
+        let keep = |i: &usize| i != k;
+        let others: Vec<Repetition> = (0..results.len()).filter(keep).map(|i| results[i]).collect();
+        let weights: Vec<_> = (0..results.len()).filter(keep).map(|i| weights[i]).collect();
+        mean(&others, &weights).is_ok_and(|(m, _)| agreement(&others, &weights, &m).is_given())
+    };
+    let mut found = (0..results.len()).filter(agree_without);
+    found.next().filter(|_| found.next().is_none())
 }
 
 fn information(k: usize, covariance: &Matrix6<f64>) -> Result<Matrix6<f64>, Error> {
@@ -219,6 +252,40 @@ mod tests {
         let mut random = Random::new(4);
         let results: Vec<_> = (0..4).map(|_| noisy(&mut random, 3.0)).collect();
         assert!(repeat(&results).unwrap().agreement.unwrap().p_value < 1e-6);
+    }
+
+    #[test]
+    fn the_odd_one_out_is_named_where_the_others_agree() {
+        let mut random = Random::new(6);
+        let mut results: Vec<_> = (0..4).map(|_| noisy(&mut random, 1.0)).collect();
+        assert_eq!(repeat(&results).unwrap().odd_one_out, None);
+        let far =
+            results[2].mount_from_camera.retract(&Vector6::new(0.0, 0.0, 0.0, 0.01, 0.0, 0.0));
+        results[2].mount_from_camera = far;
+        assert_eq!(repeat(&results).unwrap().odd_one_out, Some(2));
+        // two against two, and two alone: nobody is
+        results[1].mount_from_camera = far;
+        assert_eq!(repeat(&results).unwrap().odd_one_out, None);
+        assert_eq!(
+            repeat(&results[1..2].iter().chain(&results[3..]).copied().collect::<Vec<_>>())
+                .unwrap()
+                .odd_one_out,
+            None
+        );
+    }
+
+    #[test]
+    fn results_that_spread_more_than_they_say_make_the_mean_as_uncertain() {
+        let mut random = Random::new(8);
+        let (mut squares, cells) = (0.0, 400);
+        for _ in 0..cells {
+            let results: Vec<_> = (0..8).map(|_| noisy(&mut random, 3.0)).collect();
+            let found = repeat(&results).unwrap();
+            let d = truth().local(&found.mean);
+            squares += d.dot(&(found.covariance.unwrap().try_inverse().unwrap() * d));
+        }
+        let mean = squares / (6.0 * f64::from(cells));
+        assert!((0.9..1.2).contains(&mean), "{mean}");
     }
 
     #[test]
