@@ -58,7 +58,7 @@ handeye_status handeye_closed_form(const char *setup, const char *method, size_t
                                    const double *camera_from_target, double mount_from_camera[16],
                                    double anchor_from_target[16], char **error);
 
-/* Poses of a robot that errs from place to place, corrected: `calibration_json` is a calibration.json whose data offer
+/* Poses of a robot whose error depends on its pose, corrected: `calibration_json` is a calibration.json whose data offer
  * that, `base_from_flange` `count` matrices. With `reported` 0 they are where the flange should be, computed with the
  * transform of the calibration, and `corrected` (`count` matrices) is where to send the robot; otherwise they are what
  * the robot reported, and `corrected` is where its flange was. `sigma_m` takes `count` standard deviations of the

@@ -60,7 +60,7 @@ pub enum Command {
     Compare(CompareArgs),
     /// Calibrate a tool tip (TCP position) from flange poses with the tip on one fixed point (pivot calibration).
     Tcp(TcpArgs),
-    /// Correct poses of a robot that errs by place, where a calibration has found how.
+    /// Correct robot poses for the pose-dependent robot error that a calibration has estimated.
     Compensate(Box<CompensateArgs>),
     /// Verify a calibration with touched points: distance between the tool tip and the camera's prediction.
     Verify(VerifyArgs),
@@ -243,17 +243,24 @@ pub struct TargetArgs {
 /// Arguments of `compare`.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  handeye compare monday/calibration.json tuesday/calibration.json\n\n\
+    after_help = "Examples:\n  handeye compare monday/calibration.json tuesday/calibration.json\n  handeye compare monday tuesday wednesday --out combined.json\n  handeye compare cell\n\n\
+Of one folder of captures, halves are calibrated and compared: every second capture, by place of the\n\
+robot, and in time.\n\n\
 Distances are from the combined result: `rms` is the root of their mean square, `max` the largest,\n\
 `std dev` the standard deviation of a single result (n - 1 in the denominator): the repeatability of\n\
 one calibration of this cell. In JSON: rms, max, axes, standard_deviation.\n\n\
+Where results differ by more than their covariances allow, the covariance of the combined one is as\n\
+large as their spread says.\n\n\
 Exit code 0: the results agree within their covariances (p >= 0.01); 3: they do not, or cannot\n\
 be tested because one states no covariance."
 )]
 pub struct CompareArgs {
-    /// The calibration.json of two or more results, or their folders; or poses that `import` wrote.
-    #[arg(required = true, num_args = 2..)]
+    /// The calibration.json of two or more results, or their folders; or poses that `import` wrote. Or one dataset.
+    #[arg(required = true, num_args = 1..)]
     pub results: Vec<PathBuf>,
+    /// Write the combined transform with its covariance as JSON, for `verify`, `export` and `view`.
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `detect`.
@@ -417,8 +424,8 @@ pub struct PosesArgs {
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  handeye compensate picks.csv --result result --notation kuka --direction base_from_flange\n  handeye compensate picks.csv -r result --notation ur --direction base_from_flange --out send.csv\n\n\
-POSES are where the flange should be, computed with the transform of the result; what is written is where\n\
-to send the robot. Exit code 0: corrected; 3: the result offers no correction."
+POSES are desired flange poses, computed with the transform of the result. Written are\n\
+the poses to command, so that the flange reaches the desired ones. Exit code 0: corrected; 3: the result offers no correction."
 )]
 pub struct CompensateArgs {
     /// The poses.
@@ -427,7 +434,7 @@ pub struct CompensateArgs {
     /// calibration.json, or the folder that holds it.
     #[arg(long, short)]
     pub result: PathBuf,
-    /// POSES are what the robot reported, such as those of new captures: write where its flange really was.
+    /// POSES are poses that the robot reported (such as those of new captures): write the true flange poses.
     #[arg(long)]
     pub reported: bool,
     /// File to write, in the notation of POSES [default: standard output].
@@ -483,9 +490,9 @@ pub struct VerifyArgs {
 #[command(
     after_help = "Examples:\n  handeye check cell/\n  handeye check cell/ --apply\n  handeye check cell.toml --root /data/cell --json\n\n\
 Reads the robot's numbers in every notation, unit and direction, in other orders, and with another\n\
-size of the target, and says which explains the captures best. --apply writes the corrected\n\
-manifest and keeps the old one as handeye.toml.bak: of the explanation that the data single out, or\n\
-of the one you choose by its number where they cannot (--apply=2).\n\n\
+size of the target, and says which explains the captures best. --apply writes the manifest\n\
+of the best explanation and keeps the old one as handeye.toml.bak; where several fit\n\
+equally well, choose one by its number (--apply=2).\n\n\
 Exit code 0: nothing is wrong; 3: something is."
 )]
 pub struct CheckArgs {

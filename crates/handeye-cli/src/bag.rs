@@ -55,7 +55,7 @@ pub struct BagArgs {
     /// Whether the robot stood still for its images.
     #[arg(long, value_enum, default_value_t)]
     pub motion: MotionArg,
-    /// Most images of a robot in motion.
+    /// Maximum number of images while the robot moves.
     #[arg(long, default_value_t = 150, value_parser = clap::value_parser!(u16).range(2..))]
     pub most: u16,
     /// Which time of a message counts: of its header, or of its recording.

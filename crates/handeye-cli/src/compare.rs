@@ -3,25 +3,25 @@
 use std::path::{Path, PathBuf};
 
 use handeye::{
-    Calibration, Camera, Mount, Pose, Setup,
+    Base, Calibration, Camera, Flange, Mount, Pose, Setup,
     calibrate::result,
     quaternion_xyzw,
     tools::repeat::{
         Agreement, Repeat, Repetition, Scatter, repeat, scatter_at, scatter_of_rotation,
     },
 };
-use handeye_io::read_result;
+use handeye_io::{read_result, write_atomically};
 use nalgebra::Vector3;
 use serde::Serialize;
+use serde_json::json;
 
 use crate::{
     args::{CompareArgs, Manners},
+    difference::{Difference, chance, difference, far},
     failure::Failure,
-    output,
+    halves, output,
 };
 
-/// Where a part may lie, m before the camera.
-const BEFORE_CAMERA: f64 = 0.5;
 /// With more results than this, pairs are too many to read.
 const MOST_IN_TABLE: usize = 6;
 
@@ -54,15 +54,6 @@ struct Spread {
     rotation_deg: InUnits,
 }
 
-/// One answer against the mean, or against another.
-#[derive(Serialize)]
-struct Difference {
-    results: Vec<PathBuf>,
-    camera_origin_mm: f64,
-    half_a_metre_before_camera_mm: f64,
-    rotation_deg: f64,
-}
-
 #[derive(Serialize)]
 struct Combined {
     mount_from_camera: Pose<Mount, Camera>,
@@ -83,6 +74,9 @@ struct Answer {
 }
 
 pub fn run(args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
+    if let [dataset] = &args.results[..] {
+        return halves::run(dataset, args.out.as_deref(), manners);
+    }
     let read = |path: &PathBuf| read_result(path).map_err(Failure::from);
     let results = args.results.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     check_twice(&args.results)?;
@@ -91,12 +85,29 @@ pub fn run(args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
     let answers = answers.collect::<Result<Vec<_>, _>>()?;
     let found = repeat(&answers)?;
     let answer = answer(&args.results, &results[0], &answers, &found);
+    if let Some(out) = &args.out {
+        write_combined(out, results[0].setup, &found)?;
+    }
     if manners.json {
         output::json(&answer);
     } else {
         output::print(&table(&answer, args.results.len()));
     }
     Ok(if answer.agree == Some(true) { 0 } else { 3 })
+}
+
+/// The combined transform as `import` writes one, with its covariance.
+fn write_combined(out: &Path, setup: Setup, found: &Repeat) -> Result<(), Failure> {
+    let iso = *found.mean.iso();
+    let pose = match setup {
+        Setup::EyeToHand => serde_json::to_value(Pose::<Base, Camera>::claim(iso)),
+        Setup::EyeInHand => serde_json::to_value(Pose::<Flange, Camera>::claim(iso)),
+    };
+    let mut pose = pose.map_err(|e| Failure::in_json(out, &e, "the combined transform"))?;
+    if let Some(covariance) = &found.covariance {
+        pose["covariance"] = json!(result::rows(covariance));
+    }
+    Ok(write_atomically(out, format!("{pose:#}\n").as_bytes())?)
 }
 
 fn check_twice(paths: &[PathBuf]) -> Result<(), Failure> {
@@ -136,10 +147,6 @@ fn repetition(path: &Path, result: &Calibration) -> Result<Repetition, Failure> 
     Ok(Repetition { mount_from_camera, covariance })
 }
 
-fn far() -> Vector3<f64> {
-    Vector3::new(0.0, 0.0, BEFORE_CAMERA)
-}
-
 fn answer(
     paths: &[PathBuf],
     first: &Calibration,
@@ -173,16 +180,6 @@ fn answer(
                 ..difference(&[], pose(a), pose(b))
             })
             .collect(),
-    }
-}
-
-fn difference(results: &[PathBuf], a: &Pose<Mount, Camera>, b: &Pose<Mount, Camera>) -> Difference {
-    let at = |pose: &Pose<Mount, Camera>| pose.rotation() * far() + pose.translation();
-    Difference {
-        results: results.to_vec(),
-        camera_origin_mm: 1e3 * a.distance_to(b),
-        half_a_metre_before_camera_mm: 1e3 * (at(a) - at(b)).norm(),
-        rotation_deg: a.angle_to(b).to_degrees(),
     }
 }
 
@@ -238,15 +235,6 @@ fn sentence(a: &Answer) -> String {
     )
 }
 
-/// `p = 0.42`: as many digits as tell something.
-fn chance(p: f64) -> String {
-    match p {
-        p if p < 1e-4 => "p < 0.0001".into(),
-        p if p < 0.1 => format!("p = {p:.4}"),
-        p => format!("p = {p:.2}"),
-    }
-}
-
 fn line(name: &str, s: &InUnits, digits: usize) -> String {
     let [x, y, z] = s.axes;
     format!(
@@ -270,16 +258,5 @@ fn shortened(path: &Path) -> String {
     match whole.len() > WIDTH {
         true => format!("..{}", whole[whole.len() - WIDTH + 2..].iter().collect::<String>()),
         false => whole.into_iter().collect(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::chance;
-
-    #[test]
-    fn a_chance_reads_like_a_number() {
-        let read = [1.0, 0.42, 0.0123, 1e-9].map(chance);
-        assert_eq!(read, ["p = 1.00", "p = 0.42", "p = 0.0123", "p < 0.0001"]);
     }
 }

@@ -23,7 +23,7 @@ folders of HALCON's poses.\n\
 Trajectories of robot and camera, lines of t x y z qx qy qz qw (s, m; apart by commas or blanks), and\n\
 KinHEC become JSON for `solve`. Name both files, or a folder with the two. Of their directions one must\n\
 be declared; the data prove the other.\n\
-Results become the camera's pose as JSON, for `verify`, `export`, `repeat` and `view`: easy_handeye,\n\
+Results become the camera's pose as JSON, for `verify`, `export`, `compare` and `view`: easy_handeye,\n\
 easy_handeye2, launch files of moveit_calibration and ROS 2, Zivid, OpenCV, HALCON, Mech-Mind.\n\
 Other folders: handeye init."
 )]
@@ -35,7 +35,7 @@ pub struct ImportArgs {
     /// Who carries the camera, where the files do not say it.
     #[arg(long, value_enum)]
     pub setup: Option<SetupArg>,
-    /// What poses take to what, where the files do not say it: base_from_flange (where the flange is),
+    /// Direction of the poses, where the files do not state it: base_from_flange (where the flange is),
     /// camera_from_target (what OpenCV's solvePnP gives), of a result flange_from_camera or
     /// base_from_camera; or the other way round.
     #[arg(long, value_delimiter = ',', value_name = "A_FROM_B")]

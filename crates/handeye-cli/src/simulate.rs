@@ -22,7 +22,7 @@ A folder is written over only if it holds nothing but an earlier simulation, une
 pub struct SimulateArgs {
     /// Folder for the dataset; it is made if need be.
     pub out: PathBuf,
-    /// Decides on everything random.
+    /// Random seed.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// Who carries the camera.
@@ -77,7 +77,7 @@ pub struct SimulateArgs {
     /// place of --robot-mm and --robot-deg.
     #[arg(long)]
     pub arm: bool,
-    /// Distance of robot and its reading in every pose (3-D RMS).
+    /// Robot position error, independent in every pose (3-D RMS).
     #[arg(long, default_value_t = 0.5)]
     pub robot_mm: f64,
     /// The same for rotations, about each axis.
@@ -129,7 +129,7 @@ pub struct SimulateArgs {
     /// Scans are shifted against images by this, along the camera's x.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub scan_shift_mm: f64,
-    /// No noise at all, of nothing.
+    /// No noise.
     #[arg(long)]
     pub exact: bool,
     /// Write scans as well.

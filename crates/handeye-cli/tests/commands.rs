@@ -309,6 +309,53 @@ fn results_agree_until_one_is_moved() {
 }
 
 #[test]
+fn the_odd_one_out_is_named_and_the_combined_result_is_a_result() {
+    let folder = Folder::new();
+    for (name, shift) in [("a.json", 0.0), ("b.json", 1.0), ("c.json", 2.0)] {
+        solved(&folder, name, shift);
+    }
+    let mut moved = solved(&folder, "d.json", 3.0);
+    let x = &mut moved["hand_eye"]["mount_from_camera"]["translation_m"][0];
+    *x = (x.as_f64().unwrap() + 0.01).into();
+    folder.put("d.json", &moved.to_string());
+    let all = ["a.json", "b.json", "c.json", "d.json"];
+    let run = handeye(&folder, &[&["compare"][..], &all, &["--json"]].concat());
+    assert_eq!((run.code, &run.json()["odd_one_out"]), (3, &Value::from("d.json")));
+    let told = handeye(&folder, &[&["compare"][..], &all].concat());
+    assert!(told.stdout.contains("DISAGREE  d.json is the odd one out"), "{}", told.stdout);
+    let args = [&["compare"][..], &all[..3], &["--out", "combined.json", "--json"]].concat();
+    let run = handeye(&folder, &args);
+    assert_eq!((run.code, &run.json()["odd_one_out"]), (0, &Value::Null));
+    // with its covariance, it is compared as any other result
+    let again = handeye(&folder, &["compare", "combined.json", "a.json", "--json"]);
+    assert_eq!((again.code, &again.json()["agree"]), (0, &Value::Bool(true)));
+    assert!(again.json()["test"]["p_value"].as_f64().unwrap() > 0.01);
+    let alone = handeye(&folder, &["compare", "a.json"]);
+    assert_eq!(alone.code, 1);
+    let error = alone.error();
+    assert!(error.starts_with("a.json: is one result; name another one, or the folder"), "{error}");
+}
+
+#[test]
+fn halves_of_one_dataset_are_compared() {
+    let folder = Folder::new();
+    let args = ["simulate", "cell", "--captures", "24", "--no-images", "--seed", "2", "--quiet"];
+    assert_eq!(handeye(&folder, &args).code, 0);
+    let run = handeye(&folder, &["compare", "cell", "--json"]);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    let found = run.json();
+    let ways: Vec<&str> =
+        (0..3).map(|k| found["halves"][k]["division"].as_str().unwrap()).collect();
+    assert_eq!(ways, ["alternating", "by-place", "in-time"]);
+    assert_eq!(found["captures"], 24);
+    let run = handeye(&folder, &["compare", "cell"]);
+    assert!(run.stdout.contains("AGREE  halves of the captures"), "{}", run.stdout);
+    assert!(run.stdout.lines().all(|line| line.chars().count() <= 80), "{}", run.stdout);
+    let run = handeye(&folder, &["compare", "cell", "--out", "x.json"]);
+    assert_eq!(run.code, 2, "{}", run.stderr);
+}
+
+#[test]
 fn results_that_cannot_be_compared_are_refused() {
     let folder = Folder::new();
     let mut result = solved(&folder, "a.json", 0.0);

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use handeye::{Base, Calibration, Camera, Flange, Pose, Setup, unjudged};
-use serde::de::DeserializeOwned;
+use handeye::{Base, Calibration, Camera, Flange, Pose, Setup, calibrate::result::Rows, unjudged};
+use serde::{Deserialize, de::DeserializeOwned};
 use serde_json::Value;
 
 use crate::{
@@ -13,7 +13,8 @@ use crate::{
 };
 
 /// Reads a calibration.json, by its name or by that of the folder that holds it, or the pose of the camera on the flange
-/// or in the base as JSON. A pose has no data to be judged by: its calibration is [`Calibration::is_unjudged`], without any covariance.
+/// or in the base as JSON. A pose has no data to be judged by: its calibration is [`Calibration::is_unjudged`], with the
+/// covariance that stands beside it (`covariance`, 6 x 6), if any does.
 ///
 /// # Errors
 /// What cannot be read, or is neither; with the line.
@@ -22,20 +23,31 @@ pub fn read_result(path: &Path) -> Result<Calibration, Error> {
     let path = if in_folder.is_file() { &in_folder } else { path };
     let text = files::text(path)?;
     match serde_json::from_str::<Value>(&text) {
-        Ok(value) if value.get("translation_m").is_some() => pose(&text, &value, path),
+        Ok(value) if value.get("translation_m").is_some() => pose(&text, value, path),
         _ => read(&text, "is no calibration.json of handeye: ", path),
     }
 }
 
-fn pose(text: &str, value: &Value, path: &Path) -> Result<Calibration, Error> {
+/// What may stand beside a pose.
+#[derive(Deserialize)]
+struct Beside {
+    #[serde(default)]
+    covariance: Option<Rows>,
+}
+
+fn pose(text: &str, mut value: Value, path: &Path) -> Result<Calibration, Error> {
+    let Beside { covariance } = read(text, "", path)?;
+    let is_beside = value.as_object_mut().and_then(|keys| keys.remove("covariance")).is_some();
+    let without = is_beside.then(|| value.to_string());
+    let text = without.as_deref().unwrap_or(text);
     match value.get("to").and_then(Value::as_str) {
         Some(to) if to == Setup::EyeToHand.mount() => {
             let pose: Pose<Base, Camera> = read(text, "", path)?;
-            Ok(unjudged(Setup::EyeToHand, Pose::claim(*pose.iso())))
+            Ok(unjudged(Setup::EyeToHand, Pose::claim(*pose.iso()), covariance))
         }
         Some(to) if to == Setup::EyeInHand.mount() => {
             let pose: Pose<Flange, Camera> = read(text, "", path)?;
-            Ok(unjudged(Setup::EyeInHand, Pose::claim(*pose.iso())))
+            Ok(unjudged(Setup::EyeInHand, Pose::claim(*pose.iso()), covariance))
         }
         _ => {
             let what = "is a pose that does not say whose: \"to\" must be \"flange\" (the robot carries the camera) \

@@ -64,7 +64,7 @@ fn from_json(path: &Path) -> Result<Vec<TouchedPoint>, Error> {
         let place = Place { line: Some(e.line()), ..Place::file(path) };
         let what = e.to_string();
         let what = what.split(" at line ").next().unwrap_or(&what).to_owned();
-        malformed(place, what, "see the section on testing in CONVENTIONS.md")
+        malformed(place, what, "see \"For verify\" in the chapter on touches of the book")
     })?;
     let point = |(k, t): (usize, JsonTouch)| {
         let id = t.id.unwrap_or((k + 1).to_string());

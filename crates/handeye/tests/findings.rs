@@ -13,7 +13,7 @@ use handeye::{
 };
 
 fn result(verdict: Verdict, warnings: &[(&str, &str)], reasons: &[&str]) -> Calibration {
-    let mut result = unjudged(Setup::EyeInHand, Pose::identity());
+    let mut result = unjudged(Setup::EyeInHand, Pose::identity(), None);
     result.verdict = verdict;
     result.warnings = warnings.iter().map(|(c, m)| Warning::new(c, *m)).collect();
     result.reasons = reasons.iter().map(|r| (*r).to_owned()).collect();

@@ -191,7 +191,10 @@ fn with_its_own(
 ) -> (Verdict, Vec<String>) {
     match own_verdict(c) {
         Some(own) if verdict == Verdict::Accepted => {
-            reasons.insert(0, format!("{own}: touches that agree with it do not pass it"));
+            reasons.insert(
+                0,
+                format!("{own}: touches that agree do not replace an accepted calibration"),
+            );
             (Verdict::Undetermined, reasons)
         }
         _ => (verdict, reasons),
@@ -200,8 +203,8 @@ fn with_its_own(
 
 fn of_its_own(c: &Calibration) -> Option<Warning> {
     if c.is_unjudged() {
-        let message = "it is a pose from elsewhere, without data to judge it by: the touches alone decide, and only \
-                       for where they were";
+        let message = "this pose was imported without calibration data: the touches alone test it, and only near the \
+                       touched points";
         return Some(Warning::new("not-judged", message));
     }
     let message =

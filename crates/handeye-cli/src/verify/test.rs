@@ -17,19 +17,12 @@ use crate::{
     progress::Progress,
 };
 
-/// What the robot's own error adds, as the calibration found it: rad and m, each axis.
-fn robot_sigma(calibration: &Calibration) -> (f64, f64) {
-    let of = |name: &str| calibration.error_budget.iter().find(|b| b.source == name);
-    let rotation = of("robot rotation").and_then(|b| b.sigma_deg).unwrap_or(0.0).to_radians();
-    (rotation, of("robot position").and_then(|b| b.sigma_mm).unwrap_or(0.0) * 1e-3)
-}
-
 /// What the robot's position misses from place to place, m, each axis: by the error of its reports, or by errors that it
 /// does not know of, of its arm or by place.
 fn place_sigma(calibration: &Calibration) -> f64 {
     let tre = calibration.predicted_tre_mm.as_ref().map_or(0.0, |tre| tre.rms * 1e-3);
-    let errs = [result::WITH_ARM, result::BY_PLACE].contains(&calibration.method.as_str());
-    robot_sigma(calibration).1.max(if errs { tre / 3.0f64.sqrt() } else { 0.0 })
+    let missed = calibration.robot_errors().map_or(0.0, |_| tre / 3.0f64.sqrt());
+    calibration.robot_noise().distance.max(missed)
 }
 
 /// The test of a calibration, and what to know about its touches.
@@ -142,7 +135,8 @@ fn shared_flange(
 }
 
 fn robot_covariance(calibration: &Calibration) -> Matrix6<f64> {
-    let (r, t) = robot_sigma(calibration);
+    let noise = calibration.robot_noise();
+    let (r, t) = (noise.angle, noise.distance);
     let (r, t) = (r * r, t * t);
     Matrix6::from_diagonal(&Vector6::new(r, r, r, t, t, t))
 }
@@ -167,7 +161,7 @@ fn from_dataset(
     drop(progress);
     let warnings = touches::each_once(&mut session.touches);
     if let Some(sigma) = dataset.noise.touch {
-        test.touch_sigma = sigma.hypot(robot_sigma(calibration).1);
+        test.touch_sigma = sigma.hypot(calibration.robot_noise().distance);
     }
     test.touches = session
         .touches

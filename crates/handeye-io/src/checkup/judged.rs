@@ -6,25 +6,34 @@ use std::cell::OnceCell;
 use handeye::{
     Calibration, Config, Session, Verdict, calibrate,
     calibrate::{findings, result::JudgedFinding},
-    findings::severity::{self, Severity},
+    findings::{
+        Finding, TouchFinding,
+        severity::{self, Severity},
+    },
 };
 
 use super::Explanation;
 use crate::{Dataset, calibrate::configured};
 
-/// Findings of a calibration that are about its touches, and what to do where no key of the manifest corrects them.
-const ABOUT_TOUCHES: [(&str, &str); 4] = [
-    (
-        "touches-misread",
-        "correct the ids, the units or the placements of [touches], and check again",
-    ),
-    ("tip-off", "calibrate the tool again (`handeye tcp`), or correct the ids of the touches"),
-    ("touch-rejected", "correct the id of that touch, touch the corner again, or remove the line"),
-    (
-        "views-and-touches-disagree",
-        "check placements and frame of the touches; touch where the robot works",
-    ),
-];
+/// What to do about a finding that is about the touches; no key of the manifest corrects it.
+fn by_hand(finding: &Finding) -> Option<&'static str> {
+    let Finding::Touches(finding) = finding else { return None };
+    match finding {
+        TouchFinding::Misread { .. } => {
+            Some("correct the ids, the units or the placements of [touches], and check again")
+        }
+        TouchFinding::TipOff { .. } => {
+            Some("calibrate the tool again (`handeye tcp`), or correct the ids of the touches")
+        }
+        TouchFinding::Outlier { .. } | TouchFinding::Misplaced { .. } => {
+            Some("correct the id of that touch, touch the corner again, or remove the line")
+        }
+        TouchFinding::ViewsDisagree { .. } => {
+            Some("check placements and frame of the touches; touch where the robot works")
+        }
+        _ => None,
+    }
+}
 
 /// The code of a reason that has none of its own.
 const REJECTED: &str = "rejected";
@@ -55,9 +64,10 @@ impl<'a> Judged<'a> {
             return vec![];
         }
         let explained = |warning: &handeye::Warning| {
-            let (code, by_hand) = ABOUT_TOUCHES.iter().find(|(code, _)| *code == warning.code)?;
-            let by_hand = Some((*by_hand).to_owned());
-            Some(Explanation { by_hand, ..Explanation::new(code, warning.message.clone(), vec![]) })
+            let finding = warning.finding.as_deref()?;
+            let by_hand = Some(by_hand(finding)?.to_owned());
+            let own = Explanation::new(finding.code(), warning.message.clone(), vec![]);
+            Some(Explanation { by_hand, ..own })
         };
         let warnings = self.calibration().map_or(&[][..], |result| &result.warnings);
         warnings.iter().filter_map(explained).collect()

@@ -58,7 +58,7 @@ pub(super) fn correction(c: &Calibration) -> String {
         Err(why) => format!("No correction is offered: {}.", escape(&why)),
     };
     let content = format!(
-        "<p>This robot errs from place to place. What its error is at a place was tried out on captures that were \
+        "<p>This robot's error depends on its pose. What its error is at a place was tried out on captures that were \
          left out in blocks. {offer}</p><table><tr><th class=\"words\">captures left out</th><th>error with the \
          transform alone</th><th>error with poses corrected</th><th></th></tr>{rows}</table><p class=\"note\">mm, root mean square \
          over the points of the target.</p>"

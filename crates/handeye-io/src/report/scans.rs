@@ -87,8 +87,8 @@ pub(super) fn scans(c: &Calibration) -> String {
 
 fn colour_step(step: &ColourStepResult) -> String {
     let used = if step.applied {
-        "It was taken off the points on black. Which colour is right, a flat board cannot tell; \
-         white is taken to be."
+        "It was taken off the points on black. A flat board cannot tell which colour is right; \
+         white is the reference."
     } else {
         "That is not more than noise; nothing was taken off."
     };

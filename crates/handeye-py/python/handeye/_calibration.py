@@ -206,7 +206,7 @@ class Calibration:
         return path
 
     def compensate(self, base_from_flange: Any, *, reported: bool = False) -> List[Corrected]:
-        """Corrects poses (N x 4 x 4, or ``Pose`` objects; m) of a robot that errs from place to place.
+        """Corrects poses (N x 4 x 4, or ``Pose`` objects; m) of a robot whose error depends on its pose.
 
         Poses are where the flange should be, computed with the transform of this calibration: what comes back is
         where to send the robot. With ``reported``, they are what the robot reported: what comes back is where its

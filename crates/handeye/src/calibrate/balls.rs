@@ -12,7 +12,7 @@ use super::{
 use crate::{
     Camera, Mount, Observation, Pose, PosePair,
     calibrate::{
-        evidence::{Choice, Evidence},
+        evidence::{Choice, Evidence, RestsOn},
         limits::FEW,
         notes::Notes,
         result::{Answer, BudgetEntry, Candidate, CaptureResult, PoseCovariance, rows},
@@ -186,7 +186,8 @@ fn chosen(
         note: None,
     };
     let choice = Choice {
-        name: METHOD.into(),
+        name: Some(METHOD.into()),
+        rests_on: RestsOn::Views,
         why: "centres of a ball have one answer: the camera that puts them all at one place".into(),
         hand_eye,
         predicted_tre_mm: tre,

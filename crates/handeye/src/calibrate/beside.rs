@@ -63,13 +63,12 @@ impl Calibration {
         Self { warnings, undetermined: vec![], ..self }.rejected_for(vec![mistake])
     }
 
-    /// With the mistake that explains why there is no answer as the first reason. Reasons that follow from it are
-    /// dropped: all of them, where `nothing_seen`.
+    /// With the mistake that explains why there is no answer as the first reason. Where `nothing_seen`, or nothing could be
+    /// computed, the other reasons follow from it, and are dropped.
     pub fn explained_by(self, mistake: String, nothing_seen: bool) -> Self {
-        // what nothing can be determined from is no reason of its own
-        let follows = |reason: &&String| nothing_seen || mistake.starts_with(reason.as_str());
-        let rest = self.reasons.iter().filter(|reason| !follows(reason)).cloned();
-        let reasons = std::iter::once(mistake.clone()).chain(rest).collect();
+        let follow = nothing_seen || self.chosen.is_none();
+        let rest = if follow { vec![] } else { self.reasons.clone() };
+        let reasons = std::iter::once(mistake).chain(rest).collect();
         Self { reasons, ..self }.recorded()
     }
 

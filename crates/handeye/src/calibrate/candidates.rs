@@ -24,9 +24,9 @@ use crate::{
         answers::{as_fitted, blocks, excess, stated_covariance, stored},
         candidates::judge::{Judge, Judged},
         config::Config,
-        evidence::{Choice, Evidence},
+        evidence::{Choice, Evidence, RestsOn},
         notes::Notes,
-        result::{BY_PLACE, Candidate, Determined, TouchResult, WITH_ARM},
+        result::{Candidate, Determined, RobotErrorKind, TouchResult},
         unknown::{self, Task},
         views::{self, Views, camera_in_words, pairs_of},
     },
@@ -88,6 +88,8 @@ fn fuse(
     mut evidence: Evidence,
 ) -> (Evidence, Option<JointFit>) {
     let config = task.config;
+    // touches go two ways: as pairs of points for the two-step refinement and what is reported of each touch (with the tip as
+    // declared), and as boards whose corners were touched for the fit (which may find another tip)
     let (paired, unseen) = captures::pair_touches(views, fit);
     let (boards, trusted, wrong) = right_touches(views, &paired, optics, (problem, fit));
     let joint = joint::fit(views, &boards, &problem.extras, fit, &config.known);
@@ -99,19 +101,13 @@ fn fuse(
     let robot = Robot::look(views, (whole, best), touched, volume, config);
     let of_joint = |j: &joint::Joint| j.findings(views, robot.explains_tip());
     let (tip, of_touches) = joint.as_ref().map(of_joint).unwrap_or_default();
-    let notes = &mut evidence.notes;
-    notes.add(unseen.then(wrong).then(of_touches));
+    evidence.notes.add(unseen.then(wrong).then(of_touches));
     let as_declared = joint.as_ref().map_or(*as_declared, |j| j.as_declared);
-    if !notes.rejects
-        && let Some((scale, said)) =
-            size::judge(views, (fit, best), (1.0 + optics.size, as_declared.size), task)
-    {
-        evidence.target_scale = Some(scale);
-        notes.add(said);
-    }
+    let of_size = (1.0 + optics.size, as_declared.size);
+    let mut evidence = with_size(evidence, views, (fit, best), of_size, task);
     let (determined, open) = name_free(views, fit, best);
-    notes.add(open);
-    notes.add(Notes::of(known_position::judge(whole, best, views, &config.known)));
+    let known = Notes::of(known_position::judge(whole, best, views, &config.known));
+    evidence.notes.add(open.then(known));
     let without = (whole, best);
     let (whole, best) = robot.best(without);
     let refined = optics.refined(views.session, best, as_declared);
@@ -140,11 +136,30 @@ fn fuse(
         paired: &trusted,
         known: config.known,
         workpiece: &workpiece,
-        of_robot: robot.name(),
+        of_robot: robot.errors(),
     };
     let evidence = compare(&judge, (fit, joint.as_ref()), (volume, &paired), task, evidence);
-    let rests_on_arm = evidence.choice.as_ref().is_some_and(|c| c.name == WITH_ARM);
+    let with_arm = RestsOn::BothFor(RobotErrorKind::OfArm);
+    let rests_on_arm = evidence.choice.as_ref().is_some_and(|c| c.rests_on == with_arm);
     (evidence, rests_on_arm.then_some(robot).and_then(Robot::into_fit_of_arm))
+}
+
+/// With what views and touches say of the target's size, unless the answer is rejected anyway.
+fn with_size(
+    mut evidence: Evidence,
+    views: &Views,
+    fits: (&JointFit, &JointFit),
+    declared: (f64, f64),
+    task: &Task,
+) -> Evidence {
+    if evidence.notes.rejects {
+        return evidence;
+    }
+    if let Some((scale, said)) = size::judge(views, fits, declared, task) {
+        evidence.target_scale = Some(scale);
+        evidence.notes.add(said);
+    }
+    evidence
 }
 
 /// Makes all candidates and chooses one; a method asked for by name is judged alone.
@@ -296,7 +311,7 @@ impl Judge<'_> {
             predicted_tre_mm: tre.as_ref().map(|t| t.rms),
             note: None,
         };
-        Judged { candidate, tre, held_out: left_out }
+        Judged { rests_on: RestsOn::Views, candidate, tre, held_out: left_out }
     }
 
     /// The same beside that for the target.
@@ -325,18 +340,18 @@ impl Judge<'_> {
             predicted_tre_mm: tre.as_ref().map(|t| t.rms),
             note: joint.note(),
         };
-        Some(Judged { candidate, tre, held_out: left_out })
+        Some(Judged { rests_on: RestsOn::Both, candidate, tre, held_out: left_out })
     }
 }
 
 impl Judge<'_> {
     /// The answer that does best for a robot that errs by its arm or by place, and does not know.
     fn robot_candidate(&self, fit: &JointFit) -> Option<Judged> {
-        let (name, (x, covariance)) = self.of_robot.zip(self.workpiece.rigid())?;
-        let note = match (name == BY_PLACE, self.paired.is_empty()) {
-            (false, _) => NOTE_WITH_ARM,
-            (true, true) => NOTE_BY_PLACE,
-            (true, false) => NOTE_BY_PLACE_TOUCHED,
+        let (errors, (x, covariance)) = self.of_robot.zip(self.workpiece.rigid())?;
+        let note = match (errors, self.paired.is_empty()) {
+            (RobotErrorKind::OfArm, _) => NOTE_WITH_ARM,
+            (RobotErrorKind::ByPlace, true) => NOTE_BY_PLACE,
+            (RobotErrorKind::ByPlace, false) => NOTE_BY_PLACE_TOUCHED,
         };
         let views = self.views;
         let tre = self.workpiece.tre(&x);
@@ -345,16 +360,17 @@ impl Judge<'_> {
         let missed = evaluate::rms(&held_out);
         let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
         let candidate = Candidate {
-            name: name.into(),
+            name: errors.candidate().into(),
             hand_eye: stored_registration(views, fit, &placed, Some(&covariance)),
             in_sample: evaluate::in_sample(&placed, &views.views),
             held_out: missed,
             touch_rms_mm: touch_rms,
-            held_out_mm: touch_rms.or(missed.translation_rms_mm),
+            // no touch was left out of it
+            held_out_mm: if touch_rms.is_some() { None } else { missed.translation_rms_mm },
             predicted_tre_mm: tre.as_ref().map(|t| t.rms),
             note: Some(note.into()),
         };
-        Some(Judged { candidate, tre, held_out })
+        Some(Judged { rests_on: RestsOn::BothFor(errors), candidate, tre, held_out })
     }
 }
 
@@ -371,7 +387,8 @@ fn choose(candidates: &[Judged], volume: &Volume, config: &Config) -> Option<(Ch
     let best = candidates.iter().filter(|c| c.tre.is_some()).min_by(|a, b| by_prediction(a, b));
     let best = best.or(candidates.last())?;
     let choice = Choice {
-        name: best.candidate.name.clone(),
+        name: Some(best.candidate.name.clone()),
+        rests_on: best.rests_on,
         why: why(best, candidates, volume, config),
         hand_eye: best.candidate.hand_eye,
         predicted_tre_mm: best.tre.clone(),
@@ -413,10 +430,11 @@ fn touches_at(
     joint: Option<&Joint>,
 ) -> Vec<TouchResult> {
     let Some(x) = choice.hand_eye.mount_from_camera else { return vec![] };
-    let (registered, fused) =
-        (choice.name.starts_with("two-step"), choice.name.starts_with("joint"));
-    let trusted = |touch: usize| judge.paired.iter().any(|p| p.touch == touch);
-    let taken = |touch: usize| joint.is_some_and(|j| j.used.contains(&touch));
+    let is_used = |touch: usize| match choice.rests_on {
+        RestsOn::Views => false,
+        RestsOn::Both | RestsOn::BothFor(_) => joint.is_some_and(|j| j.used.contains(&touch)),
+        RestsOn::Touches => judge.paired.iter().any(|p| p.touch == touch),
+    };
     let one = |p: &TouchPairs| {
         let difference_mm = touches::touch_error(p, &x) * 1e3;
         TouchResult {
@@ -424,7 +442,7 @@ fn touches_at(
             corner: judge.views.session.touches[p.touch].corner,
             residual_mm: difference_mm.norm(),
             difference_mm,
-            used: registered && trusted(p.touch) || fused && taken(p.touch),
+            used: is_used(p.touch),
         }
     };
     paired.iter().map(one).collect()

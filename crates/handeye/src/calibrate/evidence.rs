@@ -6,7 +6,8 @@ use crate::{
         notes::Notes,
         result::{
             Advice, Answer, ArmResult, BudgetEntry, CameraResult, Candidate, CaptureResult,
-            CompensationResult, DepthResult, Determined, Scale, TipResult, TouchResult, UNJUDGED,
+            CompensationResult, DepthResult, Determined, PoseCovariance, RobotErrorKind, Rows,
+            Scale, TipResult, TouchResult, UNJUDGED,
         },
         views,
     },
@@ -67,11 +68,27 @@ pub(super) struct Evidence {
     pub compensation: Option<CompensationResult>,
 }
 
+/// What a candidate is fitted to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum RestsOn {
+    /// Views, or whatever else is all that there is.
+    #[default]
+    Views,
+    /// Views and touches, by the joint fit.
+    Both,
+    /// The same, for a robot with errors beside noise.
+    BothFor(RobotErrorKind),
+    /// Registered touches.
+    Touches,
+}
+
 /// The answer that was chosen among the candidates.
 #[derive(Clone, Default)]
 pub(super) struct Choice {
-    /// Name of the candidate.
-    pub name: String,
+    /// Name of the candidate; `None` where there was none.
+    pub name: Option<String>,
+    /// What it is fitted to.
+    pub rests_on: RestsOn,
     /// Why it was chosen.
     pub why: String,
     /// The answer as stored.
@@ -139,16 +156,15 @@ impl Evidence {
             undetermined.push(TIME_OFFSET.into());
         }
         let choice = self.choice.unwrap_or_default();
-        let chosen = (!choice.name.is_empty()).then(|| choice.name.clone());
         Calibration {
             format: FORMAT.into(),
             setup,
             verdict,
             reasons,
-            method: choice.name,
+            method: choice.name.clone().unwrap_or_default(),
             hand_eye: choice.hand_eye,
             name: format!("{}_from_camera", setup.mount()),
-            chosen,
+            chosen: choice.name,
             why: choice.why,
             candidates: self.candidates,
             predicted_tre_mm: choice.predicted_tre_mm,
@@ -184,8 +200,16 @@ impl Evidence {
 }
 
 /// A pose of the camera that comes from elsewhere: nothing was measured here, and nothing is said of its error.
-pub fn unjudged(setup: Setup, mount_from_camera: Pose<Mount, Camera>) -> Calibration {
-    let hand_eye = Answer { mount_from_camera: Some(mount_from_camera), ..Answer::default() };
+pub fn unjudged(
+    setup: Setup,
+    mount_from_camera: Pose<Mount, Camera>,
+    covariance: Option<Rows>,
+) -> Calibration {
+    let hand_eye = Answer {
+        mount_from_camera: Some(mount_from_camera),
+        covariance: PoseCovariance { mount_from_camera: covariance, ..Default::default() },
+        ..Answer::default()
+    };
     Calibration {
         hand_eye,
         method: UNJUDGED.into(),

@@ -200,7 +200,7 @@ fn from_views(
             optics::look(given, &views, &found.hand_eye, optics, task.config)
     {
         let again = from_views(given, (&moved, &next, round + 1), task);
-        if again.choice.as_ref().is_some_and(|c| !c.name.is_empty()) {
+        if again.choice.as_ref().is_some_and(|c| c.name.is_some()) {
             return again;
         }
     }
@@ -212,7 +212,7 @@ fn from_views(
         && let Some((moved, next)) = with_arm.and_then(|fit| optics.moved_by(given, &fit))
     {
         let again = from_views(given, (&moved, &next, OPTICS_ROUNDS + 1), task);
-        if again.choice.as_ref().is_some_and(|c| !c.name.is_empty()) {
+        if again.choice.as_ref().is_some_and(|c| c.name.is_some()) {
             return again;
         }
     }

@@ -6,7 +6,7 @@ use super::workpiece::workspace_volume;
 use crate::{
     Camera, Error, Mount, Pose,
     calibrate::{
-        evidence::{Choice, Evidence},
+        evidence::{Choice, Evidence, RestsOn},
         notes::Notes,
         result::{Answer, Candidate, PoseCovariance, rows},
     },
@@ -44,7 +44,8 @@ pub(super) fn from_points(session: &Session) -> Evidence {
     }
     let candidate = candidate(&found, held_out, tre.as_ref().map(|t| t.rms));
     let choice = Choice {
-        name: candidate.name.clone(),
+        name: Some(candidate.name.clone()),
+        rests_on: RestsOn::Touches,
         why: "point pairs alone have one answer: their rigid registration".into(),
         hand_eye: candidate.hand_eye,
         predicted_tre_mm: tre,

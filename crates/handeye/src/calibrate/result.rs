@@ -10,13 +10,17 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Anchor, Base, Camera, Flange, Intrinsics, Mount, Pose, Setup, Target, Verdict, Warning,
     estimate::{
+        Source,
         certify::Certificate,
         compensation::Compensation,
         evaluate::{Diversity, RmsResidual},
         predict::PredictedTre,
     },
     findings::{movement::Movement, severity::Severity},
-    model::kinematics::{Arm, Parameter},
+    model::{
+        kinematics::{Arm, Parameter},
+        residual::Residual,
+    },
 };
 
 pub use scans::{
@@ -72,7 +76,8 @@ pub struct Candidate {
     /// RMS distance of touches to its prediction, including touches it was made from; of `joint` with the tool tip that
     /// was found, of all others with the tip as the robot knows it.
     pub touch_rms_mm: Option<f64>,
-    /// The error on what it has not seen: touches where there are any, captures otherwise.
+    /// The error on what it has not seen: touches where there are any, captures otherwise; `None` where no touch was left
+    /// out.
     pub held_out_mm: Option<f64>,
     /// Predicted error (rms) where the answer will be used.
     pub predicted_tre_mm: Option<f64>,
@@ -319,11 +324,26 @@ pub struct BlockGain {
     pub corrected_mm: f64,
 }
 
-/// Name of the candidate that knows of the arm's deviations.
-pub const WITH_ARM: &str = "joint-with-arm";
+/// Errors of the robot, beside noise, that an answer is made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RobotErrorKind {
+    /// The arm deviates from its model.
+    OfArm,
+    /// They belong to the place where the robot is.
+    ByPlace,
+}
 
-/// Name of the candidate that is made for a robot that errs by place.
-pub const BY_PLACE: &str = "joint-by-place";
+impl RobotErrorKind {
+    const ALL: [Self; 2] = [Self::OfArm, Self::ByPlace];
+
+    /// Name of the candidate that is made for them.
+    pub fn candidate(self) -> &'static str {
+        match self {
+            Self::OfArm => "joint-with-arm",
+            Self::ByPlace => "joint-by-place",
+        }
+    }
+}
 
 /// A finished calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -429,6 +449,19 @@ impl Calibration {
         self.method == UNJUDGED
     }
 
+    /// Errors of the robot, beside noise, that the answer is made for.
+    pub fn robot_errors(&self) -> Option<RobotErrorKind> {
+        RobotErrorKind::ALL.into_iter().find(|errors| errors.candidate() == self.method)
+    }
+
+    /// Standard deviation of the robot's reports, each axis, as it was estimated; zero where it was not.
+    pub fn robot_noise(&self) -> Residual {
+        let of = |source: Source| self.error_budget.iter().find(|b| b.source == source.name());
+        let rotation = of(Source::RobotRotation).and_then(|b| b.sigma_deg);
+        let position = of(Source::RobotPosition).and_then(|b| b.sigma_mm);
+        Residual::of(rotation.unwrap_or(0.0), position.unwrap_or(0.0))
+    }
+
     /// What corrects the robot's poses by place; where there is nothing of the kind, why not, in a sentence.
     ///
     /// # Errors
@@ -439,7 +472,7 @@ impl Calibration {
             return Err("this calibration is not accepted: nothing is corrected with it".into());
         }
         let found = self.compensation.as_ref().ok_or(
-            "the data of this calibration do not show that the robot errs by place: there is nothing to correct",
+            "the data of this calibration do not show a robot error that depends on the pose: there is nothing to correct",
         )?;
         let (place, time) = (&found.by_place, &found.by_time);
         let answer = self.hand_eye.mount_from_camera;

@@ -14,7 +14,7 @@ use crate::{
     calibrate::{
         config::Config,
         notes::Notes,
-        result::{ArmResult, BY_PLACE, CompensationResult, WITH_ARM},
+        result::{ArmResult, CompensationResult, RobotErrorKind},
         views::Views,
     },
     estimate::{JointFit, Problem, predict::Volume},
@@ -74,10 +74,10 @@ impl Robot {
         of_arm.or(self.place.as_ref().map(|p| p as &dyn Reach))
     }
 
-    /// The name of the candidate that allows for its errors.
-    pub(super) fn name(&self) -> Option<&'static str> {
-        let of_place = self.place.is_some().then_some(BY_PLACE);
-        if self.reach.is_some() { Some(WITH_ARM) } else { of_place }
+    /// Errors that a candidate is made for.
+    pub(super) fn errors(&self) -> Option<RobotErrorKind> {
+        let of_place = self.place.is_some().then_some(RobotErrorKind::ByPlace);
+        if self.reach.is_some() { Some(RobotErrorKind::OfArm) } else { of_place }
     }
 
     /// What is found of it.

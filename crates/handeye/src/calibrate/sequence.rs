@@ -101,7 +101,7 @@ pub(super) fn with_drift(
     if !bare || task.config.method.is_some() || plain.warnings.iter().any(is_no_drift) {
         return Ok(None);
     }
-    let session = in_order(session);
+    let session = session.in_order_of_time();
     let mut used = used(&session, plain);
     if used.iter().filter(|u| **u).count() < FEWEST {
         return Ok(None);
@@ -126,13 +126,6 @@ pub(super) fn with_drift(
     let names: Vec<String> = session.observations.iter().map(|o| o.capture.clone()).collect();
     let drifting = Drifting { names: &names, sequence: &sequence, found: &found, held_out };
     Ok(Some(drifting.result(task, plain, steady)))
-}
-
-fn in_order(session: &Session) -> Session {
-    let mut session = session.in_order();
-    let time = |o: &Observation| o.time_s.unwrap_or(f64::INFINITY);
-    session.observations.sort_by(|a, b| time(a).total_cmp(&time(b)));
-    session
 }
 
 /// The result for a camera that walks away in its holder: nobody knows where it sits after the captures.

@@ -111,7 +111,7 @@ pub(super) fn contradictions_of(
     }
     if !is_believable(held_out) {
         against.push(format!(
-            "the leave-one-out residual is {:.1} mm and {:.2} degrees (RMS), far beyond a robot and a camera in order: check order, notation, direction and setup of the poses",
+            "the leave-one-out residual is {:.1} mm and {:.2} degrees (RMS), much more than a working robot and camera leave: check notation, direction and order of the poses, and `setup`",
             mm.unwrap_or(f64::NAN),
             deg.unwrap_or(f64::NAN)
         ));

@@ -47,13 +47,13 @@ impl Expected {
 
 /// What does not agree.
 pub(super) struct WrongTouches {
-    /// Touches of the session to leave out.
+    /// Touches of the session to leave out; where most contradict the views, all.
     pub which: Vec<usize>,
     /// What is said of each touch, or of all.
     pub notes: Notes,
 }
 
-/// Looks for wrong touches, by views alone.
+/// Looks for wrong touches, by views alone: single ones, and all of them where fewer than two thirds agree.
 pub(super) fn find(
     views: &Views,
     boards: &Boards,
@@ -216,12 +216,11 @@ fn in_other_units(
     if enough(best.0) {
         let (_, read, meant) = best;
         return Some(format!(
-            "the touches are in {meant}, not {read}, with which they agree: correct length_unit of \
-             [touches]"
+            "the touches agree if their unit is {meant}, not {read}: correct length_unit of [touches]"
         ));
     }
     enough(agreeing(1.0, 1e3)).then(|| {
-        "the tool's tip is in metres, and in_flange_mm of [touches.tip] is in mm: with a tip a thousand times as far from the flange they agree"
+        "in_flange_mm of [touches.tip] seems to be in metres (multiplied by 1000, the touches agree): give it in millimetres"
             .into()
     })
 }
@@ -246,7 +245,7 @@ fn renamed(
             last.checked_sub(id)
         }),
         ("the corners are counted from 1, and ids count from 0", &|id| id.checked_sub(1)),
-        ("the corners are counted from one less than their ids", &|id| Some(id + 1)),
+        ("the corner ids of the touches are one too small", &|id| Some(id + 1)),
         ("the corners are counted column by column, and ids count row by row", &by_columns),
         ("the columns are counted from the other side of the board", &other_way),
     ];

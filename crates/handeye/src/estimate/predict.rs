@@ -43,7 +43,7 @@ impl PredictedTre {
         let Self { p95, r#where: volume, rms, .. } = self;
         let more = self.at_task_p95.filter(|mm| *mm > 1.01 * p95);
         let at_task = more.map_or(String::new(), |mm| {
-            format!("; {mm:.2} mm for 95 % with what the robot errs from pose to pose")
+            format!("; {mm:.2} mm (95 %) for a single robot move to a point, robot error included")
         });
         format!(
             "predicted position error: {p95:.2} mm for 95 % of the points in {volume}; {rms:.2} mm RMS{at_task}"

@@ -130,7 +130,7 @@ fn in_hand(target: &TargetModel, observations: &[&Observation], touch: &Touch) -
 }
 
 /// The corner in the camera frame: measured by the scan where there is one, else from the board's
-/// fitted pose (which is the better of the two when both exist: it averages over all corners).
+/// fitted pose: the frame of the scan is the one that the result is for.
 fn camera_point(
     target: &TargetModel,
     surface: &[crate::SurfaceCorner],

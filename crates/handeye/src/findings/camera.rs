@@ -232,7 +232,7 @@ fn by_colour(black_minus_white_mm: f64, sigma_mm: f64, noise_mm: f64, lost: usiz
         ),
     };
     format!(
-        "the scans measure black {:.3} +- {sigma_mm:.3} mm {farther} than white (noise of a corner: {noise_mm:.3} mm); points on black were corrected. A flat board cannot tell which colour is right: white is taken to be, so the answer holds for surfaces that the camera measures like white{lost}",
+        "the scans measure black {:.3} +- {sigma_mm:.3} mm {farther} than white (noise of a corner: {noise_mm:.3} mm); points on black were corrected. A flat board cannot tell which colour is right: the depth on white is the reference, and the result is valid for surfaces that the camera measures like white{lost}",
         black_minus_white_mm.abs()
     )
 }

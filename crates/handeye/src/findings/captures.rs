@@ -262,7 +262,7 @@ impl Cause {
                 match other.stands {
                     Stands::Elsewhere => fits,
                     _ => {
-                        fits + ": the order looks off by one from here on; if so, pair them so in the data"
+                        fits + ": from here on images and robot poses seem shifted by one capture; if so, correct the order"
                     }
                 }
             }
@@ -272,8 +272,8 @@ impl Cause {
                     other.in_words()
                 ),
                 _ => format!(
-                    "its robot pose is that of {}, at which another {seen} was taken: read before the robot had moved, \
-                     so its own is missing",
+                    "its robot pose equals that of {}, but its {seen} differs: the pose was read before the robot moved; \
+                     its own pose is missing",
                     other.in_words()
                 ),
             },
@@ -342,7 +342,7 @@ impl CaptureFinding {
             ),
             Self::CameraStill { captures } => format!(
                 "these captures show the target in the same place, but the robot moved: images were stored twice, or \
-                 target and camera ride together: {}",
+                 target and camera are mounted on the same body: {}",
                 captures.join(", ")
             ),
             Self::Disagreeing { captures } => format!(
@@ -488,8 +488,8 @@ impl ListedOrder {
             Self::After(count) => format!("{count} {} further on", captures(count)),
         };
         format!(
-            "images and robot poses are in different orders: each image belongs to the robot pose {which}, counted \
-             round (the image of capture {image} to the robot pose of {pose})"
+            "images and robot poses are in different orders: each image belongs to the robot pose {which}, \
+             cyclic (the image of capture {image} to the robot pose of {pose})"
         )
     }
 }
@@ -516,7 +516,7 @@ mod tests {
             other: Other { name: "007".into(), stands },
         };
         assert_eq!(of(Stands::After).row().code, "order-shifted");
-        assert!(of(Stands::After).in_words().contains("the next capture, 007: the order"));
+        assert!(of(Stands::After).in_words().contains("the next capture, 007: from here on"));
         assert_eq!(of(Stands::Elsewhere).row().code, "captures-exchanged");
         assert!(of(Stands::Elsewhere).in_words().ends_with("capture 007"));
     }
@@ -536,7 +536,7 @@ mod tests {
         assert_eq!(
             of(ListedOrder::Before(1), 14),
             "images and robot poses are in different orders: each image belongs to the robot pose 1 capture back, \
-             counted round (the image of capture 002 to the robot pose of 001): paired so, 14 of 15 captures agree, \
+             cyclic (the image of capture 002 to the robot pose of 001): paired so, 14 of 15 captures agree, \
              within 0.5 mm; correct the order of the files"
         );
         let few = of(ListedOrder::After(2), 7);

@@ -161,12 +161,12 @@ pub(crate) const PICTURE_AND_SCAN_SCALE: Row = Row::changes(
 pub(crate) const PICTURE_AND_SCAN_TILT: Row = Row::changes(
     "picture-and-scan-tilt",
     "images and scans disagree in rotation",
-    "take the cloud in the frame of the image's camera",
+    "use the point cloud that is registered to the image (the same optical frame)",
 );
 pub(crate) const PICTURE_AND_SCAN_SHIFT: Row = Row::changes(
     "picture-and-scan-shift",
     "images and scans disagree in position",
-    "take the cloud in the frame of the image's camera",
+    "use the point cloud that is registered to the image (the same optical frame)",
 );
 pub(crate) const PICTURE_AND_SCAN_DISAGREE: Row = Row::changes(
     "picture-and-scan-disagree",
@@ -202,6 +202,19 @@ impl Found for FramesFinding {
 
     fn message(&self) -> String {
         FramesFinding::message(self)
+    }
+
+    fn headline(&self) -> Option<String> {
+        let frame = match self {
+            Self::Disagree { used, .. } => used,
+            Self::Offset { answer, .. } => answer,
+            Self::OffsetNotConfirmed { .. } => &Frame::Scans,
+            Self::NotSeparable | Self::Scale { .. } | Self::Tilt(_) | Self::Shift(_) => {
+                return None;
+            }
+        };
+        let name = frame.name();
+        Some(format!("images and scans disagree, and the answer is for the frame of the {name}"))
     }
 
     fn data(&self) -> Vec<(&'static str, f64)> {

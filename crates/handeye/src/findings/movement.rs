@@ -88,8 +88,7 @@ impl MovementFinding {
                 in_words(movement, *setup, movement.widened_mm > 0.0)
             }
             Self::AnswerOfTheEnd { movement, setup, captures, touches } => format!(
-                "{}. The answer is where the camera is since capture {}, from the {captures} captures since then \
-                 alone{}",
+                "{}. The result is the camera's pose from capture {} on, from these {captures} captures alone{}",
                 in_words(movement, *setup, false),
                 movement.first,
                 if *touches { "; the touches may be older, and are not used" } else { "" }
@@ -124,11 +123,11 @@ const CAPTURES_DISPLACED: Row = Row::changes(
 const MOVED_DURING_SESSION: Row = Row::changes(
     "moved-during-session",
     "something moved during the session, and the stated error covers it",
-    "tighten what gives way, and take the captures again",
+    "tighten the mounts of camera, target and tool, and take the captures again",
 );
 const CAMERA_MOVED: Row = Row::changes(
     "camera-moved",
-    "the camera moved during the session, and the answer is where it is now",
+    "the camera moved during the session, and the result is its pose since then",
     "fasten the camera and the target, and take the captures again",
 );
 const TARGET_MOVED: Row = Row::info("target-moved");
@@ -164,7 +163,7 @@ impl Found for MovementFinding {
                 movement.displacement_mm
             )),
             Self::AnswerOfTheEnd { movement, .. } => Some(format!(
-                "the camera moved by {:.2} mm during the session, and the answer is where it is now",
+                "the camera moved by {:.2} mm during the session, and the result is its pose since then",
                 movement.displacement_mm
             )),
             _ => None,
@@ -204,8 +203,8 @@ fn in_words(m: &Movement, setup: Setup, covered: bool) -> String {
     }
     if m.at_a_place {
         causes.push(match m.kind {
-            MovementKind::Block => "the robot errs where these were taken",
-            _ => "the robot errs by place, as it went from place to place",
+            MovementKind::Block => "the robot errs by as much at these poses",
+            _ => "the robot's error changed with its pose",
         });
     }
     let causes = causes.join(", or ");
@@ -216,13 +215,13 @@ fn in_words(m: &Movement, setup: Setup, covered: bool) -> String {
             m.first, m.last
         ),
         MovementKind::Step => format!(
-            "the captures from {} on differ from those before by {how_far}: {causes}{covers}. Tighten what gives way, \
+            "the captures from {} on differ from those before by {how_far}: {causes}{covers}. Tighten loose mounts, \
              and take the captures again",
             m.first
         ),
         MovementKind::Slip => format!(
-            "errors grow evenly by {how_far} from capture {} to {}: {causes}{covers}. Warm up, tighten what \
-             gives way, and take the captures again",
+            "errors grow evenly by {how_far} from capture {} to {}: {causes}{covers}. Warm up, tighten \
+             loose mounts, and take the captures again",
             m.first, m.last
         ),
     }

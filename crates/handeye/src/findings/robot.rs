@@ -93,12 +93,11 @@ impl Inverted {
         match self {
             Self::Either => {
                 "either the robot poses look inverted (flange_from_base), or the target poses (target_from_camera), or \
-                 the camera is mounted the other way (eye-in-hand against eye-to-hand); the data cannot tell between \
-                 these"
+                 `setup` is declared wrongly (eye-in-hand or eye-to-hand); the data cannot tell between these"
             }
             Self::Robot => {
-                "the robot poses look inverted (flange_from_base), or the camera is mounted the other way (eye-in-hand \
-                 against eye-to-hand)"
+                "the robot poses look inverted (flange_from_base), or `setup` is declared wrongly (eye-in-hand or \
+                 eye-to-hand)"
             }
         }
     }
@@ -129,7 +128,7 @@ impl RobotFinding {
                 "the arm differs from its model: with {parameters} parameters corrected, the error of the robot's position is {after_mm:.2} mm per axis instead of {before_mm:.2} mm. The result contains the corrected model (key `arm`), and the camera's pose for a robot that uses it; the answer itself is for the robot as it is"
             ),
             Self::ErrsByPlace { position_mm, rotation_deg, missed_mm, corrected, .. } => format!(
-                "this robot errs from place to place, by about {position_mm:.2} mm{}: at the captures, no fixed transform does better than {missed_mm:.2} mm RMS. More captures do not change that; {}",
+                "the robot's error depends on its pose: this robot errs by {position_mm:.2} mm{} from place to place, and the best fixed transform leaves {missed_mm:.2} mm RMS at the captures. More captures do not reduce that; {}",
                 if *rotation_deg < 5e-4 {
                     String::new()
                 } else {
@@ -137,16 +136,16 @@ impl RobotFinding {
                 },
                 match corrected {
                     Some((with, without)) => format!(
-                        "corrected poses (`handeye compensate`) do: captures left out in blocks are missed by {with:.2} mm RMS then, and by {without:.2} mm otherwise"
+                        "robot poses corrected with `handeye compensate` do: held-out captures then have {with:.2} mm RMS instead of {without:.2} mm"
                     ),
                     None =>
-                        "a robot whose joints are calibrated, or captures only where it works, do"
+                        "a calibration of the robot's kinematics does, or captures in its work area only"
                             .into(),
                 }
             ),
             Self::JointsAndPosesDiffer { at } => format!(
-                "{at}: the joint values do not lead to the flange pose beside them by the model of the arm; check its \
-                 parameters, their units, and the order of the joints. The arm was not examined"
+                "{at}: forward kinematics of the joint values does not give the flange pose of the same capture; check the \
+                 arm's parameters, their units, and the order of the joints. The arm was not calibrated"
             ),
             Self::DeterminedByKnownPosition { what, given_mm } => format!(
                 "the data do not determine {what}: it rests on `known_position` ({given_mm:.1} mm) alone, and nothing checks that; touch a corner, or tilt the robot"
@@ -173,8 +172,8 @@ const ARM_DEVIATES: Row = Row::changes(
 );
 const ROBOT_ERRS_BY_PLACE: Row = Row::changes(
     "robot-errs-by-place",
-    "the robot errs from place to place, and no fixed transform is right everywhere",
-    "take captures where the robot works, with the tool held as at work; have its joints calibrated",
+    "the robot's error depends on its pose, and no fixed transform is exact everywhere",
+    "take captures in the work area, with the tool oriented as at work; have the robot's kinematics calibrated",
 );
 const JOINTS_AND_POSES_DIFFER: Row = Row::info("joints-and-poses-differ");
 const DETERMINED_BY_KNOWN_POSITION: Row = Row::info("determined-by-known-position");
@@ -223,7 +222,7 @@ impl Found for RobotFinding {
     fn headline(&self) -> Option<String> {
         let Self::ErrsByPlace { missed_mm, .. } = self else { return None };
         Some(format!(
-            "the robot errs from place to place: no fixed transform does better than {missed_mm:.2} mm RMS at the captures"
+            "the robot's error depends on its pose: the best fixed transform leaves {missed_mm:.2} mm RMS at the captures"
         ))
     }
 

@@ -75,8 +75,8 @@ impl TargetFinding {
             Self::ExplainsAll(size) => size.as_explanation(),
             Self::Distances { value, sigma } => match units_of(*value) {
                 Some(units) => format!(
-                    "the target's poses count in another unit than the robot's: they are {:.4} times as large as they \
-                     would be in its unit ({units})",
+                    "target poses and robot poses have different length units ({units}): distances to the target are \
+                     {:.4} times too large",
                     1.0 / value
                 ),
                 None => format!(
@@ -88,7 +88,7 @@ impl TargetFinding {
                 ),
             },
             Self::Uneven { share, sigma } => format!(
-                "the board is {:.2} +- {:.2} % {} along y than along x: the answer uses that shape; measure the print along both sides, and use a print with square squares",
+                "the board is {:.2} +- {:.2} % {} along y than along x: the answer uses that shape; measure the print along both sides, and use a print with the same square size in x and y",
                 share.abs() * 100.0,
                 sigma * 100.0,
                 if *share > 0.0 { "longer" } else { "shorter" }
@@ -155,8 +155,7 @@ impl Found for TargetFinding {
                 size.declared_mm
             )),
             Self::Size(size) if size.answer == SizeOfAnswer::Measured => Some(format!(
-                "the captures contradict the measured size of the target ({:.2} mm, they say {:.2} mm), which the \
-                 answer uses",
+                "the answer uses the measured size of the target ({:.2} mm), but {:.2} mm fits the captures",
                 size.declared_mm,
                 size.value * size.declared_mm
             )),
@@ -264,7 +263,7 @@ mod tests {
         assert_eq!(estimated.headline().as_deref(), Some(words));
         let measured = TargetFinding::Size(size(0.98, SizeOfAnswer::Measured));
         assert_eq!(measured.row().code, "target-size-contradicted");
-        assert!(measured.headline().is_some_and(|h| h.contains("they say 29.40 mm")));
+        assert!(measured.headline().is_some_and(|h| h.contains("29.40 mm fits the captures")));
     }
 
     #[test]

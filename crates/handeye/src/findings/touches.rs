@@ -112,25 +112,25 @@ impl TouchFinding {
     pub(crate) fn message(&self) -> String {
         match self {
             Self::Outlier { corner, placement, p_value } => format!(
-                "the touch of corner {corner} of {placement:?} is rejected: it is too far from where all other data put that corner (p = {p_value:.0e}): a wrong corner id, or the tip slipped"
+                "the touch of corner {corner} of {placement:?} is rejected: it is too far from where all other data put that corner (p = {p_value:.0e}): a wrong corner id, or the tip slipped. Check the id, and touch the corner again"
             ),
             Self::Misplaced { corner, placement, off_mm, exchanged_with } => format!(
                 "the touch of corner {corner} of {placement:?} is rejected: it is {off_mm:.1} mm from where views and \
                  other touches put that corner{}",
-                exchanged_with.map_or(": a wrong corner id, or the tip slipped".into(), |other| {
+                exchanged_with.map_or(": a wrong corner id, or the tip slipped. Check the id, and touch the corner again".into(), |other| {
                     format!("; it looks exchanged with that of corner {other}")
                 })
             ),
             Self::Misread { answer, agreeing, of, off_mm } => format!(
-                "views and touches contradict each other: {answer}. As declared only {agreeing} of {of} touches agree \
-                 with any one tool tip, and half of them are more than {off_mm:.0} mm from where the views put their \
+                "images and touches contradict each other: {answer}. As declared, only {agreeing} of {of} touches fit one \
+                 common tool tip, and half of the touches are more than {off_mm:.0} mm from where the images put their \
                  corners"
             ),
             Self::TipOff { offset_mm, in_flange, p_value, squares } => {
                 tip_off(offset_mm, *in_flange, *p_value, *squares)
             }
             Self::ViewsDisagree { p_value } => format!(
-                "views and touches disagree (p = {p_value:.1e}), and no error of the tool tip explains it: the robot errs differently where it touched and where the views were taken, images were taken at other moments than the robot poses, or images and scans differ. The answer holds near the touched positions"
+                "images and touches disagree (p = {p_value:.1e}), and a wrong tool tip does not explain it. Possible causes: the robot's error where it touched differs from that at the captures; images and robot poses were not taken at the same time; images and scans are not aligned. The result is valid near the touched points only"
             ),
             Self::NotEnough { candidate, error } => format!("no {candidate} candidate: {error}"),
             Self::WithoutView { placement, corners, unseen } => {
@@ -151,7 +151,7 @@ impl TouchFinding {
                 names.join(", ")
             ),
             Self::AloneDetermine { what } => format!(
-                "the views do not determine {what}: only the touches do, and nothing checks them; tilt the robot \
+                "the images do not determine {what}: only the touches do, and nothing checks them; tilt the robot \
                  about a second axis if it can"
             ),
         }
@@ -171,8 +171,8 @@ const TIP_OFF: Row = Row::changes(
 );
 const VIEWS_AND_TOUCHES_DISAGREE: Row = Row::changes(
     "views-and-touches-disagree",
-    "views and touches disagree, and the result is valid near the touched positions only",
-    "calibrate the robot where it works, or touch corners there",
+    "images and touches disagree, and the result is valid near the touched points only",
+    "touch corners in the work area, and check the alignment of images and scans and their time stamps",
 );
 const TOUCHES_NOT_ENOUGH: Row = Row::info("touches-not-enough");
 const TOUCH_WITHOUT_VIEW: Row = Row::info("touch-without-view");
@@ -219,8 +219,16 @@ impl Found for TouchFinding {
     }
 
     fn headline(&self) -> Option<String> {
-        let Self::TipOff { offset_mm, .. } = self else { return None };
-        Some(format!("the answer corrects the tool's tip by {:.2} mm", length(offset_mm)))
+        match self {
+            Self::TipOff { offset_mm, .. } => {
+                Some(format!("the answer corrects the tool's tip by {:.2} mm", length(offset_mm)))
+            }
+            Self::Outlier { corner, placement, .. } | Self::Misplaced { corner, placement, .. } => {
+                let which = format!("corner {corner} of {placement:?}");
+                Some(format!("the touch of {which} was rejected as an outlier"))
+            }
+            _ => None,
+        }
     }
 
     fn data(&self) -> Vec<(&'static str, f64)> {
@@ -260,13 +268,13 @@ fn tip_off(offset_mm: &[f64; 3], in_flange: bool, p_value: f64, squares: Option<
     let off = length(offset_mm);
     let miscounted = squares.map_or(String::new(), |n| {
         format!(
-            "; but {off:.1} mm is {} of the board: if the touched corners are counted from another one than corner 0, \
-             correct their ids, and the tip is right",
+            ". But {off:.1} mm is {} of the board: if the corner ids start at another corner, correct the ids; the tip is \
+             right then",
             if n == 1 { "one square".to_owned() } else { format!("{n} squares") }
         )
     });
     format!(
-        "views and touches disagree by {off:.2} mm (p = {p_value:.1e}). The likeliest cause is the tool tip: it is off by ({x:.2}, {y:.2}, {z:.2}) mm in the {} frame. The answer takes that into account; calibrate the tool again{miscounted}",
+        "images and touches disagree by {off:.2} mm (p = {p_value:.1e}). The likeliest cause is a wrong tool tip: the true one is the declared one plus ({x:+.2}, {y:+.2}, {z:+.2}) mm in the {} frame. The result uses the corrected tip; calibrate the tool again{miscounted}",
         if in_flange { "flange" } else { "base" },
     )
 }

@@ -9,7 +9,7 @@ use super::Finding;
 pub struct Warning {
     /// Short fixed name, for programs: `pose-flipped`.
     pub code: String,
-    /// What was seen, where, and what to do.
+    /// What was seen and where, in a sentence for people.
     pub message: String,
     /// What it says, with its numbers; `None` for what was noticed in files, and in a result that was read back.
     #[serde(skip)]

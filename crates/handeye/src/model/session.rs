@@ -159,6 +159,14 @@ impl Session {
         });
         session
     }
+
+    /// The same with captures in the order of their times, those without one last.
+    pub(crate) fn in_order_of_time(&self) -> Self {
+        let mut session = self.in_order();
+        let time = |o: &Observation| o.time_s.unwrap_or(f64::INFINITY);
+        session.observations.sort_by(|a, b| time(a).total_cmp(&time(b)));
+        session
+    }
 }
 
 /// The camera's position along one direction, as measured by other means.

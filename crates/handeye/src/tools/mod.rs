@@ -1,5 +1,6 @@
 //! Beside the calibration itself: finding a tool's tip, planning poses, and testing results.
 
+pub mod halves;
 pub mod pivot;
 pub mod plan;
 pub mod repeat;

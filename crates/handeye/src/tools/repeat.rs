@@ -2,13 +2,14 @@
 //!
 //! Each result is `Tᵢ = M exp(δᵢ)` with `δᵢ ~ N(0, Sᵢ)`. The mean `M` minimises
 //! `Q = Σ ξᵢᵀ Sᵢ⁻¹ ξᵢ` with `ξᵢ = log(M⁻¹ Tᵢ)`; results that agree within their covariances have a
-//! `Q` that follows chi-square with `6 (n - 1)` degrees of freedom. Where they do not, each states too small an error:
-//! the covariance of the mean is larger by `Q / (6 (n - 1))` then, as their spread says (R. Birge, Physical Review 40,
-//! 1932).
+//! `Q` that follows chi-square with `6 (n - 1)` degrees of freedom. Where they do not, the results have errors of their
+//! own beside those that they state: `Sᵢ + τ S̄` with `S̄` the mean of the `Sᵢ` and `τ` so large that `Q` is `6 (n - 1)`.
+//! A result that states far too small an error counts for no more than the others then.
 //!
 //! T. Barfoot and P. Furgale, *Associating uncertainty with three-dimensional poses for use in
 //! estimation problems*, IEEE T-RO 30(3), 2014; W. Cochran, *The combination of estimates from
-//! different experiments*, Biometrics 10(1), 1954.
+//! different experiments*, Biometrics 10(1), 1954; R. Paule and J. Mandel, *Consensus values and weighting factors*,
+//! Journal of Research of the National Bureau of Standards 87(5), 1982.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::Serialize;
@@ -57,6 +58,10 @@ impl Agreement {
     pub fn is_given(&self) -> bool {
         self.p_value >= LEAST_CHANCE
     }
+
+    fn exceeds_its_expectation(&self) -> bool {
+        self.chi_square > self.degrees_of_freedom as f64
+    }
 }
 
 /// Scatter about the mean.
@@ -74,9 +79,11 @@ pub struct Scatter {
 }
 
 /// Results that agree differ by chance alone; below this chance they do not agree.
-const LEAST_CHANCE: f64 = 0.01;
+pub(super) const LEAST_CHANCE: f64 = 0.01;
 /// Fewest results of which one can be the odd one.
 const FEWEST_FOR_ODD: usize = 3;
+/// Halvings of the range in which the spread beside the stated errors lies.
+const HALVINGS: usize = 40;
 /// Rounds of Gauss-Newton; nearby poses need three.
 const MOST_ROUNDS: usize = 50;
 /// A step shorter than this (rad, m) ends it.
@@ -97,12 +104,40 @@ pub fn repeat(results: &[Repetition]) -> Result<Repeat, Error> {
     };
     let weights = covariances.iter().enumerate().map(|(k, s)| information(k, s));
     let weights = weights.collect::<Result<Vec<_>, _>>()?;
-    let (mean, covariance) = mean(results, &weights)?;
-    let test = agreement(results, &weights, &mean);
-    let spread = (test.chi_square / test.degrees_of_freedom as f64).max(1.0);
+    let (plain, covariance) = mean(results, &weights)?;
+    let test = agreement(results, &weights, &plain);
     let odd_one_out = if test.is_given() { None } else { odd_one_out(results, &weights) };
-    let (covariance, agreement) = (Some(covariance * spread), Some(test));
+    let (mean, covariance) = match test.exceeds_its_expectation() {
+        true => with_spread(results, &covariances)?,
+        false => (plain, covariance),
+    };
+    let (covariance, agreement) = (Some(covariance), Some(test));
     Ok(Repeat { mean, covariance, agreement, odd_one_out })
+}
+
+/// The mean of results that have errors beside the stated ones, as large as their spread says.
+fn with_spread(
+    results: &[Repetition],
+    covariances: &[Matrix6<f64>],
+) -> Result<(Pose<Mount, Camera>, Matrix6<f64>), Error> {
+    let common = covariances.iter().sum::<Matrix6<f64>>() / covariances.len() as f64;
+    let with = |more: f64| {
+        let weights =
+            covariances.iter().enumerate().map(|(k, s)| information(k, &(s + common * more)));
+        let weights = weights.collect::<Result<Vec<_>, _>>()?;
+        let found = mean(results, &weights)?;
+        let spread = agreement(results, &weights, &found.0).exceeds_its_expectation();
+        Ok::<_, Error>((found, spread))
+    };
+    let mut range = (0.0, 1.0);
+    while with(range.1)?.1 {
+        range = (range.1, 2.0 * range.1);
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (range.0 + range.1);
+        range = if with(middle)?.1 { (middle, range.1) } else { (range.0, middle) };
+    }
+    Ok(with(range.1)?.0)
 }
 
 /// The only one without which the others agree.
@@ -286,6 +321,21 @@ mod tests {
         }
         let mean = squares / (6.0 * f64::from(cells));
         assert!((0.9..1.2).contains(&mean), "{mean}");
+    }
+
+    #[test]
+    fn a_result_that_states_far_too_small_an_error_is_not_believed_alone() {
+        let mut random = Random::new(9);
+        let mut off = [0.0, 0.0];
+        for _ in 0..100 {
+            let mut results: Vec<_> = (0..6).map(|_| noisy(&mut random, 1.0)).collect();
+            off[0] += truth().distance_to(&repeat(&results).unwrap().mean).powi(2);
+            results[4].mount_from_camera = noisy(&mut random, 3.0).mount_from_camera;
+            results[4].covariance = results[4].covariance.map(|s| s / 1e4);
+            off[1] += truth().distance_to(&repeat(&results).unwrap().mean).powi(2);
+        }
+        // weighted as it says, it would be the answer: errors nine times as large, 54 times those of the mean of six
+        assert!(off[1] < 10.0 * off[0], "{off:?}");
     }
 
     #[test]

@@ -4,7 +4,12 @@ use nalgebra::Matrix6;
 
 use crate::{
     Camera, Mount, Pose,
-    calibrate::{result::Candidate, views::Views, workpiece::Workpiece},
+    calibrate::{
+        evidence::RestsOn,
+        result::{Candidate, RobotErrorKind},
+        views::Views,
+        workpiece::Workpiece,
+    },
     estimate::{self, evaluate::HeldOut, predict, touches::TouchPairs},
 };
 
@@ -14,12 +19,13 @@ pub(super) struct Judge<'a> {
     pub(super) paired: &'a [TouchPairs],
     pub(super) known: estimate::KnownNoise,
     pub(super) workpiece: &'a Workpiece<'a>,
-    /// The candidate for a robot with errors that it does not know of.
-    pub(super) of_robot: Option<&'static str>,
+    /// Errors of the robot, beside noise, for which there is a candidate.
+    pub(super) of_robot: Option<RobotErrorKind>,
 }
 
 /// A candidate with what its choice needs.
 pub(super) struct Judged {
+    pub(super) rests_on: RestsOn,
     pub(super) candidate: Candidate,
     pub(super) tre: Option<predict::PredictedTre>,
     /// Residual of each capture when it was left out.

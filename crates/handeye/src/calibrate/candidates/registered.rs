@@ -8,6 +8,7 @@ use crate::{
     calibrate::{
         answers::stored,
         config::Config,
+        evidence::RestsOn,
         notes::Notes,
         result::{Answer, Candidate, PoseCovariance, rows},
         views::{Views, pairs_of},
@@ -69,7 +70,7 @@ impl Judge<'_> {
             predicted_tre_mm: tre.as_ref().map(|t| t.rms),
             note: registration_note(&found),
         };
-        Ok(Judged { candidate, tre, held_out })
+        Ok(Judged { rests_on: RestsOn::Touches, candidate, tre, held_out })
     }
 }
 
