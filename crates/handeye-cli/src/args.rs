@@ -261,6 +261,9 @@ pub struct CompareArgs {
     /// Write the combined transform with its covariance as JSON, for `verify`, `export` and `view`.
     #[arg(long, short)]
     pub out: Option<PathBuf>,
+    /// Of one dataset: folder that the file names in its manifest are relative to [default: the folder of the manifest].
+    #[arg(long)]
+    pub root: Option<PathBuf>,
 }
 
 /// Arguments of `detect`.

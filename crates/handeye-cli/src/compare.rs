@@ -75,7 +75,10 @@ struct Answer {
 
 pub fn run(args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
     if let [dataset] = &args.results[..] {
-        return halves::run(dataset, args.out.as_deref(), manners);
+        return halves::run(dataset, args, manners);
+    }
+    if args.root.is_some() {
+        return Err(Failure::Usage("--root is for one dataset, not for results".into()));
     }
     let read = |path: &PathBuf| read_result(path).map_err(Failure::from);
     let results = args.results.iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -218,6 +221,10 @@ fn sentence(a: &Answer) -> String {
             .into();
     };
     let verdict = match (a.agree, &a.odd_one_out) {
+        _ if test.is_of_shared_errors() => {
+            "AGREE  the results differ by less than their covariances: they share errors (of\n       lens, target or robot), and the covariance of the combined one keeps these"
+                .into()
+        }
         (Some(true), _) => "AGREE  the results differ no more than their covariances allow".into(),
         (_, None) => {
             let what = "DISAGREE  the results differ by more than their covariances allow;";

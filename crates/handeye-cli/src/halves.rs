@@ -13,7 +13,7 @@ use handeye_io::{Dataset, read_result};
 use serde::Serialize;
 
 use crate::{
-    args::Manners,
+    args::{CompareArgs, Manners},
     calibrate,
     difference::{Difference, chance, difference},
     failure::Failure,
@@ -39,12 +39,16 @@ struct One {
     test: Option<Agreement>,
 }
 
-pub fn run(path: &Path, out: Option<&Path>, manners: &Manners) -> Result<u8, Failure> {
-    if out.is_some() {
+pub fn run(path: &Path, args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
+    if args.out.is_some() {
         let what = "--out is for results: halves are compared, and the answer of all captures is that of calibrate";
         return Err(Failure::Usage(what.into()));
     }
-    let dataset = Dataset::open(path).map_err(|error| match read_result(path) {
+    let dataset = match &args.root {
+        Some(root) => Dataset::open_with_root(path, root),
+        None => Dataset::open(path),
+    };
+    let dataset = dataset.map_err(|error| match read_result(path) {
         Ok(_) => Failure::input(
             path,
             "is one result; name another one, or the folder of the captures, of which halves are compared",

@@ -4,7 +4,9 @@
 //! `Q = Σ ξᵢᵀ Sᵢ⁻¹ ξᵢ` with `ξᵢ = log(M⁻¹ Tᵢ)`; results that agree within their covariances have a
 //! `Q` that follows chi-square with `6 (n - 1)` degrees of freedom. Where they do not, the results have errors of their
 //! own beside those that they state: `Sᵢ + τ S̄` with `S̄` the mean of the `Sᵢ` and `τ` so large that `Q` is `6 (n - 1)`.
-//! A result that states far too small an error counts for no more than the others then.
+//! A result that states far too small an error counts for no more than the others then. Results that differ by less than
+//! they state have errors in common (lens, target, the robot at these places), which their mean keeps: with the share
+//! `ρ = 1 - Q / (6 (n - 1))` of their variances its covariance is `1 + (n - 1) ρ` times that of independent ones.
 //!
 //! T. Barfoot and P. Furgale, *Associating uncertainty with three-dimensional poses for use in
 //! estimation problems*, IEEE T-RO 30(3), 2014; W. Cochran, *The combination of estimates from
@@ -34,7 +36,8 @@ pub struct Repetition {
 pub struct Repeat {
     /// Mean, weighted by the inverse covariances; unweighted where one is missing.
     pub mean: Pose<Mount, Camera>,
-    /// Covariance of the mean: as the results state it, or larger where they spread more; `None` where one states none.
+    /// Covariance of the mean: as the results state it, or larger where they spread more, or by less, which shows errors
+    /// that they share; `None` where one states none.
     pub covariance: Option<Matrix6<f64>>,
     /// The test; `None` where a covariance is missing.
     pub agreement: Option<Agreement>,
@@ -57,6 +60,16 @@ impl Agreement {
     /// Whether they differ no more than by chance.
     pub fn is_given(&self) -> bool {
         self.p_value >= LEAST_CHANCE
+    }
+
+    /// Whether they differ by less than by chance: they have errors in common.
+    pub fn is_of_shared_errors(&self) -> bool {
+        self.p_value > 1.0 - LEAST_CHANCE
+    }
+
+    /// The share of their variances that they seem to have in common.
+    fn shared(&self) -> f64 {
+        (1.0 - self.chi_square / self.degrees_of_freedom as f64).max(0.0)
     }
 
     fn exceeds_its_expectation(&self) -> bool {
@@ -109,7 +122,7 @@ pub fn repeat(results: &[Repetition]) -> Result<Repeat, Error> {
     let odd_one_out = if test.is_given() { None } else { odd_one_out(results, &weights) };
     let (mean, covariance) = match test.exceeds_its_expectation() {
         true => with_spread(results, &covariances)?,
-        false => (plain, covariance),
+        false => (plain, covariance * (1.0 + (results.len() - 1) as f64 * test.shared())),
     };
     let (covariance, agreement) = (Some(covariance), Some(test));
     Ok(Repeat { mean, covariance, agreement, odd_one_out })
@@ -258,13 +271,14 @@ mod tests {
     }
 
     #[test]
-    fn equal_results_agree_exactly() {
+    fn equal_results_agree_exactly_and_share_their_error() {
         let one = Repetition { mount_from_camera: truth(), covariance: Some(covariance()) };
         let repeat = repeat(&[one; 3]).unwrap();
         assert!(repeat.mean.local(&truth()).norm() < 1e-12);
         assert!((repeat.agreement.unwrap().p_value - 1.0).abs() < 1e-9);
-        let third = covariance() / 3.0;
-        assert!((repeat.covariance.unwrap() - third).norm() < 1e-9 * third.norm());
+        // three independent ones would differ: all of their error is shared, and stays in the mean
+        let own = covariance();
+        assert!((repeat.covariance.unwrap() - own).norm() < 1e-9 * own.norm());
     }
 
     #[test]
@@ -321,6 +335,28 @@ mod tests {
         }
         let mean = squares / (6.0 * f64::from(cells));
         assert!((0.9..1.2).contains(&mean), "{mean}");
+    }
+
+    #[test]
+    fn errors_that_all_results_share_stay_in_their_mean() {
+        let mut random = Random::new(10);
+        let (mut squares, cells) = (0.0, 400);
+        for _ in 0..cells {
+            // nine tenths of the variance that each states is in all of them
+            let shared = truth().local(&noisy(&mut random, 1.0).mount_from_camera) * 0.9f64.sqrt();
+            let one = |random: &mut Random| {
+                let own = truth().local(&noisy(random, 1.0).mount_from_camera) * 0.1f64.sqrt();
+                let mount_from_camera = truth().retract(&(own + shared));
+                Repetition { mount_from_camera, ..noisy(random, 1.0) }
+            };
+            let results: Vec<_> = (0..5).map(|_| one(&mut random)).collect();
+            let found = repeat(&results).unwrap();
+            assert!(found.agreement.unwrap().is_of_shared_errors());
+            let d = truth().local(&found.mean);
+            squares += d.dot(&(found.covariance.unwrap().try_inverse().unwrap() * d));
+        }
+        let mean = squares / (6.0 * f64::from(cells));
+        assert!((0.85..1.15).contains(&mean), "{mean}");
     }
 
     #[test]
