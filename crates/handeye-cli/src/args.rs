@@ -75,9 +75,8 @@ pub enum Command {
     /// Calibrate a small built-in dataset and print the path of the report.
     Demo(crate::demo::DemoArgs),
     /// Write completions for a shell.
-    #[command(
-        after_help = "Example:\n  handeye completions bash > ~/.local/share/bash-completion/completions/handeye"
-    )]
+    #[command(after_help = "Example:\n\
+\x20 handeye completions bash > ~/.local/share/bash-completion/completions/handeye")]
     Completions {
         /// Which shell.
         shell: Shell,
@@ -96,13 +95,27 @@ fn published_methods() -> String {
 
 /// Arguments of `solve`.
 #[derive(Args)]
-#[command(
-    after_help = "Example:\n  handeye solve pairs.json\n  handeye solve pairs.json --method park-martin --json\n\n\
-pairs.json:\n  {\"setup\": \"eye-in-hand\",\n   \"pairs\": [{\"id\": \"01\",\n     \"base_from_flange\":   {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]},\n     \"camera_from_target\": {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}}, ...]}\n\n\
-or, instead of `pairs`, two streams by two clocks (camera time = robot time + time_offset_s):\n   \"robot\":  [{\"time_s\": 0.00, \"base_from_flange\": {...}}, ...],\n   \"camera\": [{\"time_s\": 0.01, \"camera_from_target\": {...}}, ...]\n\n\
-`\"unknown_scale\": true` for target distances that are known up to one factor (measured = scale * metric);\n\
-`\"noise\": {\"robot_rotation_deg\": ..., \"robot_position_mm\": ...}` where they are known, per axis."
-)]
+#[command(after_help = "Example:\n\
+\x20 handeye solve pairs.json\n\
+\x20 handeye solve pairs.json --method park-martin --json\n\
+\n\
+pairs.json:\n\
+\x20 {\"setup\": \"eye-in-hand\",\n\
+\x20  \"pairs\": [{\"id\": \"01\",\n\
+\x20    \"base_from_flange\":\n\
+\x20      {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]},\n\
+\x20    \"camera_from_target\":\n\
+\x20      {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}},\n\
+\x20   ...]}\n\
+\n\
+or, instead of `pairs`, two streams by two clocks (camera time = robot time + \
+time_offset_s):\n\
+\x20  \"robot\":  [{\"time_s\": 0.00, \"base_from_flange\": {...}}, ...],\n\
+\x20  \"camera\": [{\"time_s\": 0.01, \"camera_from_target\": {...}}, ...]\n\
+\n\
+`\"unknown_scale\": true` for target distances that are known up to one factor (measured = \
+scale * metric); `\"noise\": {\"robot_rotation_deg\": ..., \"robot_position_mm\": ...}` \
+where they are known, per axis.")]
 pub struct SolveArgs {
     /// JSON file with `setup` and `pairs`, or `robot` and `camera`.
     pub pairs: PathBuf,
@@ -116,9 +129,10 @@ pub struct SolveArgs {
 
 /// Arguments of `calibrate`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye calibrate cell/\n  handeye calibrate cell/ --out result --format ros2-launch,kuka\n  handeye calibrate cell.toml --root /data/cell --json"
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye calibrate cell/\n\
+\x20 handeye calibrate cell/ --out result --format ros2-launch,kuka\n\
+\x20 handeye calibrate cell.toml --root /data/cell --json")]
 pub struct CalibrateArgs {
     /// Folder with `handeye.toml`, or a manifest.
     pub dataset: PathBuf,
@@ -147,9 +161,10 @@ pub struct CalibrateArgs {
 
 /// Arguments of `export`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye export result/calibration.json --format kuka\n  handeye export result/calibration.json -f urdf,ros2-launch,npy --out exports\n  handeye export --format list"
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye export result/calibration.json --format kuka\n\
+\x20 handeye export result/calibration.json -f urdf,ros2-launch,npy --out exports\n\
+\x20 handeye export --format list")]
 pub struct ExportArgs {
     /// The calibration.json of a result, or its folder; or a pose that `import` wrote.
     pub calibration: Option<PathBuf>,
@@ -172,7 +187,8 @@ pub struct ExportArgs {
 
 /// Arguments of `init`.
 #[derive(Args)]
-#[command(after_help = "Example:\n  handeye init cell/")]
+#[command(after_help = "Example:\n\
+\x20 handeye init cell/")]
 pub struct InitArgs {
     /// Folder with images, scans and robot poses.
     pub folder: PathBuf,
@@ -183,9 +199,12 @@ pub struct InitArgs {
 
 /// Arguments of `target`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye target --checkerboard 11x8 --square-mm 20 --out board.pdf\n  handeye target --charuco 7x5 --square-mm 35 --marker-mm 26 \\\n      --dictionary DICT_5X5_100 --out board.svg --paper a3\n  handeye target --aprilgrid 6x6 --tag-mm 24 --out board.pdf\n  handeye target cell/handeye.toml --out board.pdf --paper 600x500"
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye target --checkerboard 11x8 --square-mm 20 --out board.pdf\n\
+\x20 handeye target --charuco 7x5 --square-mm 35 --marker-mm 26 \\\n\
+\x20     --dictionary DICT_5X5_100 --out board.svg --paper a3\n\
+\x20 handeye target --aprilgrid 6x6 --tag-mm 24 --out board.pdf\n\
+\x20 handeye target cell/handeye.toml --out board.pdf --paper 600x500")]
 pub struct TargetArgs {
     /// A manifest or another TOML file with a `[target]`.
     #[arg(group = "kind")]
@@ -242,18 +261,23 @@ pub struct TargetArgs {
 
 /// Arguments of `compare`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye compare monday/calibration.json tuesday/calibration.json\n  handeye compare monday tuesday wednesday --out combined.json\n  handeye compare cell\n\n\
-Of one folder of captures, halves are calibrated and compared: every second capture, by place of the\n\
-robot, and in time.\n\n\
-Distances are from the combined result: `rms` is the root of their mean square, `max` the largest,\n\
-`std dev` the standard deviation of a single result (n - 1 in the denominator): the repeatability of\n\
-one calibration of this cell. In JSON: rms, max, axes, standard_deviation.\n\n\
-Where results differ by more than their covariances allow, the covariance of the combined one is as\n\
-large as their spread says.\n\n\
-Exit code 0: the results agree within their covariances (p >= 0.01); 3: they do not, or cannot\n\
-be tested because one states no covariance."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye compare monday/calibration.json tuesday/calibration.json\n\
+\x20 handeye compare monday tuesday wednesday --out combined.json\n\
+\x20 handeye compare cell\n\
+\n\
+Of one folder of captures, halves are calibrated and compared: every second capture, by \
+place of the robot, and in time.\n\
+\n\
+Distances are from the combined result: `rms` is the root of their mean square, `max` the \
+largest, `std dev` the standard deviation of a single result (n - 1 in the denominator): the \
+repeatability of one calibration of this cell. In JSON: rms, max, axes, standard_deviation.\n\
+\n\
+Where results differ by more than their covariances allow, the covariance of the combined \
+one is as large as their spread says.\n\
+\n\
+Exit code 0: the results agree within their covariances (p >= 0.01); 3: they do not, or \
+cannot be tested because one states no covariance.")]
 pub struct CompareArgs {
     /// The calibration.json of two or more results, or their folders; or poses that `import` wrote. Or one dataset.
     #[arg(required = true, num_args = 1..)]
@@ -268,9 +292,10 @@ pub struct CompareArgs {
 
 /// Arguments of `detect`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye detect images/*.png --target handeye.toml\n  handeye detect 01.png --target board.toml --draw found --json\n  handeye detect *.png --target circles.toml --camera camera.yaml"
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye detect images/*.png --target handeye.toml\n\
+\x20 handeye detect 01.png --target board.toml --draw found --json\n\
+\x20 handeye detect *.png --target circles.toml --camera camera.yaml")]
 pub struct DetectArgs {
     /// PNG, JPEG, TIFF or BMP images.
     #[arg(required = true)]
@@ -293,12 +318,18 @@ pub struct DetectArgs {
 
 /// Arguments of `register`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye register scan.ply reference.ply\n  handeye register scan.zdf part.stl --length-unit mm --global\n  handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n  handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n  handeye register scan.ply reference.ply --report registration.html\n\n\
-target_from_source takes points of SOURCE into TARGET; so does --initial, and the answer contains it.\n\
-guess.json: {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}, or a matrix of 4 rows.\n\n\
-Exit code 0: accepted; 3: rejected, or not determined by what both scans show."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye register scan.ply reference.ply\n\
+\x20 handeye register scan.zdf part.stl --length-unit mm --global\n\
+\x20 handeye register a.pcd b.pcd --initial guess.json --max-distance-mm 20\n\
+\x20 handeye register 01.png 02.png --camera camera.yaml --depth-scale 0.001 --json\n\
+\x20 handeye register scan.ply reference.ply --report registration.html\n\
+\n\
+target_from_source takes points of SOURCE into TARGET; so does --initial, and the answer \
+contains it. guess.json: {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}, or \
+a matrix of 4 rows.\n\
+\n\
+Exit code 0: accepted; 3: rejected, or not determined by what both scans show.")]
 pub struct RegisterArgs {
     /// The scan to be moved: PLY, PCD, E57, ZDF, XYZ, TXT, CSV, ASC, PTS, NPY, NPZ, or depth in PNG or TIFF;
     /// or a mesh: STL, OBJ, PLY with faces.
@@ -346,15 +377,18 @@ pub struct Reading {
 
 /// Arguments of `view`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye view scan.ply\n  handeye view scan.zdf part.stl --length-unit mm --out both.html\n  handeye view scan.ply result/calibration.json\n  handeye register a.ply b.ply --json > found.json\n  handeye view a.ply b.ply found.json\n\n\
-The page needs neither a network nor anything beside it. Every file is a layer\n\
-that can be switched off. Scans lie in their own frame, which is the camera's.\n\
-Two kinds of JSON files move them, and the page says so: an answer of\n\
-`handeye register --json` moves the first scan into the second, and one\n\
-eye-to-hand calibration.json moves all scans into the frame of the robot's base.\n\
-At most 150 000 points of a scan are shown, and 500 000 of all, evenly spread."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye view scan.ply\n\
+\x20 handeye view scan.zdf part.stl --length-unit mm --out both.html\n\
+\x20 handeye view scan.ply result/calibration.json\n\
+\x20 handeye register a.ply b.ply --json > found.json\n\
+\x20 handeye view a.ply b.ply found.json\n\
+\n\
+The page needs neither a network nor anything beside it. Every file is a layer that can be \
+switched off. Scans lie in their own frame, which is the camera's. Two kinds of JSON files \
+move them, and the page says so: an answer of `handeye register --json` moves the first scan \
+into the second, and one eye-to-hand calibration.json moves all scans into the frame of the \
+robot's base. At most 150 000 points of a scan are shown, and 500 000 of all, evenly spread.")]
 pub struct ViewArgs {
     /// Scans and meshes as `register` reads them, a calibration.json or a pose that `import` wrote, an
     /// answer of `handeye register --json`.
@@ -425,11 +459,15 @@ pub struct PosesArgs {
 
 /// Arguments of `compensate`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye compensate picks.csv --result result --notation kuka --direction base_from_flange\n  handeye compensate picks.csv -r result --notation ur --direction base_from_flange --out send.csv\n\n\
-POSES are desired flange poses, computed with the transform of the result. Written are\n\
-the poses to command, so that the flange reaches the desired ones. Exit code 0: corrected; 3: the result offers no correction."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye compensate picks.csv --result result --notation kuka \\\n\
+\x20     --direction base_from_flange\n\
+\x20 handeye compensate picks.csv -r result --notation ur \\\n\
+\x20     --direction base_from_flange --out send.csv\n\
+\n\
+POSES are desired flange poses, computed with the transform of the result. Written are the \
+poses to command, so that the flange reaches the desired ones. Exit code 0: corrected; 3: \
+the result offers no correction.")]
 pub struct CompensateArgs {
     /// The poses.
     #[command(flatten)]
@@ -447,11 +485,14 @@ pub struct CompensateArgs {
 
 /// Arguments of `tcp`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye tcp pivot.csv --notation kuka --direction base_from_flange\n  handeye tcp pivot.json --field 'poses.*.flange' --notation euler-xyz-extrinsic \\\n      --length-unit mm --direction base_from_flange --json\n  handeye tcp pivot.toml\n\n\
-Lead the tip onto one fixed point from 6 to 10 directions, 30 degrees and more apart, and save the\n\
-flange pose each time. pivot.toml holds the same keys as the [robot] of a manifest."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye tcp pivot.csv --notation kuka --direction base_from_flange\n\
+\x20 handeye tcp pivot.json --field 'poses.*.flange' \\\n\
+\x20     --notation euler-xyz-extrinsic --length-unit mm --direction base_from_flange --json\n\
+\x20 handeye tcp pivot.toml\n\
+\n\
+Lead the tip onto one fixed point from 6 to 10 directions, 30 degrees and more apart, and \
+save the flange pose each time. pivot.toml holds the same keys as the [robot] of a manifest.")]
 pub struct TcpArgs {
     /// The poses.
     #[command(flatten)]
@@ -463,12 +504,18 @@ pub struct TcpArgs {
 
 /// Arguments of `verify`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye verify result touches.csv --tolerance-mm 1\n  handeye verify result/calibration.json new-touches/ --out result --json\n\n\
-touches.csv, a line for each touch (the flange where a camera on it measured):\n  id,camera_x_mm,camera_y_mm,camera_z_mm,touched_x_mm,touched_y_mm,touched_z_mm\n    [,flange_x_mm,flange_y_mm,flange_z_mm,flange_qx,flange_qy,flange_qz,flange_qw]\n\n\
-Exit code 0: passed; 3: failed. With --tolerance-mm, 95 % of the touches must lie within it;\n\
-without, the touches must agree with the uncertainty that the calibration states (p >= 0.01)."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye verify result touches.csv --tolerance-mm 1\n\
+\x20 handeye verify result/calibration.json new-touches/ --out result --json\n\
+\n\
+touches.csv, a line for each touch (the flange where a camera on it measured):\n\
+\x20 id,camera_x_mm,camera_y_mm,camera_z_mm,touched_x_mm,touched_y_mm,touched_z_mm\n\
+\x20   [,flange_x_mm,flange_y_mm,flange_z_mm,\n\
+\x20    flange_qx,flange_qy,flange_qz,flange_qw]\n\
+\n\
+Exit code 0: passed; 3: failed. With --tolerance-mm, 95 % of the touches must lie within it; \
+without, the touches must agree with the uncertainty that the calibration states (p >= \
+0.01).")]
 pub struct VerifyArgs {
     /// calibration.json, or the folder that holds it; or a pose that `import` wrote.
     pub calibration: PathBuf,
@@ -490,14 +537,17 @@ pub struct VerifyArgs {
 
 /// Arguments of `check`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye check cell/\n  handeye check cell/ --apply\n  handeye check cell.toml --root /data/cell --json\n\n\
-Reads the robot's numbers in every notation, unit and direction, in other orders, and with another\n\
-size of the target, and says which explains the captures best. --apply writes the manifest\n\
-of the best explanation and keeps the old one as handeye.toml.bak; where several fit\n\
-equally well, choose one by its number (--apply=2).\n\n\
-Exit code 0: nothing is wrong; 3: something is."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye check cell/\n\
+\x20 handeye check cell/ --apply\n\
+\x20 handeye check cell.toml --root /data/cell --json\n\
+\n\
+Reads the robot's numbers in every notation, unit and direction, in other orders, and with \
+another size of the target, and says which explains the captures best. --apply writes the \
+manifest of the best explanation and keeps the old one as handeye.toml.bak; where several \
+fit equally well, choose one by its number (--apply=2).\n\
+\n\
+Exit code 0: nothing is wrong; 3: something is.")]
 pub struct CheckArgs {
     /// Folder with `handeye.toml`, or a manifest.
     pub dataset: PathBuf,

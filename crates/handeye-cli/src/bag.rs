@@ -12,9 +12,16 @@ use crate::{args::Manners, failure::Failure, output, simulate::SetupArg};
 
 /// Arguments of `bag`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye bag session.mcap\n  handeye bag session.mcap --out cell --target board.toml --setup eye-in-hand \\\n      --base base_link --flange tool0\n  handeye calibrate cell\n\nMCAP and SQLite bags of ROS 2 and bags of ROS 1 are read, of a file or a folder, and also those\nthat were not closed. The robot's pose is interpolated to the time of each image, never over a gap.\nWhere the robot stood still, one image of each place is taken; otherwise many of the motion, and the\ntime offset between camera and robot is estimated."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye bag session.mcap\n\
+\x20 handeye bag session.mcap --out cell --target board.toml --setup eye-in-hand \\\n\
+\x20     --base base_link --flange tool0\n\
+\x20 handeye calibrate cell\n\
+\n\
+MCAP and SQLite bags of ROS 2 and bags of ROS 1 are read, of a file or a folder, and also \
+those that were not closed. The robot's pose is interpolated to the time of each image, \
+never over a gap. Where the robot stood still, one image of each place is taken; otherwise \
+many of the motion, and the time offset between camera and robot is estimated.")]
 pub struct BagArgs {
     /// The bag: a file, or its folder.
     pub bag: PathBuf,

@@ -17,7 +17,8 @@ use crate::{args::Manners, calibrate, failure::Failure, output};
 
 /// Arguments of `demo`.
 #[derive(Args)]
-#[command(after_help = "Example:\n  handeye demo --out demo")]
+#[command(after_help = "Example:\n\
+\x20 handeye demo --out demo")]
 pub struct DemoArgs {
     /// Folder for dataset, result and report [default: a folder for temporary files].
     #[arg(long, short)]

@@ -15,18 +15,29 @@ use crate::{
 
 /// Arguments of `import`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye import cell.samples.yaml && handeye calibrate .\n  handeye import pose_samples.json --setup eye-to-hand\n  handeye import flange.csv board.csv --setup eye-in-hand --direction base_from_flange\n  handeye import kinhec/ --sequence temporal-000001\n  handeye import old.calib && handeye verify flange_from_camera.json touches.csv --tolerance-mm 1\n\n\
-Data sets get a manifest, handeye.toml: samples of easy_handeye2 and moveit_calibration, cal_data.yaml\n\
-of robot_cal_tools, sets of industrial_calibration, manifests of calibration-rs, Tabb's layout, Zivid's,\n\
-folders of HALCON's poses.\n\
-Trajectories of robot and camera, lines of t x y z qx qy qz qw (s, m; apart by commas or blanks), and\n\
-KinHEC become JSON for `solve`. Name both files, or a folder with the two. Of their directions one must\n\
-be declared; the data prove the other.\n\
-Results become the camera's pose as JSON, for `verify`, `export`, `compare` and `view`: easy_handeye,\n\
-easy_handeye2, launch files of moveit_calibration and ROS 2, Zivid, OpenCV, HALCON, Mech-Mind.\n\
-Other folders: handeye init."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye import cell.samples.yaml && handeye calibrate .\n\
+\x20 handeye import pose_samples.json --setup eye-to-hand\n\
+\x20 handeye import flange.csv board.csv --setup eye-in-hand \\\n\
+\x20     --direction base_from_flange\n\
+\x20 handeye import kinhec/ --sequence temporal-000001\n\
+\x20 handeye import old.calib\n\
+\x20 handeye verify flange_from_camera.json touches.csv --tolerance-mm 1\n\
+\n\
+Data sets get a manifest, handeye.toml: samples of easy_handeye2 and moveit_calibration, \
+cal_data.yaml of robot_cal_tools, sets of industrial_calibration, manifests of \
+calibration-rs, Tabb's layout, Zivid's, folders of HALCON's poses.\n\
+\n\
+Trajectories of robot and camera, \
+ lines of t x y z qx qy qz qw (s, m; apart by commas or blanks), and KinHEC become \
+JSON for `solve`. Name both files, or a folder with the two. Of their directions one must be \
+declared; the data prove the other.\n\
+\n\
+Results become the camera's pose as JSON, for `verify`, \
+`export`, `compare` and `view`: easy_handeye, easy_handeye2, launch files of \
+moveit_calibration and ROS 2, Zivid, OpenCV, HALCON, Mech-Mind.\n\
+\n\
+Other folders: handeye init.")]
 pub struct ImportArgs {
     /// Its file or folder; of two trajectories, the robot's.
     pub source: PathBuf,

@@ -15,10 +15,15 @@ use crate::{args::Manners, failure::Failure, output};
 
 /// Arguments of `simulate`.
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  handeye simulate cell && handeye calibrate cell\n  handeye simulate cell --setup eye-to-hand --captures 20 --scans --scan-format ply\n  handeye simulate cell --charuco 12x9 --square-mm 25 --marker-mm 18 \\\n      --width 1280 --height 960\n\nThe same options and seed give the same bytes. truth.json holds the answer.\n\
-A folder is written over only if it holds nothing but an earlier simulation, unedited."
-)]
+#[command(after_help = "Examples:\n\
+\x20 handeye simulate cell && handeye calibrate cell\n\
+\x20 handeye simulate cell --setup eye-to-hand --captures 20 \\\n\
+\x20     --scans --scan-format ply\n\
+\x20 handeye simulate cell --charuco 12x9 --square-mm 25 --marker-mm 18 \\\n\
+\x20     --width 1280 --height 960\n\
+\n\
+The same options and seed give the same bytes. truth.json holds the answer. A folder is \
+written over only if it holds nothing but an earlier simulation, unedited.")]
 pub struct SimulateArgs {
     /// Folder for the dataset; it is made if need be.
     pub out: PathBuf,

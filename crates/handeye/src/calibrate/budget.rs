@@ -59,7 +59,7 @@ fn text(s: &Sigma, has_board: bool) -> String {
         _ if is_scan(s, has_board) => {
             format!("{:.2} times the noise that the registration of the scans states", s.sigma)
         }
-        Source::Picture => format!("{:.2} times the corner noise estimated in the images", s.sigma),
+        Source::Picture => format!("{:.2} times the noise of the corners in the images", s.sigma),
         x if x.is_rotation() => format!("{:.4} deg per axis", s.sigma.to_degrees()),
         _ => format!("{:.3} mm per axis", s.sigma * 1e3),
     };
