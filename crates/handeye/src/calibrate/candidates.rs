@@ -181,7 +181,7 @@ fn compare(
     } else if candidates.is_empty() && evidence.notes.undetermined.is_empty() {
         evidence.notes.add(named::failure(views, config).unwrap_or_default());
     }
-    let mut chosen = choose(&candidates, volume, config);
+    let mut chosen = choose(&candidates, judge.workpiece, volume, config);
     if config.method.is_some() {
         evidence.unit_and_clock = named::unit(views, task, &evidence);
         let is_open = !evidence.notes.undetermined.is_empty() && !evidence.notes.rejects;
@@ -296,7 +296,6 @@ impl Judge<'_> {
     fn judged(&self, fit: &JointFit, name: String, answer: &HandEye, left_out: HeldOut) -> Judged {
         let views = self.views;
         let x = answer.mount_from_camera;
-        let tre = self.workpiece.tre(&x);
         let held_out = evaluate::rms(&left_out);
         let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
         let covariance =
@@ -308,10 +307,10 @@ impl Judge<'_> {
             held_out,
             touch_rms_mm: touch_rms,
             held_out_mm: touch_rms.or(held_out.translation_rms_mm),
-            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+            predicted_tre_mm: self.workpiece.predicted_rms_mm(&x),
             note: None,
         };
-        Judged { rests_on: RestsOn::Views, candidate, tre, held_out: left_out }
+        Judged { rests_on: RestsOn::Views, candidate, held_out: left_out }
     }
 
     /// The same beside that for the target.
@@ -325,7 +324,6 @@ impl Judge<'_> {
     fn joint_candidate(&self, joint: &Joint) -> Option<Judged> {
         let fit = &joint.fit;
         let x = fit.hand_eye.mount_from_camera;
-        let tre = self.workpiece.tre(&x);
         let left_out = held_out_views(&joint.problem, fit, &self.known);
         let held_out = evaluate::rms(&left_out);
         let covariance = stated_covariance(fit).map(|c| self.of_both(c, &fit.hand_eye));
@@ -337,10 +335,10 @@ impl Judge<'_> {
             held_out,
             touch_rms_mm: joint.touch_rms().map(|m| m * 1e3),
             held_out_mm: touch_held_out.or(held_out.translation_rms_mm),
-            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+            predicted_tre_mm: self.workpiece.predicted_rms_mm(&x),
             note: joint.note(),
         };
-        Some(Judged { rests_on: RestsOn::Both, candidate, tre, held_out: left_out })
+        Some(Judged { rests_on: RestsOn::Both, candidate, held_out: left_out })
     }
 }
 
@@ -354,7 +352,6 @@ impl Judge<'_> {
             (RobotErrorKind::ByPlace, false) => NOTE_BY_PLACE_TOUCHED,
         };
         let views = self.views;
-        let tre = self.workpiece.tre(&x);
         let placed = solve::place_target(&pairs_of(views), &x);
         let held_out = evaluate::placed_without(&views.views, &x);
         let missed = evaluate::rms(&held_out);
@@ -367,10 +364,10 @@ impl Judge<'_> {
             touch_rms_mm: touch_rms,
             // no touch was left out of it
             held_out_mm: if touch_rms.is_some() { None } else { missed.translation_rms_mm },
-            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+            predicted_tre_mm: self.workpiece.predicted_rms_mm(&x),
             note: Some(note.into()),
         };
-        Some(Judged { rests_on: RestsOn::BothFor(errors), candidate, tre, held_out })
+        Some(Judged { rests_on: RestsOn::BothFor(errors), candidate, held_out })
     }
 }
 
@@ -383,15 +380,25 @@ const NOTE_BY_PLACE_TOUCHED: &str = "robot errors by place are part of the model
                                      comes closest to where the tool must be sent, held as in the touches";
 
 /// The least predicted error wins; the residual has no say. With the choice comes the leave-one-out residual of each view.
-fn choose(candidates: &[Judged], volume: &Volume, config: &Config) -> Option<(Choice, HeldOut)> {
-    let best = candidates.iter().filter(|c| c.tre.is_some()).min_by(|a, b| by_prediction(a, b));
-    let best = best.or(candidates.last())?;
+fn choose(
+    candidates: &[Judged],
+    workpiece: &Workpiece,
+    volume: &Volume,
+    config: &Config,
+) -> Option<(Choice, HeldOut)> {
+    let predicted = candidates.iter().filter(|c| c.candidate.predicted_tre_mm.is_some());
+    let best = predicted.min_by(|a, b| by_prediction(a, b)).or(candidates.last())?;
+    let x = best
+        .candidate
+        .hand_eye
+        .mount_from_camera
+        .filter(|_| best.candidate.predicted_tre_mm.is_some());
     let choice = Choice {
         name: Some(best.candidate.name.clone()),
         rests_on: best.rests_on,
         why: why(best, candidates, volume, config),
         hand_eye: best.candidate.hand_eye,
-        predicted_tre_mm: best.tre.clone(),
+        predicted_tre_mm: x.and_then(|x| workpiece.tre(&x)),
         residual: best.candidate.in_sample,
         held_out: best.candidate.held_out,
     };
@@ -399,7 +406,7 @@ fn choose(candidates: &[Judged], volume: &Volume, config: &Config) -> Option<(Ch
 }
 
 fn by_prediction(a: &Judged, b: &Judged) -> std::cmp::Ordering {
-    let rms = |c: &Judged| c.tre.as_ref().map_or(f64::INFINITY, |t| t.rms);
+    let rms = |c: &Judged| c.candidate.predicted_tre_mm.unwrap_or(f64::INFINITY);
     rms(a).total_cmp(&rms(b))
 }
 
@@ -407,17 +414,21 @@ fn why(best: &Judged, all: &[Judged], volume: &Volume, config: &Config) -> Strin
     if let Some(method) = config.method {
         return format!("{} was asked for by name", method.name());
     }
-    let Some(tre) = &best.tre else { return "no candidate has a predicted error".into() };
+    let Some(rms) = best.candidate.predicted_tre_mm else {
+        return "no candidate has a predicted error".into();
+    };
     let others: Vec<String> = all
         .iter()
         .filter(|c| c.candidate.name != best.candidate.name)
-        .filter_map(|c| Some(format!("{} {:.2} mm", c.candidate.name, c.tre.as_ref()?.rms)))
+        .filter_map(|c| {
+            Some(format!("{} {:.2} mm", c.candidate.name, c.candidate.predicted_tre_mm?))
+        })
         .collect();
     format!(
         "{} has the least predicted error in {}: {:.2} mm (the others: {})",
         best.candidate.name,
         volume.name,
-        tre.rms,
+        rms,
         others.join(", ")
     )
 }

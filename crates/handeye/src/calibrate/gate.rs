@@ -7,12 +7,13 @@
 
 use super::masked::masked;
 use crate::{
+    Setup,
     calibrate::{
         config::Config,
         masked::{IMPROBABLE, outlier_limit},
         views::Captures,
     },
-    estimate::{self, JointFit},
+    estimate::{self, JointFit, Problem, joint},
     solve::{FEWEST_POSES, View, consensus::Consensus},
 };
 
@@ -58,6 +59,13 @@ fn fit_of(
     estimate::fit_views(&views, &found.hand_eye, &config.known, captures.session.setup).ok()
 }
 
+/// A fit of other views, from one that is near.
+fn refit(views: Vec<View>, near: &JointFit, setup: Setup, config: &Config) -> JointFit {
+    let (boards, extras) = (vec![], vec![]);
+    let problem = Problem { setup, views, boards, extras, known_position: None };
+    joint::refit(&problem, near, &config.known)
+}
+
 /// Lets captures in, in their best reading, that are no outliers.
 fn readmit(captures: &Captures, found: &mut Consensus, fit: &JointFit) -> bool {
     let limit = outlier_limit(IMPROBABLE, 1, fit.degrees_of_freedom);
@@ -90,8 +98,9 @@ fn put_out(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &
     let mut suspects: Vec<(f64, usize)> = used.iter().filter_map(inside).collect();
     suspects.sort_by(|a, b| b.0.total_cmp(&a.0));
     let outlying = |&(_, i): &(f64, usize)| {
-        let rest: Vec<usize> = used.iter().copied().filter(|&k| k != i).collect();
-        let without = fit_of(captures, found, &rest, config)?;
+        let rest = used.iter().filter(|&&k| k != i);
+        let rest = rest.map(|&k| captures.view(k, found.reading[k])).collect();
+        let without = refit(rest, fit, setup, config);
         let d2 = without.squared_mahalanobis(&captures.view(i, found.reading[i]), setup)?;
         let excess = d2 / outlier_limit(IMPROBABLE, 1, without.degrees_of_freedom);
         (excess > 1.0).then_some((excess, i))
@@ -110,9 +119,8 @@ fn unmask(captures: &Captures, found: &mut Consensus, fit: &JointFit, config: &C
     let view = |&i: &usize| captures.view(i, found.reading[i]);
     let views: Vec<View> = used.iter().map(view).collect();
     let setup = captures.session.setup;
-    let hidden = masked(&views, fit, setup, |part| {
-        let part: Vec<View> = part.iter().map(|&k| views[k].clone()).collect();
-        estimate::fit_views(&part, &found.hand_eye, &config.known, setup).ok()
+    let hidden = masked(&views, fit, setup, |part, near| {
+        refit(part.iter().map(|&k| views[k].clone()).collect(), near, setup, config)
     });
     hidden.iter().for_each(|&k| found.agrees[used[k]] = false);
     !hidden.is_empty()

@@ -25,31 +25,35 @@ const UNLIKELY: f64 = 1e-3;
 const ROUNDS: usize = 6;
 /// Steps in which the search grows, at most: of many captures it takes several at once.
 const STEPS: usize = 30;
+/// Beyond so many captures each of them says little of the noise, and larger steps do.
+const MANY: usize = 200;
+/// The same of these.
+const STEPS_OF_MANY: usize = 8;
 
-/// Those of `views` that are outliers to a fit of the others; `fit_of` fits a part of them.
+/// Those of `views` that are outliers to a fit of the others; `fit_of` fits a part of them, from a fit that is near.
 pub(super) fn masked(
     views: &[View],
     all: &JointFit,
     setup: Setup,
-    fit_of: impl Fn(&[usize]) -> Option<JointFit>,
+    fit_of: impl Fn(&[usize], &JointFit) -> JointFit,
 ) -> Vec<usize> {
     let start = (BEST_PART * views.len() as f64).ceil() as usize;
     if start < FEWEST {
         return vec![];
     }
     let mut inner = nearest(views, all, setup, start);
-    let mut fit = None;
-    for _ in 0..ROUNDS {
-        let Some(of_inner) = fit_of(&inner) else { return vec![] };
+    let mut of_inner = fit_of(&inner, all);
+    for _ in 1..ROUNDS {
         let next = nearest(views, &of_inner, setup, start);
-        fit = Some(of_inner);
         if next == inner {
             break;
         }
         inner = next;
+        of_inner = fit_of(&inner, &of_inner);
     }
-    let step = (views.len() - start).div_ceil(STEPS).max(1);
-    while let Some(of_inner) = fit {
+    let steps = if views.len() > MANY { STEPS_OF_MANY } else { STEPS };
+    let step = (views.len() - start).div_ceil(steps).max(1);
+    loop {
         let fitted = inner.len() as f64 / views.len() as f64;
         let dof = of_inner.degrees_of_freedom;
         let limit =
@@ -58,6 +62,10 @@ pub(super) fn masked(
         let distances: Vec<(usize, f64)> = outside
             .filter_map(|i| Some((i, of_inner.squared_mahalanobis(&views[i], setup)?)))
             .collect();
+        // where none of those outside is improbable, no part of them is
+        if distances.iter().all(|s| s.1 < limit(UNLIKELY, 1)) {
+            return vec![];
+        }
         let next = distances.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
         let together = distances.iter().map(|s| s.1).sum::<f64>();
         let chance = IMPROBABLE / ways(views.len(), distances.len());
@@ -66,12 +74,11 @@ pub(super) fn masked(
             return distances.into_iter().map(|s| s.0).collect();
         }
         if inner.len() + step >= views.len() {
-            break;
+            return vec![];
         }
         inner = nearest(views, &of_inner, setup, inner.len() + step);
-        fit = fit_of(&inner);
+        of_inner = fit_of(&inner, &of_inner);
     }
-    vec![]
 }
 
 /// In how many ways `part` of `count` captures can be picked.

@@ -20,7 +20,9 @@
 //! Captures that were rejected one after the other and agree on one displacement may be right: the camera or the target
 //! moved, or the robot errs at that place. The stated error then reaches as far.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
+use nalgebra::{
+    Cholesky, DMatrix, DVector, Matrix6, SMatrix, SVector, SymmetricEigen, Vector3, Vector6,
+};
 
 use crate::{
     Anchor, Mount, Pose,
@@ -55,6 +57,8 @@ const LEVER: f64 = 0.3;
 const OF_ITS_OWN: f64 = 0.8;
 /// Captures that follow one another by at most this part of all are taken shortly after one another.
 const SHORTLY: usize = 12;
+/// Most captures that are asked where their neighbours are.
+const MOST_ASKED: usize = 200;
 /// A session in which the nearest capture was taken shortly before or after this often went from place to place.
 const IN_ORDER: f64 = 0.5;
 
@@ -264,7 +268,10 @@ fn is_in_order_of_place(poses: &[Pose<Anchor, Mount>], seen: &[usize]) -> bool {
             .and_then(|near| seen.iter().position(|j| *j == near))
             .is_some_and(|other| other.abs_diff(*k) <= shortly)
     };
-    seen.iter().enumerate().filter(soon).count() as f64 >= IN_ORDER * seen.len() as f64
+    // of very many, some tell it
+    let asked: Vec<(usize, &usize)> =
+        seen.iter().enumerate().step_by(seen.len().div_ceil(MOST_ASKED)).collect();
+    asked.iter().filter(|asked| soon(asked)).count() as f64 >= IN_ORDER * asked.len() as f64
 }
 
 /// The capture whose robot pose lies nearest.
@@ -298,13 +305,6 @@ struct Hypothesis {
 }
 
 impl Hypothesis {
-    fn share(&self, k: usize, n: usize) -> f64 {
-        match self.step {
-            Some(step) => f64::from(u8::from(k < step)),
-            None => 1.0 - k as f64 / (n - 1) as f64,
-        }
-    }
-
     /// Half of the belief goes to slips, half to steps.
     fn log_prior(&self, steps: usize) -> f64 {
         let of = if self.step.is_some() { steps as f64 } else { 1.0 };
@@ -312,12 +312,51 @@ impl Hypothesis {
     }
 }
 
+/// Sums over captures, of their equations for rotations and for positions, all that a linear fit needs.
+#[derive(Clone, Copy, Default)]
+struct Sums([Normal; 2]);
+
+/// Sums of `JᵀJ`, `Jᵀr` and `r²`.
+#[derive(Clone, Copy, Default)]
+struct Normal {
+    matrix: SMatrix<f64, 12, 12>,
+    right: SVector<f64, 12>,
+    square: f64,
+}
+
+impl Sums {
+    fn add(&mut self, row: &Row, share: f64) {
+        for (k, sums) in self.0.iter_mut().enumerate() {
+            let j = row.jacobian.fixed_rows::<3>(3 * k);
+            let r = row.residual.fixed_rows::<3>(3 * k);
+            sums.matrix += j.tr_mul(&j) * share;
+            sums.right += j.tr_mul(&r) * share;
+            sums.square += r.norm_squared() * share;
+        }
+    }
+
+    fn of(rows: &[Used], share: impl Fn(usize) -> f64) -> Self {
+        let mut sums = Self::default();
+        for (k, (_, row)) in rows.iter().enumerate() {
+            sums.add(row, share(k));
+        }
+        sums
+    }
+}
+
+/// The sums in which a movement is: with the share of each capture, and with its square.
+struct Displaced<'a> {
+    by: &'a Hypothesis,
+    once: &'a Sums,
+    twice: &'a Sums,
+}
+
 /// One linear fit.
 struct Linear {
     solution: DVector<f64>,
     log_evidence: f64,
     /// Squares that are left, of rotations and of positions.
-    left: (f64, f64),
+    left: [f64; 2],
 }
 
 /// A capture that agrees: which of the session, and its equations.
@@ -326,19 +365,34 @@ type Used<'a> = (usize, &'a Row);
 /// A way in which something may have moved, its logarithm of the likelihood, and the fit under it.
 type Weighed = (f64, Hypothesis, Linear);
 
+/// Most places in a session at which a step is looked for.
+const MOST_STEPS: usize = 200;
+
 /// Every way of moving, with its likelihood beside that of standing still.
-fn weighed(rows: &[Used], still: &Linear) -> Vec<Weighed> {
-    let steps = FEWEST_BESIDE..=(rows.len() - FEWEST_BESIDE);
-    let count = steps.clone().count();
-    let of_size = |size: f64| SIDES.map(|side| (side, size));
-    let all = SIZES.into_iter().flat_map(of_size).flat_map(|(side, size)| {
-        steps.clone().map(Some).chain([None]).map(move |step| Hypothesis { side, step, size })
-    });
-    all.filter_map(|h| {
-        let fit = linear(rows, Some(&h))?;
-        Some((h.log_prior(count) + fit.log_evidence - still.log_evidence, h, fit))
-    })
-    .collect()
+fn weighed(rows: &[Used], all: &Sums, still: &Linear) -> Vec<Weighed> {
+    let n = rows.len();
+    let apart = n.div_ceil(MOST_STEPS);
+    let steps: Vec<usize> = (FEWEST_BESIDE..=n - FEWEST_BESIDE).step_by(apart).collect();
+    let mut found = vec![];
+    let mut look = |step: Option<usize>, once: &Sums, twice: &Sums| {
+        let sizes = SIZES.into_iter().flat_map(|size| SIDES.map(|side| (side, size)));
+        found.extend(sizes.filter_map(|(side, size)| {
+            let by = Hypothesis { side, step, size };
+            let fit = linear(n, all, Some(Displaced { by: &by, once, twice }))?;
+            Some((by.log_prior(steps.len()) + fit.log_evidence - still.log_evidence, by, fit))
+        }));
+    };
+    let (mut before, mut counted) = (Sums::default(), 0);
+    for &step in &steps {
+        for (_, row) in &rows[counted..step] {
+            before.add(row, 1.0);
+        }
+        counted = step;
+        look(Some(step), &before, &before);
+    }
+    let share = |k: usize| 1.0 - k as f64 / (n - 1) as f64;
+    look(None, &Sums::of(rows, share), &Sums::of(rows, |k| share(k).powi(2)));
+    found
 }
 
 /// A step or a slip in the captures that agree, and the mean square of what it displaces the camera's pose by.
@@ -348,8 +402,9 @@ fn gradual(recorded: &Recorded) -> Option<(Movement, Matrix6<f64>)> {
     if n < FEWEST {
         return None;
     }
-    let still = linear(rows, None)?;
-    let all = weighed(rows, &still);
+    let sums = Sums::of(rows, |_| 1.0);
+    let still = linear(n, &sums, None)?;
+    let all = weighed(rows, &sums, &still);
     let none = (1.0 - PRIOR).ln();
     let most = all.iter().map(|w| w.0).fold(none, f64::max);
     let sum = (none - most).exp() + all.iter().map(|w| (w.0 - most).exp()).sum::<f64>();
@@ -394,59 +449,61 @@ const LEAST_NOISE: f64 = 1e-2;
 
 /// Fits both poses, a movement where there is one, and how large the noise of rotations and of positions is then: what
 /// moved in positions alone would otherwise be judged by a noise that it made itself.
-fn linear(rows: &[Used], movement: Option<&Hypothesis>) -> Option<Linear> {
-    let equations = 3.0 * rows.len() as f64;
-    let mut variances = (1.0, 1.0);
-    let mut fit = weighted(rows, movement, variances)?;
+fn linear(captures: usize, all: &Sums, movement: Option<Displaced>) -> Option<Linear> {
+    let equations = 3.0 * captures as f64;
+    let mut variances = [1.0, 1.0];
+    let mut fit = weighted(all, movement.as_ref(), variances)?;
     for _ in 0..ROUNDS {
-        let variance = |left: f64| (left / (equations - 6.0)).max(LEAST_NOISE);
-        variances = (variance(fit.left.0), variance(fit.left.1));
-        fit = weighted(rows, movement, variances)?;
+        variances = fit.left.map(|left| (left / (equations - 6.0)).max(LEAST_NOISE));
+        fit = weighted(all, movement.as_ref(), variances)?;
     }
-    let of_noise = equations * (variances.0.ln() + variances.1.ln());
-    let of_squares = fit.left.0 / variances.0 + fit.left.1 / variances.1;
+    let of_noise = equations * (variances[0].ln() + variances[1].ln());
+    let of_squares = fit.left[0] / variances[0] + fit.left[1] / variances[1];
     fit.log_evidence -= 0.5 * (of_noise + of_squares);
     Some(fit)
 }
 
-/// The same under noise of these variances, as shares of those that the rows are whitened by.
-fn weighted(rows: &[Used], movement: Option<&Hypothesis>, variances: (f64, f64)) -> Option<Linear> {
+/// The normal equations of rotations or of positions, by both poses and the movement where there is one.
+fn normal(kind: usize, all: &Sums, movement: Option<&Displaced>) -> (DMatrix<f64>, DVector<f64>) {
     let size = if movement.is_some() { 18 } else { 12 };
-    let weight = |k: usize| if k < 3 { 1.0 / variances.0 } else { 1.0 / variances.1 };
-    let weights = Matrix6::from_diagonal(&Vector6::from_fn(|k, _| weight(k)));
-    let mut normal = DMatrix::zeros(size, size);
-    let mut right = DVector::zeros(size);
-    let jacobian = |k: usize, row: &Row| {
-        let mut j = DMatrix::zeros(6, size);
-        j.fixed_view_mut::<6, 12>(0, 0).copy_from(&row.jacobian);
-        if let Some(h) = movement {
-            let own = row.by(h.side) * h.share(k, rows.len());
-            j.fixed_view_mut::<6, 6>(0, 12).copy_from(&own);
-        }
-        j
-    };
-    for (k, (_, row)) in rows.iter().enumerate() {
-        let j = jacobian(k, row);
-        normal += j.tr_mul(&(weights * &j));
-        right -= j.tr_mul(&(weights * row.residual));
+    let (mut matrix, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
+    matrix.fixed_view_mut::<12, 12>(0, 0).copy_from(&all.0[kind].matrix);
+    right.fixed_rows_mut::<12>(0).copy_from(&all.0[kind].right);
+    if let Some(Displaced { by, once, twice }) = movement {
+        let first = if by.side == Side::Camera { 0 } else { 6 };
+        let (once, twice) = (&once.0[kind], &twice.0[kind]);
+        let beside = once.matrix.fixed_columns::<6>(first);
+        matrix.fixed_view_mut::<12, 6>(0, 12).copy_from(&beside);
+        matrix.fixed_view_mut::<6, 12>(12, 0).copy_from(&beside.transpose());
+        let own = twice.matrix.fixed_view::<6, 6>(first, first);
+        matrix.fixed_view_mut::<6, 6>(12, 12).copy_from(&own);
+        right.fixed_rows_mut::<6>(12).copy_from(&once.right.fixed_rows::<6>(first));
     }
+    (matrix, right)
+}
+
+/// The same under noise of these variances, as shares of those that the rows are whitened by.
+fn weighted(all: &Sums, movement: Option<&Displaced>, variances: [f64; 2]) -> Option<Linear> {
+    let of_kind = [0, 1].map(|kind| normal(kind, all, movement));
+    let mut whole = &of_kind[0].0 / variances[0] + &of_kind[1].0 / variances[1];
+    let right = &of_kind[0].1 / variances[0] + &of_kind[1].1 / variances[1];
     let mut of_prior = 0.0;
-    if let Some(h) = movement {
-        for k in 12..size {
-            normal[(k, k)] += h.size.powi(-2);
-            of_prior += 2.0 * h.size.ln();
+    if let Some(Displaced { by, .. }) = movement {
+        for k in 12..18 {
+            whole[(k, k)] += by.size.powi(-2);
+            of_prior += 2.0 * by.size.ln();
         }
     }
-    let cholesky = Cholesky::new(normal)?;
-    let solution = cholesky.solve(&right);
-    let log_determinant: f64 = cholesky.l().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
-    let mut left = (0.0, 0.0);
-    for (k, (_, row)) in rows.iter().enumerate() {
-        let r = jacobian(k, row) * &solution + row.residual;
-        left.0 += r.rows(0, 3).norm_squared();
-        left.1 += r.rows(3, 3).norm_squared();
-    }
-    let by_prior = movement.map_or(0.0, |h| solution.rows(12, 6).norm_squared() / h.size.powi(2));
+    let cholesky = Cholesky::new(whole)?;
+    let solution = -cholesky.solve(&right);
+    let log_determinant: f64 = cholesky.l_dirty().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
+    let left = [0, 1].map(|kind| {
+        let (matrix, right) = &of_kind[kind];
+        let by_solution = 2.0 * solution.dot(right) + solution.dot(&(matrix * &solution));
+        (all.0[kind].square + by_solution).max(0.0)
+    });
+    let by_prior =
+        movement.map_or(0.0, |m| solution.rows(12, 6).norm_squared() / m.by.size.powi(2));
     let log_evidence = -0.5 * (log_determinant + of_prior + by_prior);
     Some(Linear { solution, log_evidence, left })
 }

@@ -64,8 +64,7 @@ fn answer(found: &Calibration) -> Option<HandEye> {
 /// Captures in groups about the first of each place.
 fn places(all: &[Observation]) -> Vec<Vec<usize>> {
     let near = |a: usize, b: usize| {
-        let (a, b) = (&all[a].base_from_flange, &all[b].base_from_flange);
-        Residual::between(a, b).is_within(NEAR)
+        Residual::are_within(&all[a].base_from_flange, &all[b].base_from_flange, NEAR)
     };
     let mut places: Vec<Vec<usize>> = vec![];
     for i in (0..all.len()).filter(|i| !all[*i].candidates.is_empty()) {

@@ -37,12 +37,13 @@ pub(crate) fn take_out(session: &mut Session) -> Uncounted {
 }
 
 fn repeats(first: &Observation, other: &Observation) -> bool {
-    let robot = Residual::between(&first.base_from_flange, &other.base_from_flange);
+    let is_one_place =
+        Residual::are_within(&first.base_from_flange, &other.base_from_flange, SAME_PLACE);
     let alike = |seen: &TargetPose, again: &TargetPose| {
         let (seen, again) = (&seen.camera_from_target, &again.camera_from_target);
         Residual::between(seen, again).is_within(SAME_VIEW)
     };
-    robot.is_within(SAME_PLACE)
+    is_one_place
         && first
             .candidates
             .iter()

@@ -108,6 +108,16 @@ impl<'a> Workpiece<'a> {
         Some((sum / spread.len().max(1) as f64).max(0.0).sqrt() * 1e3)
     }
 
+    /// The root mean square of [`Self::tre`], mm.
+    pub fn predicted_rms_mm(&self, x: &Pose<Mount, Camera>) -> Option<f64> {
+        let offset = self.offset(x);
+        let square = |(s, p): (&Matrix3<f64>, &Vector3<f64>)| {
+            (s + self.scatter(p)).trace() + offset(p).norm_squared()
+        };
+        let all = self.spread.as_ref()?.iter().zip(&self.volume.points).map(square);
+        Some((all.sum::<f64>() / self.volume.points.len().max(1) as f64).sqrt() * 1e3)
+    }
+
     /// Predicted error of an answer: that of the best one, and in full the distance of the two.
     /// Given all that was measured, that is its expected error.
     pub fn tre(&self, x: &Pose<Mount, Camera>) -> Option<PredictedTre> {

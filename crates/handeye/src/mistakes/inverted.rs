@@ -4,12 +4,18 @@
 //! those inverted: `A⁻¹ X = Y B` is `A Y = X B⁻¹`. One fit with the robot poses inverted stands for all of them.
 
 use super::{
-    score::{Score, scored},
+    score::{Score, combined, pair, scored},
     thresholds::{EXPLAINS, FEWEST_TO_JUDGE, LARGE, ROUNDING},
 };
 use crate::{
+    PosePair,
     findings::{RobotFinding, robot::Inverted},
-    solve::consensus::{Consensus, Readings},
+    model::residual::Residual,
+    solve::{
+        Method,
+        consensus::{Consensus, Readings},
+        solve,
+    },
 };
 
 /// Whether most captures agree with the poses inverted, clearly better than as declared. `from_elsewhere` says that the
@@ -23,7 +29,11 @@ pub(crate) fn inverted(
     if before.is_some_and(|before| before.score < least_to_explain(captures.len())) {
         return None;
     }
-    let (after, _) = scored(&the_other_way(captures))?;
+    let inverted = the_other_way(captures);
+    if before.is_some_and(|before| cannot_explain(&inverted, &before)) {
+        return None;
+    }
+    let (after, _) = scored(&inverted)?;
     let is_better =
         |before: Score| after.agree >= before.agree && after.score < EXPLAINS * before.score;
     (after.is_most(captures.len()) && before.is_none_or(is_better)).then(|| {
@@ -33,6 +43,21 @@ pub(crate) fn inverted(
             after_mm: after.translation_mm,
         }
     })
+}
+
+/// A closed form of captures that all agree is at most so many times as far off as what they agree on.
+const CLOSED_FORM: f64 = 10.0;
+
+/// Whether captures that all agree as declared are far from agreeing the other way: all of them would have to, and a closed
+/// form would be near what they agree on.
+fn cannot_explain(inverted: &[Readings], before: &Score) -> bool {
+    if before.agree < inverted.len() || inverted.iter().any(|c| c.camera_from_target.len() != 1) {
+        return false;
+    }
+    let pairs: Vec<PosePair> = inverted.iter().map(|c| pair(c, 0)).collect();
+    let Ok(hand_eye) = solve(&pairs, Method::Shah) else { return false };
+    let residuals: Vec<Residual> = pairs.iter().map(|p| hand_eye.loop_residual(p)).collect();
+    combined(&residuals) > CLOSED_FORM * before.score
 }
 
 /// The score from which on there is something to explain: of a few captures outliers can be rejected until the rest fits
@@ -52,7 +77,6 @@ fn the_other_way(captures: &[Readings]) -> Vec<Readings> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::residual::Residual;
     use crate::{
         mistakes::tests::{agreed, in_order, shift, with_robot},
         solve::consensus,
@@ -71,6 +95,17 @@ mod tests {
             };
             assert_eq!((which(false), which(true)), (Inverted::Robot, Inverted::Either));
         }
+    }
+
+    #[test]
+    fn captures_that_all_agree_are_not_searched_once_more() {
+        let right = in_order(12, 2);
+        let before = Score::new(&right.declared, &agreed(&right));
+        assert!(cannot_explain(&the_other_way(&right.declared), &before));
+        assert!(!cannot_explain(&right.declared, &before));
+        // one that does not agree: anything may be
+        let one_less = Score { agree: 11, ..before };
+        assert!(!cannot_explain(&the_other_way(&right.declared), &one_less));
     }
 
     #[test]

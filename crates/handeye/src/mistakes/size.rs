@@ -175,19 +175,19 @@ pub fn target_scale(
     setup: Setup,
 ) -> Option<TargetScale> {
     let size = Extra::about_zero(ExtraKind::Camera(TARGET_SCALE), 1.0);
-    let fit_scale = |views: &[View], start: &HandEye| {
+    let problem = |views: &[View]| {
         let views = views.iter().map(of_any_size).collect();
-        let problem =
-            Problem { setup, views, boards: vec![], extras: vec![size], known_position: None };
-        let fit = estimate::fit_joint(&problem, start, known).ok()?;
-        Some((1.0 + fit.extra(size.kind)?.0, fit.extra(size.kind)?.1, fit))
+        Problem { setup, views, boards: vec![], extras: vec![size], known_position: None }
     };
-    let (first, _, coarse) = fit_scale(views, &at.hand_eye)?;
+    let coarse = estimate::fit_joint(&problem(views), &at.hand_eye, known).ok()?;
+    let first = 1.0 + coarse.extra(size.kind)?.0;
     if !(SCALES.0..SCALES.1).contains(&first) {
         return None;
     }
-    let (more, sigma, fit) = fit_scale(&views_rescaled(views, first), &coarse.hand_eye)?;
-    let (value, sigma) = (first * more, first * sigma);
+    let rescaled = problem(&views_rescaled(views, first));
+    let fit = estimate::fit_joint(&rescaled, &coarse.hand_eye, known).ok()?;
+    let (more, sigma) = fit.extra(size.kind)?;
+    let (value, sigma) = (first * (1.0 + more), first * sigma);
     let dof = fit.degrees_of_freedom - 1.0;
     let p_value = statistics::of_f(((value - 1.0) / sigma).powi(2), (1.0, dof));
     Some(TargetScale { value, sigma, p_value })

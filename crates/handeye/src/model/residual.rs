@@ -35,6 +35,11 @@ impl Residual {
         Self { angle: a.angle_to(b), distance: a.distance_to(b) }
     }
 
+    /// Whether two poses differ by no more than `limit`; cheap where they are far apart.
+    pub(crate) fn are_within<A, B>(a: &Pose<A, B>, b: &Pose<A, B>, limit: Self) -> bool {
+        a.distance_to(b) <= limit.distance && Self::between(a, b).is_within(limit)
+    }
+
     /// Medians of both, each by itself.
     pub(crate) fn median(all: &[Self]) -> Self {
         Self {

@@ -10,7 +10,7 @@ use crate::{
         views::Views,
         workpiece::Workpiece,
     },
-    estimate::{self, evaluate::HeldOut, predict, touches::TouchPairs},
+    estimate::{self, evaluate::HeldOut, touches::TouchPairs},
 };
 
 /// What every candidate is judged by.
@@ -27,7 +27,6 @@ pub(super) struct Judge<'a> {
 pub(super) struct Judged {
     pub(super) rests_on: RestsOn,
     pub(super) candidate: Candidate,
-    pub(super) tre: Option<predict::PredictedTre>,
     /// Residual of each capture when it was left out.
     pub(super) held_out: HeldOut,
 }

@@ -57,7 +57,7 @@ impl Judge<'_> {
         let covariance =
             found.covariance.map(|c| self.of_camera(c + shared.unwrap_or_else(Matrix6::zeros), &x));
         // nearest neighbours that differ from the touched corners prove the match wrong
-        let tre = self.workpiece.tre(&x).filter(|_| found.wrong_matches == 0);
+        let predicted = self.workpiece.predicted_rms_mm(&x);
         let placed = solve::place_target(&pairs_of(views), &x);
         let held_out = evaluate::placed_without(&views.views, &x);
         let candidate = Candidate {
@@ -67,10 +67,10 @@ impl Judge<'_> {
             held_out: evaluate::rms(&held_out),
             touch_rms_mm: touches::touch_rms(paired, &x).map(|m| m * 1e3),
             held_out_mm: touches::held_out(paired, &start, registration).map(|m| m * 1e3),
-            predicted_tre_mm: tre.as_ref().map(|t| t.rms),
+            predicted_tre_mm: predicted.filter(|_| found.wrong_matches == 0),
             note: registration_note(&found),
         };
-        Ok(Judged { rests_on: RestsOn::Touches, candidate, tre, held_out })
+        Ok(Judged { rests_on: RestsOn::Touches, candidate, held_out })
     }
 }
 

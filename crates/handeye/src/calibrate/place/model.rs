@@ -29,6 +29,10 @@ use crate::{
 const MOST_FITTED: usize = 2;
 /// Gain from which answer and stated error allow for such errors, whether or not the robot is said to have them.
 pub(super) const NOTICED: f64 = 0.1;
+/// The same of very many captures: what gains no more hardly moves the answer of them all, and takes long to fit.
+const NOTICED_IN_MANY: f64 = 2.0;
+/// So many captures are very many.
+const VERY_MANY: usize = 200;
 
 /// A fit with errors by place.
 pub(in crate::calibrate) struct Model {
@@ -107,11 +111,12 @@ impl Search<'_> {
         places: &[Place],
         bar: f64,
     ) -> Vec<Candidate> {
+        let noticed = if plain.problem.views.len() > VERY_MANY { NOTICED_IN_MANY } else { NOTICED };
         let promising = |kernel: &Kernel| {
             let waves = Waves::new(*kernel, places);
             let wider = with_waves((self.views, self.touched.used), &plain.problem, &waves);
             let expected = place::expected_gain(&wider, &plain.fit)?;
-            (expected > NOTICED).then_some((expected, *kernel, waves, wider))
+            (expected > noticed).then_some((expected, *kernel, waves, wider))
         };
         let mut found: Vec<_> = kernels.iter().filter_map(promising).collect();
         found.sort_by(|a, b| b.0.total_cmp(&a.0));
