@@ -65,9 +65,9 @@ impl Outcome {
         let words: &[&str] = match kind {
             Mistake::Turned => &["rotated"],
             Mistake::Exchanged => &["exchanged"],
-            Mistake::Stale => &["robot pose is that of", "robot pose of the"],
+            Mistake::Stale => &["robot pose equals that of", "robot pose of the"],
             Mistake::Shifted => {
-                &["robot pose of the", "robot pose belongs", "robot pose is that of"]
+                &["robot pose of the", "robot pose belongs", "robot pose equals that of"]
             }
             Mistake::WrongDetection | Mistake::Mirrored | Mistake::Moving => &["disagrees"],
         };

@@ -103,7 +103,7 @@ fn touches_under_other_ids_are_named_with_the_way_of_counting() {
         is_named(&folder, "touches-misread", "counted column by column");
         let folder = clean();
         declare(&folder, "length_unit = \"m\"", "length_unit = \"mm\"");
-        is_named(&folder, "touches-misread", "the touches are in m, not mm");
+        is_named(&folder, "touches-misread", "the touches agree if their unit is m, not mm");
     }
 }
 

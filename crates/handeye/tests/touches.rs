@@ -216,7 +216,7 @@ fn a_tip_in_metres_is_told() {
     }
     let found = calibrate(&session, &Config::default()).unwrap();
     assert!(
-        found.reasons[0].contains("in_flange_mm of [touches.tip] is in mm"),
+        found.reasons[0].contains("in_flange_mm of [touches.tip] seems to be in metres"),
         "{:?}",
         found.reasons
     );
@@ -246,7 +246,7 @@ fn touches_in_another_unit_are_told_which() {
                 assert_eq!(found.verdict, Verdict::Accepted, "{:?}", found.reasons);
                 continue;
             }
-            let told = format!("the touches are in {}, not {}", meant.0, read.0);
+            let told = format!("the touches agree if their unit is {}, not {}", meant.0, read.0);
             assert_eq!(found.verdict, Verdict::Rejected);
             assert!(found.reasons[0].contains(&told), "{told}: {:?}", found.reasons);
         }

@@ -88,8 +88,7 @@ fn fuse(
     mut evidence: Evidence,
 ) -> (Evidence, Option<JointFit>) {
     let config = task.config;
-    // touches go two ways: as pairs of points for the two-step refinement and what is reported of each touch (with the tip as
-    // declared), and as boards whose corners were touched for the fit (which may find another tip)
+    // touches as pairs of points, for the two-step refinement and reports; below as boards, for the fit
     let (paired, unseen) = captures::pair_touches(views, fit);
     let (boards, trusted, wrong) = right_touches(views, &paired, optics, (problem, fit));
     let joint = joint::fit(views, &boards, &problem.extras, fit, &config.known);
@@ -139,9 +138,13 @@ fn fuse(
         of_robot: robot.errors(),
     };
     let evidence = compare(&judge, (fit, joint.as_ref()), (volume, &paired), task, evidence);
-    let with_arm = RestsOn::BothFor(RobotErrorKind::OfArm);
-    let rests_on_arm = evidence.choice.as_ref().is_some_and(|c| c.rests_on == with_arm);
+    let rests_on_arm = rests_on_arm(&evidence);
     (evidence, rests_on_arm.then_some(robot).and_then(Robot::into_fit_of_arm))
+}
+
+fn rests_on_arm(evidence: &Evidence) -> bool {
+    let choice = evidence.choice.as_ref();
+    choice.is_some_and(|c| c.rests_on == RestsOn::BothFor(RobotErrorKind::OfArm))
 }
 
 /// With what views and touches say of the target's size, unless the answer is rejected anyway.
