@@ -44,17 +44,14 @@ pub fn run(path: &Path, args: &CompareArgs, manners: &Manners) -> Result<u8, Fai
         let what = "--out is for results: halves are compared, and the answer of all captures is that of calibrate";
         return Err(Failure::Usage(what.into()));
     }
+    if path.extension().is_some_and(|e| e == "json") || read_result(path).is_ok() {
+        let what = "is one result: name another one, or the folder of the captures, of which halves are compared";
+        return Err(Failure::Usage(format!("{}: {what}", path.display())));
+    }
     let dataset = match &args.root {
-        Some(root) => Dataset::open_with_root(path, root),
-        None => Dataset::open(path),
+        Some(root) => Dataset::open_with_root(path, root)?,
+        None => Dataset::open(path)?,
     };
-    let dataset = dataset.map_err(|error| match read_result(path) {
-        Ok(_) => Failure::input(
-            path,
-            "is one result; name another one, or the folder of the captures, of which halves are compared",
-        ),
-        Err(_) => error.into(),
-    })?;
     let config = Config::default();
     let (_, session) = calibrate::run_on(&dataset, &config, manners)?;
     let found = halves::halves(&session, &config).map_err(|e| Failure::input(path, e))?;

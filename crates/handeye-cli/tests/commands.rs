@@ -331,9 +331,12 @@ fn the_odd_one_out_is_named_and_the_combined_result_is_a_result() {
     assert_eq!((again.code, &again.json()["agree"]), (0, &Value::Bool(true)));
     assert!(again.json()["test"]["p_value"].as_f64().unwrap() > 0.01);
     let alone = handeye(&folder, &["compare", "a.json"]);
-    assert_eq!(alone.code, 1);
-    let error = alone.error();
-    assert!(error.starts_with("a.json: is one result; name another one, or the folder"), "{error}");
+    assert_eq!(alone.code, 2);
+    assert!(
+        alone.stderr.contains("a.json: is one result: name another one, or"),
+        "{}",
+        alone.stderr
+    );
 }
 
 #[test]

@@ -266,7 +266,7 @@ fn after_a_bump_the_captures_before_it_are_left_out_by_check_and_calibrate_alike
     assert_eq!(first["changes"][0]["value"], format!("[{}]", earlier.join(", ")));
     let found: Value = serde_json::from_str(&calibrate(&folder).stdout).unwrap();
     let moved = found["warnings"].to_string();
-    assert!(moved.contains("the camera is since capture 010"), "{moved}");
+    assert!(moved.contains("the camera's pose from capture 010 on"), "{moved}");
     is_corrected(&folder);
 }
 
