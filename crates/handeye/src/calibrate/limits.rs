@@ -21,6 +21,10 @@ pub(super) const FEWEST_CONFIRMED: usize = 4;
 /// Fewer captures than this are answered with a warning: of so few a wrong one is not noticed.
 pub(super) const FEW: usize = 8;
 
+/// Beyond so many captures a part of them tells what all do: searches that would take the square of their number, or many
+/// fits of all, look at so many.
+pub(super) const VERY_MANY: usize = 200;
+
 /// A second agreement with this share of the captures of the first leaves the question open.
 pub(super) const NEARLY_AS_MANY: f64 = 0.75;
 

@@ -13,6 +13,7 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
+use super::limits::VERY_MANY;
 use crate::{Setup, estimate::JointFit, solve::View};
 
 /// Part of the captures that the search starts from.
@@ -25,9 +26,7 @@ const UNLIKELY: f64 = 1e-3;
 const ROUNDS: usize = 6;
 /// Steps in which the search grows, at most: of many captures it takes several at once.
 const STEPS: usize = 30;
-/// Beyond so many captures each of them says little of the noise, and larger steps do.
-const MANY: usize = 200;
-/// The same of these.
+/// The same of very many: each of them says little of the noise, and larger steps do.
 const STEPS_OF_MANY: usize = 8;
 
 /// Those of `views` that are outliers to a fit of the others; `fit_of` fits a part of them, from a fit that is near.
@@ -51,7 +50,7 @@ pub(super) fn masked(
         inner = next;
         of_inner = fit_of(&inner, &of_inner);
     }
-    let steps = if views.len() > MANY { STEPS_OF_MANY } else { STEPS };
+    let steps = if views.len() > VERY_MANY { STEPS_OF_MANY } else { STEPS };
     let step = (views.len() - start).div_ceil(steps).max(1);
     loop {
         let fitted = inner.len() as f64 / views.len() as f64;

@@ -20,14 +20,15 @@
 //! Captures that were rejected one after the other and agree on one displacement may be right: the camera or the target
 //! moved, or the robot errs at that place. The stated error then reaches as far.
 
-use nalgebra::{
-    Cholesky, DMatrix, DVector, Matrix6, SMatrix, SVector, SymmetricEigen, Vector3, Vector6,
-};
+mod linear;
+
+use nalgebra::{Cholesky, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
 
 use crate::{
     Anchor, Mount, Pose,
     calibrate::{
         evidence::Evidence,
+        limits::VERY_MANY,
         masked::IMPROBABLE,
         result::{matrix, rows},
         views::Captures,
@@ -39,16 +40,13 @@ use crate::{
     solve::{consensus::Consensus, least_squares},
 };
 
+pub(super) use linear::Row;
+use linear::{PRIOR, SIDES, Side, Sums, Used, Weighed, linear, weighed};
+
 /// Fewest captures one after the other that are a block.
 const FEWEST_IN_BLOCK: usize = 3;
 /// Fewest captures that tell a movement from noise.
 const FEWEST: usize = 8;
-/// Fewest captures on either side of a step.
-const FEWEST_BESIDE: usize = 3;
-/// Believed probability that something moves in a session.
-const PRIOR: f64 = 0.2;
-/// Standard deviations of a movement, per axis: rad and m alike. Small ones and large ones are believed alike.
-const SIZES: [f64; 3] = [0.5e-3, 1.5e-3, 5e-3];
 /// A movement is named from this probability on.
 const NAMED: f64 = 0.95;
 /// A rotation counts against a position by this lever when neighbours are looked for, m.
@@ -57,8 +55,6 @@ const LEVER: f64 = 0.3;
 const OF_ITS_OWN: f64 = 0.8;
 /// Captures that follow one another by at most this part of all are taken shortly after one another.
 const SHORTLY: usize = 12;
-/// Most captures that are asked where their neighbours are.
-const MOST_ASKED: usize = 200;
 /// A session in which the nearest capture was taken shortly before or after this often went from place to place.
 const IN_ORDER: f64 = 0.5;
 
@@ -67,15 +63,6 @@ const MOST: f64 = 0.1;
 
 /// The 95 % point over its root mean square, of how far an answer is off that was moved by a twist.
 const WIDE: f64 = 1.6;
-
-/// The side that moved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Camera,
-    Target,
-}
-
-const SIDES: [Side; 2] = [Side::Camera, Side::Target];
 
 /// The captures of a session in their order, as one answer sees them.
 pub(super) struct Recorded<'a> {
@@ -87,15 +74,6 @@ pub(super) struct Recorded<'a> {
     /// Equations that a capture has: six of a pose, three of a point.
     pub equations: usize,
     pub degrees_of_freedom: f64,
-}
-
-/// One capture, linearised at the answer and whitened.
-pub(super) struct Row {
-    pub residual: Vector6<f64>,
-    /// By both poses.
-    pub jacobian: SMatrix<f64, 6, 12>,
-    /// Where it saw the target, in the camera frame.
-    pub seen: Vector3<f64>,
 }
 
 /// A movement that may have been, and what it does to the camera's pose.
@@ -176,13 +154,6 @@ fn row(captures: &Captures, fit: &JointFit, i: usize, reading: usize) -> Option<
         jacobian: root.solve_lower_triangular(&j)?,
         seen: view.pair.camera_from_target.translation(),
     })
-}
-
-impl Row {
-    fn by(&self, side: Side) -> Matrix6<f64> {
-        let first = if side == Side::Camera { 0 } else { 6 };
-        self.jacobian.fixed_columns::<6>(first).into_owned()
-    }
 }
 
 /// Captures left out one after the other that agree with one another, and the square of what they are displaced by.
@@ -270,7 +241,7 @@ fn is_in_order_of_place(poses: &[Pose<Anchor, Mount>], seen: &[usize]) -> bool {
     };
     // of very many, some tell it
     let asked: Vec<(usize, &usize)> =
-        seen.iter().enumerate().step_by(seen.len().div_ceil(MOST_ASKED)).collect();
+        seen.iter().enumerate().step_by(seen.len().div_ceil(VERY_MANY)).collect();
     asked.iter().filter(|asked| soon(asked)).count() as f64 >= IN_ORDER * asked.len() as f64
 }
 
@@ -292,107 +263,6 @@ fn moved(delta: &Vector6<f64>, seen: &Vector3<f64>) -> f64 {
 fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0.0), |(s, n), x| (s + x * x, n + 1.0));
     f64::sqrt(sum / f64::max(count, 1.0))
-}
-
-/// One way in which something may have moved.
-#[derive(Clone, Copy)]
-struct Hypothesis {
-    side: Side,
-    /// The first capture after a step; `None` for a slip.
-    step: Option<usize>,
-    /// Standard deviation of the movement, per axis (rad, m).
-    size: f64,
-}
-
-impl Hypothesis {
-    /// Half of the belief goes to slips, half to steps.
-    fn log_prior(&self, steps: usize) -> f64 {
-        let of = if self.step.is_some() { steps as f64 } else { 1.0 };
-        (PRIOR / (2.0 * (SIDES.len() * SIZES.len()) as f64 * of)).ln()
-    }
-}
-
-/// Sums over captures, of their equations for rotations and for positions, all that a linear fit needs.
-#[derive(Clone, Copy, Default)]
-struct Sums([Normal; 2]);
-
-/// Sums of `JᵀJ`, `Jᵀr` and `r²`.
-#[derive(Clone, Copy, Default)]
-struct Normal {
-    matrix: SMatrix<f64, 12, 12>,
-    right: SVector<f64, 12>,
-    square: f64,
-}
-
-impl Sums {
-    fn add(&mut self, row: &Row, share: f64) {
-        for (k, sums) in self.0.iter_mut().enumerate() {
-            let j = row.jacobian.fixed_rows::<3>(3 * k);
-            let r = row.residual.fixed_rows::<3>(3 * k);
-            sums.matrix += j.tr_mul(&j) * share;
-            sums.right += j.tr_mul(&r) * share;
-            sums.square += r.norm_squared() * share;
-        }
-    }
-
-    fn of(rows: &[Used], share: impl Fn(usize) -> f64) -> Self {
-        let mut sums = Self::default();
-        for (k, (_, row)) in rows.iter().enumerate() {
-            sums.add(row, share(k));
-        }
-        sums
-    }
-}
-
-/// The sums in which a movement is: with the share of each capture, and with its square.
-struct Displaced<'a> {
-    by: &'a Hypothesis,
-    once: &'a Sums,
-    twice: &'a Sums,
-}
-
-/// One linear fit.
-struct Linear {
-    solution: DVector<f64>,
-    log_evidence: f64,
-    /// Squares that are left, of rotations and of positions.
-    left: [f64; 2],
-}
-
-/// A capture that agrees: which of the session, and its equations.
-type Used<'a> = (usize, &'a Row);
-
-/// A way in which something may have moved, its logarithm of the likelihood, and the fit under it.
-type Weighed = (f64, Hypothesis, Linear);
-
-/// Most places in a session at which a step is looked for.
-const MOST_STEPS: usize = 200;
-
-/// Every way of moving, with its likelihood beside that of standing still.
-fn weighed(rows: &[Used], all: &Sums, still: &Linear) -> Vec<Weighed> {
-    let n = rows.len();
-    let apart = n.div_ceil(MOST_STEPS);
-    let steps: Vec<usize> = (FEWEST_BESIDE..=n - FEWEST_BESIDE).step_by(apart).collect();
-    let mut found = vec![];
-    let mut look = |step: Option<usize>, once: &Sums, twice: &Sums| {
-        let sizes = SIZES.into_iter().flat_map(|size| SIDES.map(|side| (side, size)));
-        found.extend(sizes.filter_map(|(side, size)| {
-            let by = Hypothesis { side, step, size };
-            let fit = linear(n, all, Some(Displaced { by: &by, once, twice }))?;
-            Some((by.log_prior(steps.len()) + fit.log_evidence - still.log_evidence, by, fit))
-        }));
-    };
-    let (mut before, mut counted) = (Sums::default(), 0);
-    for &step in &steps {
-        for (_, row) in &rows[counted..step] {
-            before.add(row, 1.0);
-        }
-        counted = step;
-        look(Some(step), &before, &before);
-    }
-    let share = |k: usize| 1.0 - k as f64 / (n - 1) as f64;
-    look(None, &Sums::of(rows, share), &Sums::of(rows, |k| share(k).powi(2)));
-    found
 }
 
 /// A step or a slip in the captures that agree, and the mean square of what it displaces the camera's pose by.
@@ -440,72 +310,6 @@ fn gradual(recorded: &Recorded) -> Option<(Movement, Matrix6<f64>)> {
         widened_mm: 0.0,
     };
     Some((movement, all.iter().map(spread).sum()))
-}
-
-/// Rounds in which the noise settles.
-const ROUNDS: usize = 4;
-/// Least part of the noise that may be left: a fit is not better than its instruments.
-const LEAST_NOISE: f64 = 1e-2;
-
-/// Fits both poses, a movement where there is one, and how large the noise of rotations and of positions is then: what
-/// moved in positions alone would otherwise be judged by a noise that it made itself.
-fn linear(captures: usize, all: &Sums, movement: Option<Displaced>) -> Option<Linear> {
-    let equations = 3.0 * captures as f64;
-    let mut variances = [1.0, 1.0];
-    let mut fit = weighted(all, movement.as_ref(), variances)?;
-    for _ in 0..ROUNDS {
-        variances = fit.left.map(|left| (left / (equations - 6.0)).max(LEAST_NOISE));
-        fit = weighted(all, movement.as_ref(), variances)?;
-    }
-    let of_noise = equations * (variances[0].ln() + variances[1].ln());
-    let of_squares = fit.left[0] / variances[0] + fit.left[1] / variances[1];
-    fit.log_evidence -= 0.5 * (of_noise + of_squares);
-    Some(fit)
-}
-
-/// The normal equations of rotations or of positions, by both poses and the movement where there is one.
-fn normal(kind: usize, all: &Sums, movement: Option<&Displaced>) -> (DMatrix<f64>, DVector<f64>) {
-    let size = if movement.is_some() { 18 } else { 12 };
-    let (mut matrix, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
-    matrix.fixed_view_mut::<12, 12>(0, 0).copy_from(&all.0[kind].matrix);
-    right.fixed_rows_mut::<12>(0).copy_from(&all.0[kind].right);
-    if let Some(Displaced { by, once, twice }) = movement {
-        let first = if by.side == Side::Camera { 0 } else { 6 };
-        let (once, twice) = (&once.0[kind], &twice.0[kind]);
-        let beside = once.matrix.fixed_columns::<6>(first);
-        matrix.fixed_view_mut::<12, 6>(0, 12).copy_from(&beside);
-        matrix.fixed_view_mut::<6, 12>(12, 0).copy_from(&beside.transpose());
-        let own = twice.matrix.fixed_view::<6, 6>(first, first);
-        matrix.fixed_view_mut::<6, 6>(12, 12).copy_from(&own);
-        right.fixed_rows_mut::<6>(12).copy_from(&once.right.fixed_rows::<6>(first));
-    }
-    (matrix, right)
-}
-
-/// The same under noise of these variances, as shares of those that the rows are whitened by.
-fn weighted(all: &Sums, movement: Option<&Displaced>, variances: [f64; 2]) -> Option<Linear> {
-    let of_kind = [0, 1].map(|kind| normal(kind, all, movement));
-    let mut whole = &of_kind[0].0 / variances[0] + &of_kind[1].0 / variances[1];
-    let right = &of_kind[0].1 / variances[0] + &of_kind[1].1 / variances[1];
-    let mut of_prior = 0.0;
-    if let Some(Displaced { by, .. }) = movement {
-        for k in 12..18 {
-            whole[(k, k)] += by.size.powi(-2);
-            of_prior += 2.0 * by.size.ln();
-        }
-    }
-    let cholesky = Cholesky::new(whole)?;
-    let solution = -cholesky.solve(&right);
-    let log_determinant: f64 = cholesky.l_dirty().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
-    let left = [0, 1].map(|kind| {
-        let (matrix, right) = &of_kind[kind];
-        let by_solution = 2.0 * solution.dot(right) + solution.dot(&(matrix * &solution));
-        (all.0[kind].square + by_solution).max(0.0)
-    });
-    let by_prior =
-        movement.map_or(0.0, |m| solution.rows(12, 6).norm_squared() / m.by.size.powi(2));
-    let log_evidence = -0.5 * (log_determinant + of_prior + by_prior);
-    Some(Linear { solution, log_evidence, left })
 }
 
 /// The stated error widened by what the movement leaves open, and the movement where it is probable.
@@ -627,14 +431,5 @@ mod tests {
             assert!(moved.camera && moved.probability > NAMED, "seed {seed}: {moved:?}");
             assert!(off < found.predicted_tre_mm.as_ref().unwrap().p95 * 1.5, "seed {seed}: {off}");
         }
-    }
-
-    #[test]
-    fn belief_in_all_movements_adds_up() {
-        let steps = 7;
-        let one = |side, step, size| Hypothesis { side, step, size }.log_prior(steps).exp();
-        let of = |(side, size)| one(side, None, size) + steps as f64 * one(side, Some(4), size);
-        let all = SIZES.into_iter().flat_map(|size| SIDES.map(|side| (side, size)));
-        assert!((all.map(of).sum::<f64>() - PRIOR).abs() < 1e-12);
     }
 }

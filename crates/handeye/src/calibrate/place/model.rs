@@ -10,6 +10,7 @@ use crate::{
     Base, Camera, Flange, Mount, Pose,
     calibrate::{
         config::Config,
+        limits::VERY_MANY,
         reach::{Erring, Nearest, ToolReach, UsedTouches},
         views::Views,
         workpiece::inflation,
@@ -31,8 +32,6 @@ const MOST_FITTED: usize = 2;
 pub(super) const NOTICED: f64 = 0.1;
 /// The same of very many captures: what gains no more hardly moves the answer of them all, and takes long to fit.
 const NOTICED_IN_MANY: f64 = 2.0;
-/// So many captures are very many.
-const VERY_MANY: usize = 200;
 
 /// A fit with errors by place.
 pub(in crate::calibrate) struct Model {
