@@ -57,11 +57,11 @@ pub enum Command {
     Target(Box<TargetArgs>),
     /// Compare several results of one cell: do they agree?
     #[command(visible_alias = "repeat")]
-    Compare(CompareArgs),
+    Compare(crate::compare::CompareArgs),
     /// Calibrate a tool tip (TCP position) from flange poses with the tip on one fixed point (pivot calibration).
-    Tcp(TcpArgs),
+    Tcp(crate::tcp::TcpArgs),
     /// Correct robot poses for the pose-dependent robot error that a calibration has estimated.
-    Compensate(Box<CompensateArgs>),
+    Compensate(Box<crate::compensate::CompensateArgs>),
     /// Verify a calibration with touched points: distance between the tool tip and the camera's prediction.
     Verify(VerifyArgs),
     /// Register one scan to another: ICP with a covariance and a verdict.
@@ -259,37 +259,6 @@ pub struct TargetArgs {
     pub paper: String,
 }
 
-/// Arguments of `compare`.
-#[derive(Args)]
-#[command(after_help = "Examples:\n\
-\x20 handeye compare monday/calibration.json tuesday/calibration.json\n\
-\x20 handeye compare monday tuesday wednesday --out combined.json\n\
-\x20 handeye compare cell\n\
-\n\
-Of one folder of captures, halves are calibrated and compared: every second capture, by \
-place of the robot, and in time.\n\
-\n\
-Distances are from the combined result: `rms` is the root of their mean square, `max` the \
-largest, `std dev` the standard deviation of a single result (n - 1 in the denominator): the \
-repeatability of one calibration of this cell. In JSON: rms, max, axes, standard_deviation.\n\
-\n\
-Where results differ by more than their covariances allow, the covariance of the combined \
-one is as large as their spread says.\n\
-\n\
-Exit code 0: the results agree within their covariances (p >= 0.01); 3: they do not, or \
-cannot be tested because one states no covariance.")]
-pub struct CompareArgs {
-    /// The calibration.json of two or more results, or their folders; or poses that `import` wrote. Or one dataset.
-    #[arg(required = true, num_args = 1..)]
-    pub results: Vec<PathBuf>,
-    /// Write the combined transform with its covariance as JSON, for `verify`, `export` and `view`.
-    #[arg(long, short)]
-    pub out: Option<PathBuf>,
-    /// Of one dataset: folder that the file names in its manifest are relative to [default: the folder of the manifest].
-    #[arg(long)]
-    pub root: Option<PathBuf>,
-}
-
 /// Arguments of `detect`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n\
@@ -455,51 +424,6 @@ pub struct PosesArgs {
     /// Lines before the table.
     #[arg(long, default_value_t = 0)]
     pub skip_header: u32,
-}
-
-/// Arguments of `compensate`.
-#[derive(Args)]
-#[command(after_help = "Examples:\n\
-\x20 handeye compensate picks.csv --result result --notation kuka \\\n\
-\x20     --direction base_from_flange\n\
-\x20 handeye compensate picks.csv -r result --notation ur \\\n\
-\x20     --direction base_from_flange --out send.csv\n\
-\n\
-POSES are desired flange poses, computed with the transform of the result. Written are the \
-poses to command, so that the flange reaches the desired ones. Exit code 0: corrected; 3: \
-the result offers no correction.")]
-pub struct CompensateArgs {
-    /// The poses.
-    #[command(flatten)]
-    pub poses: PosesArgs,
-    /// calibration.json, or the folder that holds it.
-    #[arg(long, short)]
-    pub result: PathBuf,
-    /// POSES are poses that the robot reported (such as those of new captures): write the true flange poses.
-    #[arg(long)]
-    pub reported: bool,
-    /// File to write, in the notation of POSES [default: standard output].
-    #[arg(long, short)]
-    pub out: Option<PathBuf>,
-}
-
-/// Arguments of `tcp`.
-#[derive(Args)]
-#[command(after_help = "Examples:\n\
-\x20 handeye tcp pivot.csv --notation kuka --direction base_from_flange\n\
-\x20 handeye tcp pivot.json --field 'poses.*.flange' \\\n\
-\x20     --notation euler-xyz-extrinsic --length-unit mm --direction base_from_flange --json\n\
-\x20 handeye tcp pivot.toml\n\
-\n\
-Lead the tip onto one fixed point from 6 to 10 directions, 30 degrees and more apart, and \
-save the flange pose each time. pivot.toml holds the same keys as the [robot] of a manifest.")]
-pub struct TcpArgs {
-    /// The poses.
-    #[command(flatten)]
-    pub poses: PosesArgs,
-    /// Maximum RMS distance of the tip from the fixed point; above it the result is rejected.
-    #[arg(long, default_value_t = 2.0)]
-    pub limit_mm: f64,
 }
 
 /// Arguments of `verify`.

@@ -2,25 +2,56 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use handeye::{
-    Base, Calibration, Camera, Flange, Mount, Pose, Setup,
+    Calibration, Camera, Mount, Pose, Setup,
     calibrate::result,
     quaternion_xyzw,
     tools::repeat::{
         Agreement, Repeat, Repetition, Scatter, repeat, scatter_at, scatter_of_rotation,
     },
 };
-use handeye_io::{read_result, write_atomically};
+use handeye_io::{pose_file, read_result, write_atomically};
 use nalgebra::Vector3;
 use serde::Serialize;
-use serde_json::json;
 
 use crate::{
-    args::{CompareArgs, Manners},
+    args::Manners,
     difference::{Difference, chance, difference, far},
     failure::Failure,
     halves, output,
 };
+
+/// Arguments of `compare`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n\
+\x20 handeye compare monday/calibration.json tuesday/calibration.json\n\
+\x20 handeye compare monday tuesday wednesday --out combined.json\n\
+\x20 handeye compare cell\n\
+\n\
+Of one folder of captures, halves are calibrated and compared: every second capture, by \
+place of the robot, and in time.\n\
+\n\
+Distances are from the combined result: `rms` is the root of their mean square, `max` the \
+largest, `std dev` the standard deviation of a single result (n - 1 in the denominator): the \
+repeatability of one calibration of this cell. In JSON: rms, max, axes, standard_deviation.\n\
+\n\
+Where results differ by more than their covariances allow, the covariance of the combined \
+one is as large as their spread says.\n\
+\n\
+Exit code 0: the results agree within their covariances (p >= 0.01); 3: they do not, or \
+cannot be tested because one states no covariance.")]
+pub struct CompareArgs {
+    /// The calibration.json of two or more results, or their folders; or poses that `import` wrote. Or one dataset.
+    #[arg(required = true, num_args = 1..)]
+    pub results: Vec<PathBuf>,
+    /// Write the combined transform with its covariance as JSON, for `verify`, `export` and `view`.
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+    /// Of one dataset: folder that the file names in its manifest are relative to [default: the folder of the manifest].
+    #[arg(long)]
+    pub root: Option<PathBuf>,
+}
 
 /// With more results than this, pairs are too many to read.
 const MOST_IN_TABLE: usize = 6;
@@ -75,7 +106,11 @@ struct Answer {
 
 pub fn run(args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
     if let [dataset] = &args.results[..] {
-        return halves::run(dataset, args, manners);
+        if args.out.is_some() {
+            let what = "--out is for results: halves are compared, and the answer of all captures is that of calibrate";
+            return Err(Failure::Usage(what.into()));
+        }
+        return halves::run(dataset, args.root.as_deref(), manners);
     }
     if args.root.is_some() {
         return Err(Failure::Usage("--root is for one dataset, not for results".into()));
@@ -89,7 +124,9 @@ pub fn run(args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
     let found = repeat(&answers)?;
     let answer = answer(&args.results, &results[0], &answers, &found);
     if let Some(out) = &args.out {
-        write_combined(out, results[0].setup, &found)?;
+        let covariance = found.covariance.as_ref().map(result::rows);
+        let text = pose_file(results[0].setup, &found.mean, covariance.as_ref());
+        write_atomically(out, text.as_bytes())?;
     }
     if manners.json {
         output::json(&answer);
@@ -97,20 +134,6 @@ pub fn run(args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
         output::print(&table(&answer, args.results.len()));
     }
     Ok(if answer.agree == Some(true) { 0 } else { 3 })
-}
-
-/// The combined transform as `import` writes one, with its covariance.
-fn write_combined(out: &Path, setup: Setup, found: &Repeat) -> Result<(), Failure> {
-    let iso = *found.mean.iso();
-    let pose = match setup {
-        Setup::EyeToHand => serde_json::to_value(Pose::<Base, Camera>::claim(iso)),
-        Setup::EyeInHand => serde_json::to_value(Pose::<Flange, Camera>::claim(iso)),
-    };
-    let mut pose = pose.map_err(|e| Failure::in_json(out, &e, "the combined transform"))?;
-    if let Some(covariance) = &found.covariance {
-        pose["covariance"] = json!(result::rows(covariance));
-    }
-    Ok(write_atomically(out, format!("{pose:#}\n").as_bytes())?)
 }
 
 fn check_twice(paths: &[PathBuf]) -> Result<(), Failure> {

@@ -1,7 +1,8 @@
 //! `handeye compensate`: poses of a robot that errs by place, corrected.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use handeye::{
     Base, Flange, Pose,
     calibrate::result::{BlockGain, CompensationResult},
@@ -11,10 +12,36 @@ use handeye_io::{RobotPoses, read_result, read_robot_poses, write_atomically};
 use serde::Serialize;
 
 use crate::{
-    args::{CompensateArgs, Manners},
+    args::{Manners, PosesArgs},
     failure::Failure,
     output, poses,
 };
+
+/// Arguments of `compensate`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n\
+\x20 handeye compensate picks.csv --result result --notation kuka \\\n\
+\x20     --direction base_from_flange\n\
+\x20 handeye compensate picks.csv -r result --notation ur \\\n\
+\x20     --direction base_from_flange --out send.csv\n\
+\n\
+POSES are desired flange poses, computed with the transform of the result. Written are the \
+poses to command, so that the flange reaches the desired ones. Exit code 0: corrected; 3: \
+the result offers no correction.")]
+pub struct CompensateArgs {
+    /// The poses.
+    #[command(flatten)]
+    pub poses: PosesArgs,
+    /// calibration.json, or the folder that holds it.
+    #[arg(long, short)]
+    pub result: PathBuf,
+    /// POSES are poses that the robot reported (such as those of new captures): write the true flange poses.
+    #[arg(long)]
+    pub reported: bool,
+    /// File to write, in the notation of POSES [default: standard output].
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+}
 
 #[derive(Serialize)]
 struct Answer<'a> {

@@ -9,15 +9,15 @@ use handeye::{
         repeat::Agreement,
     },
 };
-use handeye_io::{Dataset, read_result};
+use handeye_io::{Dataset, calibrate::halves_of_dataset, read_result};
 use serde::Serialize;
 
 use crate::{
-    args::{CompareArgs, Manners},
-    calibrate,
+    args::Manners,
     difference::{Difference, chance, difference},
     failure::Failure,
     output,
+    progress::Progress,
 };
 
 #[derive(Serialize)]
@@ -39,25 +39,22 @@ struct One {
     test: Option<Agreement>,
 }
 
-pub fn run(path: &Path, args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
-    if args.out.is_some() {
-        let what = "--out is for results: halves are compared, and the answer of all captures is that of calibrate";
-        return Err(Failure::Usage(what.into()));
-    }
+pub fn run(path: &Path, root: Option<&Path>, manners: &Manners) -> Result<u8, Failure> {
     if path.extension().is_some_and(|e| e == "json") || read_result(path).is_ok() {
         let what = "is one result: name another one, or the folder of the captures, of which halves are compared";
         return Err(Failure::Usage(format!("{}: {what}", path.display())));
     }
-    let dataset = match &args.root {
+    let dataset = match root {
         Some(root) => Dataset::open_with_root(path, root)?,
         None => Dataset::open(path)?,
     };
-    let config = Config::default();
-    let (_, session) = calibrate::run_on(&dataset, &config, manners)?;
-    let found = halves::halves(&session, &config).map_err(|e| Failure::input(path, e))?;
+    let progress = Progress::new("reading captures", manners);
+    let found =
+        halves_of_dataset(&dataset, &Config::default(), &|done, all| progress.tell(done, all))?;
+    drop(progress);
     let answer = Answer {
         agree: halves::agree(&found),
-        setup: session.setup,
+        setup: dataset.setup,
         captures: found.first().map_or(0, |h| h.captures.iter().map(Vec::len).sum()),
         halves: found.iter().map(one).collect(),
     };

@@ -1,5 +1,6 @@
 //! `handeye tcp`: where the tip of a tool sits, from flange poses with the tip on one point.
 
+use clap::Args;
 use handeye::{
     Error, Verdict, Warning,
     tools::pivot::{self, Lengths, Pivot},
@@ -9,10 +10,29 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use crate::{
-    args::{Manners, TcpArgs},
+    args::{Manners, PosesArgs},
     failure::Failure,
     output, poses,
 };
+
+/// Arguments of `tcp`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n\
+\x20 handeye tcp pivot.csv --notation kuka --direction base_from_flange\n\
+\x20 handeye tcp pivot.json --field 'poses.*.flange' \\\n\
+\x20     --notation euler-xyz-extrinsic --length-unit mm --direction base_from_flange --json\n\
+\x20 handeye tcp pivot.toml\n\
+\n\
+Lead the tip onto one fixed point from 6 to 10 directions, 30 degrees and more apart, and \
+save the flange pose each time. pivot.toml holds the same keys as the [robot] of a manifest.")]
+pub struct TcpArgs {
+    /// The poses.
+    #[command(flatten)]
+    pub poses: PosesArgs,
+    /// Maximum RMS distance of the tip from the fixed point; above it the result is rejected.
+    #[arg(long, default_value_t = 2.0)]
+    pub limit_mm: f64,
+}
 
 #[derive(Serialize)]
 struct InMillimetres {

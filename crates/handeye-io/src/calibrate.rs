@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use handeye::{
-    Calibration, Config, Session, Setup, Verdict, calibrate, estimate::noise::KnownNoise,
+    Calibration, Config, Session, Setup, Verdict, calibrate,
+    estimate::noise::KnownNoise,
+    tools::halves::{Halves, halves},
 };
 
 use crate::{
@@ -37,6 +39,21 @@ pub fn calibrate_dataset(
     let inputs = format!("{manifest}{:?}", measured.session);
     let id = run_id(&inputs, &calibration);
     Ok((calibration.of_run(id), measured.session))
+}
+
+/// Measures a dataset and calibrates the halves of its captures; as [`calibrate_dataset`].
+///
+/// # Errors
+/// As [`calibrate_dataset`]; fewer captures than have halves.
+pub fn halves_of_dataset(
+    dataset: &Dataset,
+    config: &Config,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Vec<Halves>, Error> {
+    check_workspace(dataset)?;
+    let session = measure::measure(dataset, progress)?.session;
+    halves(&session, &configured(dataset, config))
+        .map_err(|source| Error::Values { place: Place::file(&dataset.manifest), source })
 }
 
 /// A configuration with what the manifest says of noise and limits.

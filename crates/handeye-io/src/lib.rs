@@ -61,7 +61,7 @@ pub use mesh::{is_mesh, points_on, read_mesh, spacing_on};
 pub use pairs_file::{MeasuredPoses, PosesFile, poses_from_json, read_poses};
 pub use problem::Problem;
 pub use registration::{FoundPlace, RegistrationResult, Transform};
-pub use result_file::read_result;
+pub use result_file::{pose_file, read_result};
 pub use result_folder::ResultFolder;
 pub use robot::Urdf;
 pub use scan::{ScanOptions, read_scan, scan_size, scan_unit};

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use handeye::{Base, Calibration, Camera, Flange, Pose, Setup, calibrate::result::Rows, unjudged};
-use serde::{Deserialize, de::DeserializeOwned};
+use handeye::{
+    Base, Calibration, Camera, Flange, Mount, Pose, Setup, calibrate::result::Rows, unjudged,
+};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::Value;
 
 use crate::{
@@ -26,6 +28,35 @@ pub fn read_result(path: &Path) -> Result<Calibration, Error> {
         Ok(value) if value.get("translation_m").is_some() => pose(&text, value, path),
         _ => read(&text, "is no calibration.json of handeye: ", path),
     }
+}
+
+/// The pose of a camera as JSON, and the covariance beside it: what [`read_result`] reads.
+pub fn pose_file(
+    setup: Setup,
+    mount_from_camera: &Pose<Mount, Camera>,
+    covariance: Option<&Rows>,
+) -> String {
+    let iso = *mount_from_camera.iso();
+    let json = match setup {
+        Setup::EyeToHand => {
+            let pose = Pose::<Base, Camera>::claim(iso);
+            serde_json::to_string_pretty(&PoseFile { pose, covariance })
+        }
+        Setup::EyeInHand => {
+            let pose = Pose::<Flange, Camera>::claim(iso);
+            serde_json::to_string_pretty(&PoseFile { pose, covariance })
+        }
+    };
+    json.unwrap_or_default() + "\n"
+}
+
+/// A pose, and the covariance beside it.
+#[derive(Serialize)]
+struct PoseFile<'a, P> {
+    #[serde(flatten)]
+    pose: P,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    covariance: Option<&'a Rows>,
 }
 
 /// What may stand beside a pose.

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use handeye::{Base, Camera, Flange, Pose, Setup};
+use handeye::{Pose, Setup};
 use nalgebra::Isometry3;
 
 use super::{
@@ -14,6 +14,7 @@ use super::{
 use crate::{
     Error, Place,
     error::{malformed, undeclared, unusable},
+    result_file::pose_file,
     robot::{Notation, Units},
     units::{AngleUnit, LengthUnit, farthest, too_far},
 };
@@ -104,7 +105,7 @@ fn resolved(found: Found, source: &Path, declared: &Declared) -> Result<Imported
         layout: found.layout,
         folder: split(source).0,
         name: format!("{}.json", wanted.name()),
-        text: text(setup, pose),
+        text: pose_file(setup, &Pose::claim(pose), None),
         questions: vec![],
         notes: found.notes,
         next: "handeye verify {} touches.csv --tolerance-mm 1",
@@ -131,14 +132,6 @@ fn direction(source: &Path, declared: &Declared) -> Result<Option<Direction>, Er
         }
         (one, other) => Ok(one.or(other)),
     }
-}
-
-fn text(setup: Setup, pose: Isometry3<f64>) -> String {
-    let json = match setup {
-        Setup::EyeToHand => serde_json::to_string_pretty(&Pose::<Base, Camera>::claim(pose)),
-        Setup::EyeInHand => serde_json::to_string_pretty(&Pose::<Flange, Camera>::claim(pose)),
-    };
-    json.unwrap_or_default() + "\n"
 }
 
 /// The pose of numbers in a notation.

@@ -5,8 +5,9 @@
 //! `Q` that follows chi-square with `6 (n - 1)` degrees of freedom. Where they do not, the results have errors of their
 //! own beside those that they state: `Sᵢ + τ S̄` with `S̄` the mean of the `Sᵢ` and `τ` so large that `Q` is `6 (n - 1)`.
 //! A result that states far too small an error counts for no more than the others then. Results that differ by less than
-//! they state have errors in common (lens, target, the robot at these places), which their mean keeps: with the share
-//! `ρ = 1 - Q / (6 (n - 1))` of their variances its covariance is `1 + (n - 1) ρ` times that of independent ones.
+//! they state have errors in common (lens, target, the robot at these places), which their mean keeps: the share
+//! `ρ = 1 - Q / (6 (n - 1))` of their variances is one error `e` of all, `Lᵢ e` in each with the root `Lᵢ Lᵢᵀ = Sᵢ`, and
+//! with `C = (Σ Sᵢ⁻¹)⁻¹` the mean has `(1 - ρ) C + ρ A Aᵀ`, `A = C Σ Sᵢ⁻¹ Lᵢ`.
 //!
 //! T. Barfoot and P. Furgale, *Associating uncertainty with three-dimensional poses for use in
 //! estimation problems*, IEEE T-RO 30(3), 2014; W. Cochran, *The combination of estimates from
@@ -122,10 +123,23 @@ pub fn repeat(results: &[Repetition]) -> Result<Repeat, Error> {
     let odd_one_out = if test.is_given() { None } else { odd_one_out(results, &weights) };
     let (mean, covariance) = match test.exceeds_its_expectation() {
         true => with_spread(results, &covariances)?,
-        false => (plain, covariance * (1.0 + (results.len() - 1) as f64 * test.shared())),
+        false => (plain, with_shared(&covariances, &covariance, test.shared())),
     };
     let (covariance, agreement) = (Some(covariance), Some(test));
     Ok(Repeat { mean, covariance, agreement, odd_one_out })
+}
+
+/// The covariance of the mean of results that have a share of their variances in common.
+fn with_shared(all: &[Matrix6<f64>], independent: &Matrix6<f64>, share: f64) -> Matrix6<f64> {
+    let weighted = |s: &Matrix6<f64>| {
+        let root = s.cholesky()?.unpack();
+        Some(root.try_inverse()?.transpose()) // S⁻¹ L
+    };
+    let sum: Option<Matrix6<f64>> =
+        all.iter().map(weighted).try_fold(Matrix6::zeros(), |sum, w| Some(sum + w?));
+    let Some(sum) = sum else { return *independent };
+    let of_shared = independent * sum;
+    independent * (1.0 - share) + of_shared * of_shared.transpose() * share
 }
 
 /// The mean of results that have errors beside the stated ones, as large as their spread says.
@@ -357,6 +371,16 @@ mod tests {
         }
         let mean = squares / (6.0 * f64::from(cells));
         assert!((0.85..1.15).contains(&mean), "{mean}");
+    }
+
+    #[test]
+    fn a_rough_result_beside_a_fine_one_hardly_makes_the_mean_less_certain() {
+        let fine = Repetition { mount_from_camera: truth(), covariance: Some(covariance()) };
+        let rough = Repetition { covariance: Some(covariance() * 100.0), ..fine };
+        let found = repeat(&[fine, rough]).unwrap().covariance.unwrap();
+        // errors in common, of weights 100 to 1 and sizes 1 to 10
+        let factor = (found.trace() / covariance().trace()).sqrt();
+        assert!((factor - 110.0 / 101.0).abs() < 1e-6, "{factor}");
     }
 
     #[test]
