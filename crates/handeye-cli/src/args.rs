@@ -22,12 +22,12 @@ pub struct Program {
     pub command: Command,
     /// How to talk.
     #[command(flatten)]
-    pub manners: Manners,
+    pub global: GlobalArgs,
 }
 
 /// Options of every command.
 #[derive(Args, Clone)]
-pub struct Manners {
+pub struct GlobalArgs {
     /// Print one JSON document on standard output and nothing else there.
     #[arg(long, global = true)]
     pub json: bool,

@@ -8,7 +8,7 @@ use handeye_io::{
     read_targets,
 };
 
-use crate::{args::Manners, failure::Failure, output, simulate::SetupArg};
+use crate::{args::GlobalArgs, failure::Failure, output, simulate::SetupArg};
 
 /// Arguments of `bag`.
 #[derive(Args)]
@@ -86,14 +86,14 @@ pub enum StampsArg {
     Recorded,
 }
 
-pub fn run(args: &BagArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &BagArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let Some(out) = &args.out else {
-        show(&bag::contents(&args.bag, &|| ())?, manners);
+        show(&bag::contents(&args.bag, &|| ())?, global);
         return Ok(0);
     };
     let options = options(args)?;
     let done = bag::extract(&args.bag, out, &options, &|| ())?;
-    if manners.json {
+    if global.json {
         output::json(&done);
         return Ok(0);
     }
@@ -150,8 +150,8 @@ fn robot(args: &BagArgs) -> Result<RobotSource, Failure> {
     })
 }
 
-fn show(contents: &BagContents, manners: &Manners) {
-    if manners.json {
+fn show(contents: &BagContents, global: &GlobalArgs) {
+    if global.json {
         output::json(contents);
         return;
     }

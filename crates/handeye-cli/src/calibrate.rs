@@ -15,7 +15,7 @@ use handeye_io::{
 };
 
 use crate::{
-    args::{CalibrateArgs, Manners},
+    args::{CalibrateArgs, GlobalArgs},
     export,
     failure::Failure,
     output,
@@ -23,14 +23,14 @@ use crate::{
     solve,
 };
 
-pub fn run(args: &CalibrateArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &CalibrateArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let config = config(args)?;
     let formats = export::formats(&args.format)?;
     let dataset = open(args)?;
     let folder = args.out.as_deref().map(result_folder).transpose()?;
-    let (calibration, session) = run_on(&dataset, &config, manners)?;
-    if !manners.json {
-        output::warnings(&calibration, manners);
+    let (calibration, session) = run_on(&dataset, &config, global)?;
+    if !global.json {
+        output::warnings(&calibration, global);
         output::summary(&calibration);
         let unseen = calibration.captures.iter().all(|c| c.camera_from_target.is_none());
         let refused = calibration.verdict == Verdict::Rejected
@@ -40,11 +40,11 @@ pub fn run(args: &CalibrateArgs, manners: &Manners) -> Result<u8, Failure> {
         }
     }
     if let (Some(out), Some(folder)) = (&args.out, &folder) {
-        let exports = export_accepted(out, &calibration, &formats, manners)?;
+        let exports = export_accepted(out, &calibration, &formats, global)?;
         let page = dataset_html(&dataset, &calibration, &session);
-        write((out, folder), &dataset, (&calibration, &page), exports, manners)?;
+        write((out, folder), &dataset, (&calibration, &page), exports, global)?;
     }
-    if manners.json {
+    if global.json {
         output::json(&calibration); // last: what fails before is the one document
     }
     Ok(calibration.exit_code())
@@ -61,7 +61,7 @@ fn export_accepted(
     out: &Path,
     calibration: &Calibration,
     formats: &[Format],
-    manners: &Manners,
+    global: &GlobalArgs,
 ) -> Result<Vec<(String, Vec<u8>)>, Failure> {
     if formats.is_empty() {
         return Ok(vec![]);
@@ -69,7 +69,7 @@ fn export_accepted(
     if calibration.verdict == Verdict::Accepted {
         return export::exports(calibration, formats, out);
     }
-    if !manners.quiet {
+    if !global.quiet {
         crate::output::note!("nothing exported: the verdict is not `accepted`");
     }
     Ok(vec![])
@@ -102,10 +102,10 @@ fn open(args: &CalibrateArgs) -> Result<Dataset, Failure> {
 pub fn run_on(
     dataset: &Dataset,
     config: &Config,
-    manners: &Manners,
+    global: &GlobalArgs,
 ) -> Result<(Calibration, Session), Failure> {
     let what = if dataset.shape.is_some() { "placing scans" } else { "reading captures" };
-    let progress = Progress::new(what, manners);
+    let progress = Progress::new(what, global);
     Ok(calibrate_dataset(dataset, config, &|done, all| progress.tell(done, all))?)
 }
 
@@ -115,10 +115,10 @@ pub fn write(
     dataset: &Dataset,
     (calibration, page): (&Calibration, &str),
     exports: Vec<(String, Vec<u8>)>,
-    manners: &Manners,
+    global: &GlobalArgs,
 ) -> Result<PathBuf, Failure> {
     let written = write_run((out, folder), Some(dataset), calibration, page, exports)?;
-    if !manners.quiet {
+    if !global.quiet {
         if written.replaced_another_run {
             crate::output::note!(
                 "note: another run wrote its result into {} while this one was working; the files \

@@ -10,7 +10,7 @@ use handeye_io::{
 use serde::Serialize;
 
 use crate::{
-    args::{CheckArgs, Manners},
+    args::{CheckArgs, GlobalArgs},
     failure::Failure,
     output,
     progress::Progress,
@@ -32,23 +32,23 @@ struct Applied {
     old_manifest: PathBuf,
 }
 
-pub fn run(args: &CheckArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &CheckArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let manifest = match args.dataset.is_dir() {
         true => args.dataset.join(MANIFEST),
         false => args.dataset.clone(),
     };
     let root = args.root.clone().or_else(|| manifest.parent().map(PathBuf::from));
-    let progress = Progress::new("reading captures", manners);
+    let progress = Progress::new("reading captures", global);
     let root = root.unwrap_or_default();
     let found = checkup::check(&manifest, &root, &|done, all| progress.tell(done, all))?;
     drop(progress);
-    output::warn(&found.warnings, manners);
+    output::warn(&found.warnings, global);
     let applied = match args.apply {
         Some(which) => apply(&manifest, &root, &found, which)?,
         None => None,
     };
     let answer = Answer { found, applied };
-    if manners.json {
+    if global.json {
         output::json(&answer);
     } else {
         output::print(&text(&answer, args.apply));

@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::{
-    args::Manners,
+    args::GlobalArgs,
     difference::{Difference, chance, difference, far},
     failure::Failure,
     halves, output,
@@ -104,13 +104,13 @@ struct Answer {
     pairs: Vec<Difference>,
 }
 
-pub fn run(args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &CompareArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     if let [dataset] = &args.results[..] {
         if args.out.is_some() {
             let what = "--out is for results: halves are compared, and the answer of all captures is that of calibrate";
             return Err(Failure::Usage(what.into()));
         }
-        return halves::run(dataset, args.root.as_deref(), manners);
+        return halves::run(dataset, args.root.as_deref(), global);
     }
     if args.root.is_some() {
         return Err(Failure::Usage("--root is for one dataset, not for results".into()));
@@ -128,7 +128,7 @@ pub fn run(args: &CompareArgs, manners: &Manners) -> Result<u8, Failure> {
         let text = pose_file(results[0].setup, &found.mean, covariance.as_ref());
         write_atomically(out, text.as_bytes())?;
     }
-    if manners.json {
+    if global.json {
         output::json(&answer);
     } else {
         output::print(&table(&answer, args.results.len()));

@@ -12,7 +12,7 @@ use handeye_io::{RobotPoses, read_result, read_robot_poses, write_atomically};
 use serde::Serialize;
 
 use crate::{
-    args::{Manners, PosesArgs},
+    args::{GlobalArgs, PosesArgs},
     failure::Failure,
     output, poses,
 };
@@ -71,20 +71,20 @@ struct PoseResult<'a> {
     inside: bool,
 }
 
-pub fn run(args: &CompensateArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &CompensateArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let calibration = read_result(&args.result)?;
     let robot = read_robot_poses(&poses::described(&args.poses)?)?;
     let Some(written) = &robot.written else {
         let what = "holds joint values; give the poses of the flange";
         return Err(Failure::input(&args.poses.poses, what));
     };
-    output::warn(&robot.warnings, manners);
+    output::warn(&robot.warnings, global);
     let found = calibration.compensation.as_ref();
     let model = match calibration.correction() {
         Ok(model) => model,
         Err(why) => {
             let reason = format!("{}: {why}", args.result.display());
-            not_offered(found, reason, args, manners);
+            not_offered(found, reason, args, global);
             return Ok(3);
         }
     };
@@ -95,13 +95,13 @@ pub fn run(args: &CompensateArgs, manners: &Manners) -> Result<u8, Failure> {
     if let Some(out) = &args.out {
         write_atomically(out, table.as_bytes())?;
     }
-    if manners.json {
+    if global.json {
         output::json(&answer(args, found, &robot, &corrected));
     } else {
         if args.out.is_none() {
             output::print(&table);
         }
-        tell(args.out.as_deref(), found, &robot, &corrected, manners);
+        tell(args.out.as_deref(), found, &robot, &corrected, global);
     }
     Ok(0)
 }
@@ -114,9 +114,9 @@ fn not_offered(
     found: Option<&CompensationResult>,
     reason: String,
     args: &CompensateArgs,
-    manners: &Manners,
+    global: &GlobalArgs,
 ) {
-    if !manners.json {
+    if !global.json {
         output::note!("{reason}");
         return;
     }
@@ -197,9 +197,9 @@ fn tell(
     found: Option<&CompensationResult>,
     robot: &RobotPoses,
     corrected: &[Corrected],
-    manners: &Manners,
+    global: &GlobalArgs,
 ) {
-    if manners.quiet {
+    if global.quiet {
         return;
     }
     if let Some(what) = outside(robot, corrected) {

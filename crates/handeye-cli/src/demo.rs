@@ -13,7 +13,7 @@ use handeye::{Calibration, Camera, Config, Mount, Pose};
 use handeye_io::{Dataset, report::dataset_html, write_atomically};
 use serde::{Deserialize, Serialize};
 
-use crate::{args::Manners, calibrate, failure::Failure, output};
+use crate::{args::GlobalArgs, calibrate, failure::Failure, output};
 
 /// Arguments of `demo`.
 #[derive(Args)]
@@ -64,20 +64,20 @@ struct Told<'a> {
     report: PathBuf,
 }
 
-pub fn run(args: &DemoArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &DemoArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let out = args.out.clone().unwrap_or_else(temporary);
     let folder = out.join("dataset");
     unpack(&folder)?;
     let dataset = Dataset::open(&folder)?;
-    let (calibration, session) = calibrate::run_on(&dataset, &Config::default(), manners)?;
-    let still = Manners { quiet: true, ..manners.clone() };
+    let (calibration, session) = calibrate::run_on(&dataset, &Config::default(), global)?;
+    let still = GlobalArgs { quiet: true, ..global.clone() };
     let page = dataset_html(&dataset, &calibration, &session);
     let results = calibrate::result_folder(&out)?;
     let report =
         calibrate::write((&out, &results), &dataset, (&calibration, &page), vec![], &still)?;
     tell(
         &Told { calibration: &calibration, off: off(&calibration)?, dataset: folder, report },
-        manners,
+        global,
     );
     Ok(calibration.exit_code())
 }
@@ -108,11 +108,11 @@ fn off(calibration: &Calibration) -> Result<Option<Off>, Failure> {
     }))
 }
 
-fn tell(told: &Told, manners: &Manners) {
-    if manners.json {
+fn tell(told: &Told, global: &GlobalArgs) {
+    if global.json {
         return output::json(told);
     }
-    output::warnings(told.calibration, manners);
+    output::warnings(told.calibration, global);
     output::summary(told.calibration);
     let mut text = String::new();
     if let Some(off) = &told.off {

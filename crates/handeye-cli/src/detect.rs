@@ -20,7 +20,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::{
-    args::{DetectArgs, Manners},
+    args::{DetectArgs, GlobalArgs},
     failure::Failure,
     output,
     progress::Progress,
@@ -76,12 +76,12 @@ struct Answer {
     error: Option<Value>,
 }
 
-pub fn run(args: &DetectArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &DetectArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let targets = read_targets(&args.target)?;
     let camera = camera(args)?;
     let drawings = drawings(args)?;
     let search = Search { targets: &targets, camera: camera.as_ref() };
-    let progress = Progress::new("looking at images", manners);
+    let progress = Progress::new("looking at images", global);
     let done = AtomicUsize::new(0);
     let threads = parallel::threads(args.images.iter().map(PathBuf::as_path));
     let looked = parallel::in_order(args.images.len(), threads, |k| {
@@ -98,7 +98,7 @@ pub fn run(args: &DetectArgs, manners: &Manners) -> Result<u8, Failure> {
         images.map(|(path, l)| l.unwrap_or_else(|f| unusable(path, &f))).collect();
     let nothing = if images.iter().any(|i| i.found) { 0 } else { 3 };
     let answer = Answer { images, error };
-    if manners.json {
+    if global.json {
         output::json(&answer);
     } else {
         output::print(&table(&answer, &targets));

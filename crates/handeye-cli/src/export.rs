@@ -13,14 +13,14 @@ use handeye_io::{
 use serde_json::json;
 
 use crate::{
-    args::{ExportArgs, Manners},
+    args::{ExportArgs, GlobalArgs},
     failure::Failure,
     output,
 };
 
-pub fn run(args: &ExportArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &ExportArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     if args.format.iter().any(|f| f == "list") {
-        list(manners);
+        list(global);
         return Ok(0);
     }
     let formats = formats(&args.format)?;
@@ -29,16 +29,16 @@ pub fn run(args: &ExportArgs, manners: &Manners) -> Result<u8, Failure> {
         Failure::Usage("which calibration? Name the calibration.json of a result".into())
     })?;
     let calibration = read_result(path)?;
-    check_verdict(path, &calibration, args.force, manners)?;
+    check_verdict(path, &calibration, args.force, global)?;
     let frames = Frames { parent: args.parent.as_deref(), child: &args.child };
     match &args.out {
-        None => show(path, &calibration, &formats, frames, manners)?,
+        None => show(path, &calibration, &formats, frames, global)?,
         Some(out) => {
             let written = match single_file(out, &formats) {
                 true => vec![write_one(path, &calibration, &formats[0], frames, out)?],
                 false => write_all(path, &calibration, &formats, frames, out)?,
             };
-            tell(&written, manners);
+            tell(&written, global);
         }
     }
     Ok(0)
@@ -87,9 +87,9 @@ fn check_out(out: Option<&Path>, formats: &[Format]) -> Result<(), Failure> {
     )))
 }
 
-fn list(manners: &Manners) {
+fn list(global: &GlobalArgs) {
     let names = Format::names();
-    if manners.json {
+    if global.json {
         output::json(&json!({ "formats": names }));
     } else {
         output::print(&(names.join("\n") + "\neuler-AXES-intrinsic, euler-AXES-extrinsic\n"));
@@ -101,14 +101,14 @@ fn check_verdict(
     path: &Path,
     calibration: &Calibration,
     force: bool,
-    manners: &Manners,
+    global: &GlobalArgs,
 ) -> Result<(), Failure> {
     if calibration.verdict == Verdict::Accepted {
         return Ok(());
     }
     if calibration.is_unjudged() {
         let what = "nothing here tells how good it is; `handeye verify` tests it on touched points";
-        if !manners.quiet {
+        if !global.quiet {
             crate::output::note!("warning [not-judged]: {}: {what}", path.display());
         }
         return Ok(());
@@ -122,7 +122,7 @@ fn check_verdict(
     if !force {
         return Err(Failure::input(path, what + "; to export it all the same: --force"));
     }
-    if !manners.quiet {
+    if !global.quiet {
         crate::output::note!(
             "warning [not-accepted]: {}: {what}; do not move a robot by it",
             path.display()
@@ -194,7 +194,7 @@ fn show(
     calibration: &Calibration,
     formats: &[Format],
     frames: Frames,
-    manners: &Manners,
+    global: &GlobalArgs,
 ) -> Result<(), Failure> {
     let pose = pose(path, calibration, frames)?;
     let mut texts = vec![];
@@ -205,7 +205,7 @@ fn show(
         })?;
         texts.push((name, text));
     }
-    if manners.json {
+    if global.json {
         let entry = |(name, text): &(String, String)| json!({ "file": name, "content": text });
         output::json(&json!({ "exports": texts.iter().map(entry).collect::<Vec<_>>() }));
     } else if let [(_, only)] = &texts[..] {
@@ -217,10 +217,10 @@ fn show(
     Ok(())
 }
 
-fn tell(written: &[PathBuf], manners: &Manners) {
-    if manners.json {
+fn tell(written: &[PathBuf], global: &GlobalArgs) {
+    if global.json {
         output::json(&json!({ "files": written }));
-    } else if !manners.quiet {
+    } else if !global.quiet {
         for path in written {
             output::print(&format!("{}\n", path.display()));
         }

@@ -13,7 +13,7 @@ use handeye_io::{Dataset, calibrate::halves_of_dataset, read_result};
 use serde::Serialize;
 
 use crate::{
-    args::Manners,
+    args::GlobalArgs,
     difference::{Difference, chance, difference},
     failure::Failure,
     output,
@@ -39,7 +39,7 @@ struct One {
     test: Option<Agreement>,
 }
 
-pub fn run(path: &Path, root: Option<&Path>, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(path: &Path, root: Option<&Path>, global: &GlobalArgs) -> Result<u8, Failure> {
     if path.extension().is_some_and(|e| e == "json") || read_result(path).is_ok() {
         let what = "is one result: name another one, or the folder of the captures, of which halves are compared";
         return Err(Failure::Usage(format!("{}: {what}", path.display())));
@@ -48,7 +48,7 @@ pub fn run(path: &Path, root: Option<&Path>, manners: &Manners) -> Result<u8, Fa
         Some(root) => Dataset::open_with_root(path, root)?,
         None => Dataset::open(path)?,
     };
-    let progress = Progress::new("reading captures", manners);
+    let progress = Progress::new("reading captures", global);
     let found =
         halves_of_dataset(&dataset, &Config::default(), &|done, all| progress.tell(done, all))?;
     drop(progress);
@@ -58,7 +58,7 @@ pub fn run(path: &Path, root: Option<&Path>, manners: &Manners) -> Result<u8, Fa
         captures: found.first().map_or(0, |h| h.captures.iter().map(Vec::len).sum()),
         halves: found.iter().map(one).collect(),
     };
-    if manners.json {
+    if global.json {
         output::json(&answer);
     } else {
         output::print(&table(&answer));

@@ -7,7 +7,7 @@ use handeye_io::{Declared, Direction, import, write_atomically};
 use serde_json::json;
 
 use crate::{
-    args::{Length, Manners},
+    args::{GlobalArgs, Length},
     failure::Failure,
     output,
     simulate::SetupArg,
@@ -65,7 +65,7 @@ pub struct ImportArgs {
     pub force: bool,
 }
 
-pub fn run(args: &ImportArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &ImportArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let imported = import(&args.source, &declared(args)?)?;
     let path = args.out.clone().unwrap_or_else(|| imported.folder.join(&imported.name));
     if path.exists() && !args.force {
@@ -74,7 +74,7 @@ pub fn run(args: &ImportArgs, manners: &Manners) -> Result<u8, Failure> {
     }
     write_atomically(&path, imported.text.as_bytes())?;
     let next = imported.next.replace("{}", &output::word(&path));
-    if manners.json {
+    if global.json {
         let key = if imported.name == handeye_io::MANIFEST { "manifest" } else { "file" };
         output::json(&json!({
             "layout": imported.layout,

@@ -6,12 +6,12 @@ use handeye_io::{MANIFEST, Question, first_manifest, write_atomically};
 use serde_json::json;
 
 use crate::{
-    args::{InitArgs, Manners},
+    args::{GlobalArgs, InitArgs},
     failure::Failure,
     output,
 };
 
-pub fn run(args: &InitArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &InitArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let path = args.folder.join(MANIFEST);
     if path.exists() && !args.force {
         let what = "is there already; to write over it: --force";
@@ -19,7 +19,7 @@ pub fn run(args: &InitArgs, manners: &Manners) -> Result<u8, Failure> {
     }
     let first = first_manifest(&args.folder)?;
     write_atomically(&path, first.text.as_bytes())?;
-    if manners.json {
+    if global.json {
         let entry = |q: &Question| json!({ "line": q.line, "question": q.text });
         let questions: Vec<_> = first.questions.iter().map(entry).collect();
         output::json(&json!({ "manifest": path, "questions": questions }));

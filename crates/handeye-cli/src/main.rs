@@ -43,7 +43,7 @@ fn main() -> ExitCode {
         Ok(_) if output::lost() => ExitCode::FAILURE,
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
-            failure.tell(program.manners.json);
+            failure.tell(program.global.json);
             ExitCode::from(failure.exit_code())
         }
     }
@@ -62,23 +62,23 @@ fn not_a_command(error: &clap::Error) -> ExitCode {
 
 fn run(program: &Program) -> Result<u8, Failure> {
     match &program.command {
-        Command::Calibrate(args) => calibrate::run(args, &program.manners),
-        Command::Solve(args) => solve::run(args, &program.manners),
-        Command::Export(args) => export::run(args, &program.manners),
-        Command::Init(args) => init::run(args, &program.manners),
-        Command::Import(args) => import::run(args, &program.manners),
-        Command::Bag(args) => bag::run(args, &program.manners),
-        Command::Target(args) => target::run(args, &program.manners),
-        Command::Compare(args) => compare::run(args, &program.manners),
-        Command::Compensate(args) => compensate::run(args, &program.manners),
-        Command::Tcp(args) => tcp::run(args, &program.manners),
-        Command::Verify(args) => verify::run(args, &program.manners),
-        Command::Check(args) => check::run(args, &program.manners),
-        Command::Register(args) => register::run(args, &program.manners),
-        Command::View(args) => view::run(args, &program.manners),
-        Command::Detect(args) => detect::run(args, &program.manners),
-        Command::Simulate(args) => simulate::run(args, &program.manners),
-        Command::Demo(args) => demo::run(args, &program.manners),
+        Command::Calibrate(args) => calibrate::run(args, &program.global),
+        Command::Solve(args) => solve::run(args, &program.global),
+        Command::Export(args) => export::run(args, &program.global),
+        Command::Init(args) => init::run(args, &program.global),
+        Command::Import(args) => import::run(args, &program.global),
+        Command::Bag(args) => bag::run(args, &program.global),
+        Command::Target(args) => target::run(args, &program.global),
+        Command::Compare(args) => compare::run(args, &program.global),
+        Command::Compensate(args) => compensate::run(args, &program.global),
+        Command::Tcp(args) => tcp::run(args, &program.global),
+        Command::Verify(args) => verify::run(args, &program.global),
+        Command::Check(args) => check::run(args, &program.global),
+        Command::Register(args) => register::run(args, &program.global),
+        Command::View(args) => view::run(args, &program.global),
+        Command::Detect(args) => detect::run(args, &program.global),
+        Command::Simulate(args) => simulate::run(args, &program.global),
+        Command::Demo(args) => demo::run(args, &program.global),
         Command::Completions { shell } => {
             output::completions(*shell);
             Ok(0)

@@ -16,7 +16,7 @@ use handeye::{
 };
 use serde::Serialize;
 
-use crate::args::{Manners, Program};
+use crate::args::{GlobalArgs, Program};
 
 /// Whether something could not be written to standard output.
 static LOST: AtomicBool = AtomicBool::new(false);
@@ -97,13 +97,13 @@ pub fn completions(shell: Shell) {
 }
 
 /// Warnings, to standard error.
-pub fn warnings(calibration: &Calibration, manners: &Manners) {
-    warn(&calibration.warnings, manners);
+pub fn warnings(calibration: &Calibration, global: &GlobalArgs) {
+    warn(&calibration.warnings, global);
 }
 
 /// The same, of any result.
-pub fn warn(warnings: &[Warning], manners: &Manners) {
-    if manners.quiet {
+pub fn warn(warnings: &[Warning], global: &GlobalArgs) {
+    if global.quiet {
         return;
     }
     for warning in warnings {

@@ -6,7 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::args::Manners;
+use crate::args::GlobalArgs;
 
 /// Work shorter than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -23,8 +23,8 @@ pub struct Progress {
 
 impl Progress {
     /// For work named `what`.
-    pub fn new(what: &'static str, manners: &Manners) -> Self {
-        let wanted = !manners.quiet && io::stderr().is_terminal();
+    pub fn new(what: &'static str, global: &GlobalArgs) -> Self {
+        let wanted = !global.quiet && io::stderr().is_terminal();
         Self { what, start: Instant::now(), shown: Mutex::new(false), wanted }
     }
 

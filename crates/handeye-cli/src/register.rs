@@ -24,7 +24,7 @@ use nalgebra::{Isometry3, Matrix3, Quaternion, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    args::{Manners, Reading, RegisterArgs},
+    args::{GlobalArgs, Reading, RegisterArgs},
     failure::Failure,
     output,
 };
@@ -80,7 +80,7 @@ struct Answer {
     warnings: Vec<Warning>,
 }
 
-pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &RegisterArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let config = config(args)?;
     let method = config.method.name();
     let inputs = [Some(&args.source), Some(&args.target), args.initial.as_ref()];
@@ -122,13 +122,13 @@ pub fn run(args: &RegisterArgs, manners: &Manners) -> Result<u8, Failure> {
     let points = [&source, &target].map(|input| seen(input.scan.points()).count());
     let found = RegistrationResult::from(&found);
     let answer = Answer { found, method, points, seconds, warnings };
-    if manners.json {
+    if global.json {
         output::json(&answer);
     } else {
-        output::warn(&answer.warnings, manners);
+        output::warn(&answer.warnings, global);
         output::print(&text(&answer));
     }
-    if let Some(page) = args.report.as_ref().filter(|_| !manners.quiet) {
+    if let Some(page) = args.report.as_ref().filter(|_| !global.quiet) {
         crate::output::note!("report: {}", page.display());
     }
     Ok(if answer.found.verdict == Verdict::Accepted { 0 } else { 3 })

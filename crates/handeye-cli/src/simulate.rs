@@ -11,7 +11,7 @@ use handeye_io::simulated::{self, ScanFormat, Writing};
 use nalgebra::Vector3;
 use serde_json::json;
 
-use crate::{args::Manners, failure::Failure, output};
+use crate::{args::GlobalArgs, failure::Failure, output};
 
 /// Arguments of `simulate`.
 #[derive(Args)]
@@ -200,7 +200,7 @@ const MOST_FAULT_MM: f64 = 100.0;
 /// Largest side of an image, px.
 const LARGEST_PX: u32 = 10_000;
 
-pub fn run(args: &SimulateArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &SimulateArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let cell = cell(args)?;
     let recording = cell.record(args.seed).map_err(|e| Failure::Usage(e.to_string()))?;
     if let Some(foreign) = simulated::foreign(&args.out).filter(|_| !args.force) {
@@ -210,9 +210,9 @@ pub fn run(args: &SimulateArgs, manners: &Manners) -> Result<u8, Failure> {
     }
     let writing = Writing { images: !args.no_images, scans: args.scan_format.into() };
     let names = simulated::write(&recording, &args.out, writing)?;
-    if manners.json {
+    if global.json {
         output::json(&json!({"folder": args.out, "files": names}));
-    } else if !manners.quiet {
+    } else if !global.quiet {
         let folder = args.out.display();
         output::print(&format!("{} files in {folder}; the truth is in truth.json\n", names.len()));
     }

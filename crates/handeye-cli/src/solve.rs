@@ -4,25 +4,25 @@ use handeye::{Calibration, Config, Method};
 use handeye_io::read_poses;
 
 use crate::{
-    args::{Manners, SolveArgs},
+    args::{GlobalArgs, SolveArgs},
     failure::Failure,
     output,
 };
 
-pub fn run(args: &SolveArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &SolveArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let method = args.method.as_deref().map(method).transpose()?;
     let input = read_poses(&args.pairs)?;
     let calibration = input.calibrate(&Config { method, ..Config::default() })?;
     let calibration = if args.certify { calibration.certified() } else { calibration };
-    show(&calibration, manners);
+    show(&calibration, global);
     Ok(calibration.exit_code())
 }
 
-fn show(calibration: &Calibration, manners: &Manners) {
-    if manners.json {
+fn show(calibration: &Calibration, global: &GlobalArgs) {
+    if global.json {
         output::json(calibration);
     } else {
-        output::warnings(calibration, manners);
+        output::warnings(calibration, global);
         output::summary(calibration);
     }
 }

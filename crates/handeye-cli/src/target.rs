@@ -14,13 +14,13 @@ use handeye_io::{
 use serde_json::json;
 
 use crate::{
-    args::{Manners, TargetArgs},
+    args::{GlobalArgs, TargetArgs},
     boards,
     failure::Failure,
     output,
 };
 
-pub fn run(args: &TargetArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &TargetArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let kind = Kind::of(&args.out)?;
     let target = target(args)?;
     let paper = Paper::named(&args.paper).map_err(|e| Failure::Usage(e.to_string()))?;
@@ -33,7 +33,7 @@ pub fn run(args: &TargetArgs, manners: &Manners) -> Result<u8, Failure> {
     };
     write_atomically(&args.out, &content)?;
     write_atomically(&description, target_toml(&target).as_bytes())?;
-    if manners.json {
+    if global.json {
         let size = [sheet.width, sheet.height];
         output::json(&json!({
             "drawing": args.out, "description": description, "target": target, "paper_mm": size

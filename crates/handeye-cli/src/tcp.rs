@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use crate::{
-    args::{Manners, PosesArgs},
+    args::{GlobalArgs, PosesArgs},
     failure::Failure,
     output, poses,
 };
@@ -73,27 +73,27 @@ struct Answer<'a> {
     warnings: Vec<Warning>,
 }
 
-pub fn run(args: &TcpArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &TcpArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     if !(args.limit_mm > 0.0) {
         return Err(Failure::Usage("--limit-mm must be positive".into()));
     }
     let robot = read_robot_poses(&poses::described(&args.poses)?)?;
     match pivot::pivot(&robot.base_from_flange, args.limit_mm * 1e-3) {
-        Ok(found) => Ok(tell(&answer(&robot, &found), manners)),
+        Ok(found) => Ok(tell(&answer(&robot, &found), global)),
         Err(Error::NotDetermined { what }) => {
             let (reasons, all) = ([what], ["the tip in the flange, in all directions".into()]);
-            Ok(tell(&no_answer(&robot, &reasons, &all), manners))
+            Ok(tell(&no_answer(&robot, &reasons, &all), global))
         }
         Err(error) => Err(Failure::from(error).in_file(&args.poses.poses)),
     }
 }
 
 /// Prints the answer; returns the exit code.
-fn tell(answer: &Answer, manners: &Manners) -> u8 {
-    if manners.json {
+fn tell(answer: &Answer, global: &GlobalArgs) -> u8 {
+    if global.json {
         output::json(answer);
     } else {
-        output::warn(&answer.warnings, manners);
+        output::warn(&answer.warnings, global);
         output::print(&text(answer));
     }
     if answer.verdict == Verdict::Accepted { 0 } else { 3 }

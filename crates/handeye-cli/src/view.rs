@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::{
-    args::{Manners, Reading, ViewArgs},
+    args::{GlobalArgs, Reading, ViewArgs},
     failure::Failure,
     output, register,
 };
@@ -68,7 +68,7 @@ struct Layer {
     shown: usize,
 }
 
-pub fn run(args: &ViewArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &ViewArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     register::is_no_input(&args.out, args.files.iter())?;
     let (mut contents, mut warnings) = (vec![], vec![]);
     for path in &args.files {
@@ -102,7 +102,7 @@ pub fn run(args: &ViewArgs, manners: &Manners) -> Result<u8, Failure> {
     write_atomically(&args.out, page.as_bytes())?;
     let layer = |c: ThingCount| Layer { name: c.name, what: c.what, of: c.of, shown: c.shown };
     let layers = counts.into_iter().map(layer).collect();
-    tell(&Told { page: &args.out, layers, notes: &notes, warnings: &warnings }, manners);
+    tell(&Told { page: &args.out, layers, notes: &notes, warnings: &warnings }, global);
     Ok(0)
 }
 
@@ -110,11 +110,11 @@ fn is_calibration(thing: &Thing) -> bool {
     matches!(thing, Thing::Calibration { .. })
 }
 
-fn tell(told: &Told, manners: &Manners) {
-    if manners.json {
+fn tell(told: &Told, global: &GlobalArgs) {
+    if global.json {
         return output::json(told);
     }
-    output::warn(told.warnings, manners);
+    output::warn(told.warnings, global);
     let mut text = String::new();
     for layer in &told.layers {
         let shown = match layer.shown == layer.of {

@@ -321,8 +321,8 @@ fn the_odd_one_out_is_named_and_the_combined_result_is_a_result() {
     let all = ["a.json", "b.json", "c.json", "d.json"];
     let run = handeye(&folder, &[&["compare"][..], &all, &["--json"]].concat());
     assert_eq!((run.code, &run.json()["odd_one_out"]), (3, &Value::from("d.json")));
-    let told = handeye(&folder, &[&["compare"][..], &all].concat());
-    assert!(told.stdout.contains("DISAGREE  d.json is the odd one out"), "{}", told.stdout);
+    let printed = handeye(&folder, &[&["compare"][..], &all].concat());
+    assert!(printed.stdout.contains("DISAGREE  d.json is the odd one out"), "{}", printed.stdout);
     let args = [&["compare"][..], &all[..3], &["--out", "combined.json", "--json"]].concat();
     let run = handeye(&folder, &args);
     assert_eq!((run.code, &run.json()["odd_one_out"]), (0, &Value::Null));

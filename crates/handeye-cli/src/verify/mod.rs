@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::{
-    args::{Manners, VerifyArgs},
+    args::{GlobalArgs, VerifyArgs},
     failure::Failure,
     output,
 };
@@ -63,7 +63,7 @@ struct Answer {
     warnings: Vec<Warning>,
 }
 
-pub fn run(args: &VerifyArgs, manners: &Manners) -> Result<u8, Failure> {
+pub fn run(args: &VerifyArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     for (name, value) in [
         ("tolerance-mm", args.tolerance_mm.unwrap_or(1.0)),
         ("touch-noise-mm", args.touch_noise_mm),
@@ -78,18 +78,18 @@ pub fn run(args: &VerifyArgs, manners: &Manners) -> Result<u8, Failure> {
         false => args.calibration.clone(),
     };
     let calibration = read_result(&path)?;
-    let (test, mut warnings) = test::test(args, &calibration, &path, manners)?;
+    let (test, mut warnings) = test::test(args, &calibration, &path, global)?;
     let found = verify::verify(&test)?;
     warnings.splice(..0, of_its_own(&calibration));
     let mut answer = answer(args, &calibration, &test, &found);
     answer.warnings.splice(..0, warnings);
     if let Some(out) = &args.out {
-        write(out, args, &answer, &found, manners)?;
+        write(out, args, &answer, &found, global)?;
     }
-    if manners.json {
+    if global.json {
         output::json(&answer);
     } else {
-        output::warn(&answer.warnings, manners);
+        output::warn(&answer.warnings, global);
         output::print(&text(&answer));
     }
     Ok(if answer.verdict == Verdict::Accepted { 0 } else { 3 })
@@ -249,7 +249,7 @@ fn write(
     args: &VerifyArgs,
     answer: &Answer,
     found: &Verification,
-    manners: &Manners,
+    global: &GlobalArgs,
 ) -> Result<(), Failure> {
     fs::create_dir_all(out).map_err(|e| Failure::no_folder(out, e))?;
     let page = touch_test_html(&TouchTest {
@@ -263,7 +263,7 @@ fn write(
     });
     let path = out.join("verify.html");
     write_atomically(&path, page.as_bytes())?;
-    if !manners.quiet {
+    if !global.quiet {
         crate::output::note!("report: {}", path.display());
     }
     Ok(())

@@ -12,7 +12,7 @@ use handeye_io::{Dataset, MANIFEST, TouchedPoint, measure, read_touched_points};
 use nalgebra::{Matrix3, Matrix6, Vector6};
 
 use crate::{
-    args::{Manners, VerifyArgs},
+    args::{GlobalArgs, VerifyArgs},
     failure::Failure,
     progress::Progress,
 };
@@ -30,7 +30,7 @@ pub(super) fn test(
     args: &VerifyArgs,
     calibration: &Calibration,
     path: &Path,
-    manners: &Manners,
+    global: &GlobalArgs,
 ) -> Result<(Test, Vec<Warning>), Failure> {
     let Some(mount_from_camera) = calibration.hand_eye.mount_from_camera else {
         let what = "holds no transform (the data did not determine it): there is nothing to test";
@@ -45,7 +45,7 @@ pub(super) fn test(
     };
     let is_dataset = args.touches.is_dir() || args.touches.extension().is_some_and(|e| e == "toml");
     let warnings = match is_dataset {
-        true => from_dataset(&args.touches, calibration, &mut test, manners)?,
+        true => from_dataset(&args.touches, calibration, &mut test, global)?,
         false => from_file(&args.touches, args.camera_noise_mm * 1e-3, calibration, &mut test)?,
     };
     Ok((test, warnings))
@@ -145,7 +145,7 @@ fn from_dataset(
     path: &Path,
     calibration: &Calibration,
     test: &mut Test,
-    manners: &Manners,
+    global: &GlobalArgs,
 ) -> Result<Vec<Warning>, Failure> {
     let dataset = Dataset::open(path)?;
     let manifest = if path.is_dir() { path.join(MANIFEST) } else { path.into() };
@@ -156,7 +156,7 @@ fn from_dataset(
         let what = "has no touches of a [target]: add [touches], or give a file of touched points";
         return Err(Failure::input(manifest, what));
     }
-    let progress = Progress::new("reading captures", manners);
+    let progress = Progress::new("reading captures", global);
     let mut session = measure::measure(&dataset, &|done, all| progress.tell(done, all))?.session;
     drop(progress);
     let warnings = touches::each_once(&mut session.touches);

@@ -221,10 +221,11 @@ mod tests {
         let rows = rows(12, 100.0);
         let used: Vec<Used> = rows.iter().enumerate().collect();
         let all = Sums::of(&used, |_| 1.0);
-        let step = |k: usize| if k < 5 { 1.0 } else { 0.0 };
-        let slip = |k: usize| 1.0 - k as f64 / 11.0;
-        let shares: [(Option<usize>, &dyn Fn(usize) -> f64); 2] = [(Some(5), &step), (None, &slip)];
-        for (which, share) in shares {
+        for which in [Some(5), None] {
+            let share = |k: usize| match which {
+                Some(step) => f64::from(u8::from(k < step)),
+                None => 1.0 - k as f64 / 11.0,
+            };
             for side in SIDES {
                 let by = Hypothesis { side, step: which, size: 5e-3 };
                 let (once, twice) = (Sums::of(&used, share), Sums::of(&used, |k| share(k).powi(2)));
