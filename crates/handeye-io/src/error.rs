@@ -238,6 +238,15 @@ pub(crate) fn unusable(path: &Path, what: impl Into<String>) -> Error {
     Error::Unusable { place: Place::file(path), what: what.into() }
 }
 
+/// What is said of a format whose reader is not in this program.
+#[cfg(not(all(feature = "e57", feature = "netcdf", feature = "sqlite")))]
+pub(crate) fn left_out(path: &Path, format: &str, feature: &str) -> Error {
+    let what = format!(
+        "is a file in {format}, which this program was built without; build it with `--features {feature}`"
+    );
+    unusable(path, what)
+}
+
 /// Shorthand for [`Error::Undeclared`] of a file.
 pub(crate) fn undeclared(path: &Path, key: &str, question: &str) -> Error {
     Error::Undeclared { place: Place::file(path), key: key.into(), question: question.into() }

@@ -10,6 +10,7 @@ mod pictures;
 mod pieces;
 mod robot;
 mod ros1;
+#[cfg(feature = "sqlite")]
 mod sqlite;
 mod survey;
 mod topics;
@@ -113,7 +114,10 @@ pub(crate) fn read(path: &Path, tick: &Tick, take: &mut Take) -> Result<Vec<Stri
 fn read_file(file: &Path, tick: &Tick, take: &mut Take) -> Result<Cut, Error> {
     match files::extension(file).as_str() {
         "mcap" => mcap::read(file, take),
+        #[cfg(feature = "sqlite")]
         "db3" => sqlite::read(file, take),
+        #[cfg(not(feature = "sqlite"))]
+        "db3" => Err(crate::error::left_out(file, "SQLite", "sqlite")),
         "bag" | ACTIVE => ros1::read(file, take),
         PACKED => {
             let (unpacked, cut) = Unpacked::new(file, tick)?;

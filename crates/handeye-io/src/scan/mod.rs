@@ -1,11 +1,13 @@
 //! Scans of 3D cameras: points in PLY, PCD, E57, ZDF and text, depth in PNG and TIFF, either in NPY and NPZ.
 
 mod depth;
+#[cfg(feature = "e57")]
 mod e57;
 mod numpy;
 mod pcd;
 mod ply;
 mod text;
+#[cfg(feature = "netcdf")]
 mod zdf;
 
 use std::path::Path;
@@ -51,8 +53,14 @@ pub fn read_scan(path: &Path, options: &ScanOptions) -> Result<Scan, Error> {
         "xyz" | "txt" | "csv" | "asc" | "pts" => {
             of_points(text::read(path, options)?, options, path)
         }
+        #[cfg(feature = "e57")]
         "e57" => of_points(e57::read(path)?, options, path),
+        #[cfg(not(feature = "e57"))]
+        "e57" => Err(crate::error::left_out(path, "E57", "e57")),
+        #[cfg(feature = "netcdf")]
         "zdf" => of_points(zdf::read(path)?, options, path),
+        #[cfg(not(feature = "netcdf"))]
+        "zdf" => Err(crate::error::left_out(path, "ZDF", "netcdf")),
         "npy" | "npz" => numpy::read(path, options),
         "png" | "tif" | "tiff" => depth::read(path, options),
         other => Err(malformed(

@@ -5,56 +5,36 @@
 use crate::{
     Calibration, Intrinsics, Session, Warning,
     calibrate::result::ScanResult,
-    findings::{CameraFinding, Finding, FramesFinding, TargetFinding},
+    findings::{CameraFinding, CombinedFinding, Effect, Finding, FramesFinding, TargetFinding},
     math::linalg::median,
     mistakes::flatness,
 };
 
-/// What a cause can look like beside itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Effect {
-    Intrinsics,
-    Depth,
-    Scale,
-    Tilt,
-    Shift,
-}
-
-impl Effect {
-    fn of(warning: &Warning) -> Option<Self> {
-        match warning.finding.as_deref()? {
-            Finding::Camera(CameraFinding::Refined { .. }) => Some(Self::Intrinsics),
-            Finding::Camera(CameraFinding::DepthOff { .. }) => Some(Self::Depth),
-            Finding::Frames(FramesFinding::Scale { .. }) => Some(Self::Scale),
-            Finding::Frames(FramesFinding::Tilt(_)) => Some(Self::Tilt),
-            Finding::Frames(FramesFinding::Shift(_)) => Some(Self::Shift),
-            _ => None,
-        }
-    }
-
-    /// In words beside its cause.
-    fn in_words(self) -> &'static str {
-        match self {
-            Self::Intrinsics => "other intrinsics than the given ones",
-            Self::Depth => "depth that is off",
-            Self::Scale => "scans of another scale than images",
-            Self::Tilt => "scans rotated against images",
-            Self::Shift => "scans shifted against images",
-        }
-    }
-}
-
-/// How far a cause moves what it explains, mm.
-fn cause_mm(warning: &Warning, scans: &ScanResult) -> Option<f64> {
+/// What a warning says, where it can be the effect of something else.
+fn effect(warning: &Warning) -> Option<Effect> {
     match warning.finding.as_deref()? {
-        Finding::Target(TargetFinding::NotFlat { .. }) => {
-            Some(scans.flatness.as_ref()?.peak_to_valley_mm)
-        }
-        Finding::Camera(CameraFinding::DepthByColour { .. }) => {
-            Some(scans.colour_step.as_ref()?.black_minus_white_mm.abs())
-        }
+        Finding::Camera(CameraFinding::Refined { .. }) => Some(Effect::Intrinsics),
+        Finding::Camera(CameraFinding::DepthOff { .. }) => Some(Effect::Depth),
+        Finding::Frames(FramesFinding::Scale { .. }) => Some(Effect::Scale),
+        Finding::Frames(FramesFinding::Tilt(_)) => Some(Effect::Tilt),
+        Finding::Frames(FramesFinding::Shift(_)) => Some(Effect::Shift),
         _ => None,
     }
+}
+
+/// What explains effects, and how far it moves them, mm.
+fn cause(warning: &Warning, scans: &ScanResult) -> Option<(Finding, f64)> {
+    let finding = warning.finding.as_deref()?;
+    let size_mm = match finding {
+        Finding::Target(TargetFinding::NotFlat { .. }) => {
+            scans.flatness.as_ref()?.peak_to_valley_mm
+        }
+        Finding::Camera(CameraFinding::DepthByColour { .. }) => {
+            scans.colour_step.as_ref()?.black_minus_white_mm.abs()
+        }
+        _ => return None,
+    };
+    Some((finding.clone(), size_mm))
 }
 
 /// The result with what a cause explains said with that cause, and only there.
@@ -62,27 +42,22 @@ pub(super) fn merged(result: Calibration, session: &Session) -> Calibration {
     let Some(scans) = &result.scans else { return result };
     let mut warnings = result.warnings.clone();
     let mut at = 0;
-    while let Some(cause) = warnings.get(at) {
-        let Some(size_mm) = cause_mm(cause, scans) else {
+    while let Some(warning) = warnings.get(at) {
+        let Some((cause, size_mm)) = cause(warning, scans) else {
             at += 1;
             continue;
         };
         let is_explained = |effect: &Effect| {
             effect_mm(*effect, &result, session, scans).is_some_and(|e| e < size_mm)
         };
-        let effects = warnings.iter().filter_map(Effect::of);
-        let explained: Vec<Effect> = effects.filter(is_explained).collect();
-        if !explained.is_empty() {
-            let words: Vec<&str> = explained.iter().map(|effect| effect.in_words()).collect();
-            warnings[at].message += &format!(
-                "; it also looks like {}, no farther off than this explains, and the answer takes that into \
-                 account: correct this first",
-                words.join(" and ")
-            );
-            let stays = |w: &Warning| Effect::of(w).is_none_or(|e| !explained.contains(&e));
+        let effects: Vec<Effect> =
+            warnings.iter().filter_map(effect).filter(is_explained).collect();
+        if !effects.is_empty() {
+            let stays = |w: &Warning| effect(w).is_none_or(|e| !effects.contains(&e));
             let before = warnings[..at].iter().filter(|w| stays(w)).count();
             warnings.retain(stays);
             at = before;
+            warnings[at] = CombinedFinding { cause: Box::new(cause), effects }.into();
         }
         at += 1;
     }

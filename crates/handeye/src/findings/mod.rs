@@ -7,6 +7,7 @@
 
 pub mod camera;
 pub mod captures;
+mod combined;
 pub mod frames;
 pub mod movement;
 pub mod robot;
@@ -19,6 +20,7 @@ mod warning;
 
 pub use camera::CameraFinding;
 pub use captures::CaptureFinding;
+pub use combined::{CombinedFinding, Effect};
 pub use frames::FramesFinding;
 pub(crate) use movement::MovementFinding;
 pub use robot::RobotFinding;
@@ -39,6 +41,8 @@ pub enum Finding {
     Camera(CameraFinding),
     /// Captures that do not count, and whether those that do are enough.
     Captures(CaptureFinding),
+    /// A cause with what it explains.
+    Combined(CombinedFinding),
     /// The frames of images and scans.
     Frames(FramesFinding),
     /// Something moved.
@@ -76,6 +80,7 @@ impl Finding {
         match self {
             Self::Camera(found) => found,
             Self::Captures(found) => found,
+            Self::Combined(found) => found,
             Self::Frames(found) => found,
             Self::Movement(found) => found,
             Self::Robot(found) => found,
@@ -126,6 +131,12 @@ impl From<CameraFinding> for Finding {
 impl From<CaptureFinding> for Finding {
     fn from(found: CaptureFinding) -> Self {
         Self::Captures(found)
+    }
+}
+
+impl From<CombinedFinding> for Finding {
+    fn from(found: CombinedFinding) -> Self {
+        Self::Combined(found)
     }
 }
 
