@@ -11,6 +11,8 @@
 //! Of every cell the first captures are calibrated, as bare pose pairs and with their corners; 150 more, taken in the
 //! same way, are where the robot works afterwards. The truth is the rigid answer that fits these best.
 
+#[path = "../plain.rs"]
+mod plain;
 #[path = "../section.rs"]
 mod section;
 
@@ -20,9 +22,9 @@ use handeye::{
     Anchor, Calibration, Camera, Config, HandEye, LensSigma, Mount, Observation, Point, Pose,
     PosePair, Session, Setup, Target, TargetPose, TargetSize, Workspace, calibrate,
     simulate::{ArmErrors, Cell, CellNoise, Viewing},
-    solve::least_squares,
 };
-use nalgebra::{DMatrix, DVector, Matrix3x6, Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix3x6, Matrix6, Vector3};
+use plain::fitted;
 
 /// Poses where the robot works.
 const FRESH: usize = 150;
@@ -575,39 +577,4 @@ fn missed(
         }
     }
     all
-}
-
-/// Least squares of the residual, rotations weighted by `lever`.
-fn fitted(pairs: &[PosePair], start: &HandEye, lever: f64) -> HandEye {
-    let mut at = *start;
-    let residual = |h: &HandEye| {
-        let one = |p: &PosePair| {
-            let mut r = least_squares::residual(h, p);
-            r.fixed_rows_mut::<3>(0).scale_mut(lever);
-            r
-        };
-        DVector::from_iterator(
-            6 * pairs.len(),
-            pairs.iter().flat_map(|p| one(p).iter().copied().collect::<Vec<_>>()),
-        )
-    };
-    let moved = |h: &HandEye, d: &DVector<f64>| HandEye {
-        mount_from_camera: h.mount_from_camera.retract(&Vector6::from_fn(|i, _| d[i])),
-        anchor_from_target: h.anchor_from_target.retract(&Vector6::from_fn(|i, _| d[6 + i])),
-    };
-    for _ in 0..8 {
-        let r = residual(&at);
-        let mut j = DMatrix::zeros(r.len(), 12);
-        for k in 0..12 {
-            let mut d = DVector::zeros(12);
-            d[k] = 1e-6;
-            let plus = residual(&moved(&at, &d));
-            d[k] = -1e-6;
-            j.set_column(k, &((plus - residual(&moved(&at, &d))) / 2e-6));
-        }
-        let h = j.tr_mul(&j);
-        let Some(c) = h.cholesky() else { break };
-        at = moved(&at, &-c.solve(&j.tr_mul(&r)));
-    }
-    at
 }
