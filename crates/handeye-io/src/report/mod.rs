@@ -12,6 +12,7 @@ mod dataset;
 mod map;
 mod picture;
 mod plot;
+mod predicted;
 mod registration;
 mod scans;
 mod scene;
@@ -64,7 +65,7 @@ pub fn html(report: &Report) -> String {
         body += &found(c);
         body += &captures(c);
         body += &touches(c);
-        body += &refused(&(transform(report) + &candidates(c) + &budget(c)));
+        body += &refused(&(transform(report) + &candidates(c) + &predicted::predicted_error(c)));
     } else {
         body += &transform(report);
         body += &found(c);
@@ -74,14 +75,14 @@ pub fn html(report: &Report) -> String {
     }
     body += &view(report);
     if c.verdict != Verdict::Rejected {
-        body += &budget(c);
+        body += &predicted::predicted_error(c);
     }
     body += &arm::arm(c);
     body += &arm::correction(c);
     body += &scans::scene(c);
     body += &scans::scans(c);
     body += &diversity(c);
-    body += &pictures(report);
+    body += &picture::pictures(&report.pictures);
     page(
         ("Hand-eye calibration", &report.title),
         &body,
@@ -452,59 +453,6 @@ fn view(report: &Report) -> String {
     section("The cell", "", &scene.html("robot base, flange poses, camera and targets"))
 }
 
-/// The predicted error: where it is how large, what it comes from, what would help.
-fn budget(c: &Calibration) -> String {
-    let mut content = String::new();
-    if let Some(map) = c.predicted_tre_mm.as_ref().and_then(|t| t.map.as_ref()) {
-        let slices = map::slices(map);
-        if !slices.is_empty() {
-            let _ = write!(
-                content,
-                "<p>Three slices through the middle of the box, in the {} frame; 95 of 100 points of \
-                 that place are predicted to be off by less than the colour says. Blank is where \
-                 the camera does not see.</p>{slices}",
-                escape(&map.frame)
-            );
-        }
-    }
-    if !c.error_budget.is_empty() {
-        let row = |b: &handeye::calibrate::result::BudgetEntry| {
-            format!(
-                "<tr><td>{}</td><td class=\"words\">{}</td><td>{}</td></tr>",
-                escape(&b.source),
-                escape(&b.sigma),
-                mm(b.at_workpiece_mm)
-            )
-        };
-        let rows: String = c.error_budget.iter().map(row).collect();
-        let _ = write!(
-            content,
-            "<h3>Where it comes from</h3><table><tr><th>source</th><th class=\"words\">one standard deviation, \
-             as the data tell</th><th>part of the predicted<br>error, RMS mm</th></tr>{rows}</table>\
-             <p class=\"note\">Parts add up in squares.</p>"
-        );
-    }
-    if let (Some(now), false) = (&c.predicted_tre_mm, c.advice.is_empty()) {
-        let rejected = c.verdict == handeye::Verdict::Rejected;
-        let item = |a: &handeye::calibrate::result::Advice| {
-            if rejected {
-                return format!("<li>{}</li>", escape(&a.change)); // what an answer not to be used predicts says nothing
-            }
-            let gain = (1.0 - a.predicted_tre_mm / now.rms).max(0.0) * 100.0;
-            format!(
-                "<li>{}: <b>{:.2} mm</b> ({gain:.0} % less)</li>",
-                escape(&a.change),
-                a.predicted_tre_mm
-            )
-        };
-        let items: String = c.advice.iter().map(item).collect();
-        let now = format!("<p>Predicted now: <b>{:.2} mm</b> RMS. It would be with</p>", now.rms);
-        let now = if rejected { String::new() } else { now };
-        let _ = write!(content, "<h3>What would help</h3>{now}<ul>{items}</ul>");
-    }
-    if content.is_empty() { content } else { section("Predicted error", "", &content) }
-}
-
 fn diversity(c: &Calibration) -> String {
     let mut content = String::new();
     if let Some(d) = &c.diversity {
@@ -551,18 +499,4 @@ fn diversity(c: &Calibration) -> String {
         );
     }
     if content.is_empty() { content } else { section("Poses", "", &content) }
-}
-
-fn pictures(report: &Report) -> String {
-    if report.pictures.is_empty() {
-        return String::new();
-    }
-    let magnified = picture::magnification(&report.pictures);
-    let figures: String = report.pictures.iter().map(|p| p.figure(magnified)).collect();
-    let content = format!(
-        "<p class=\"note\">Detected corners (blue) and residuals (red) against the target seen from its own best pose, \
-         magnified {magnified:.0} times: an arrow as long as the bar in the corner is {:.2} px.</p><div class=\"pictures\">{figures}</div>",
-        picture::BAR_PX / magnified
-    );
-    section("Pictures", "long", &content)
 }

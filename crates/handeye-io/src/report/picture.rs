@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use handeye::GrayImage;
 
-use super::{base64::base64, escape};
+use super::{base64::base64, escape, section};
 
 /// A corner to draw, in pixels of the full image.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +33,22 @@ pub struct Picture {
 /// Width of the small copy, px.
 const WIDTH: usize = 480;
 /// Length of the scale bar, px of the small copy.
-pub const BAR_PX: f64 = 40.0;
+const BAR_PX: f64 = 40.0;
+
+/// All of them, with one magnification.
+pub(super) fn pictures(pictures: &[Picture]) -> String {
+    if pictures.is_empty() {
+        return String::new();
+    }
+    let magnified = magnification(pictures);
+    let figures: String = pictures.iter().map(|p| p.figure(magnified)).collect();
+    let content = format!(
+        "<p class=\"note\">Detected corners (blue) and residuals (red) against the target seen from its own best pose, \
+         magnified {magnified:.0} times: an arrow as long as the bar in the corner is {:.2} px.</p><div class=\"pictures\">{figures}</div>",
+        BAR_PX / magnified
+    );
+    section("Pictures", "long", &content)
+}
 
 impl Picture {
     /// Shrinks an image (area average) and keeps its corners.
@@ -66,7 +81,7 @@ impl Picture {
     }
 
     /// Its figure, residuals magnified.
-    pub(super) fn figure(&self, magnified: f64) -> String {
+    fn figure(&self, magnified: f64) -> String {
         let (w, h) = self.size;
         let mut svg = format!(
             "<svg viewBox=\"0 0 {w} {h}\"><image width=\"{w}\" height=\"{h}\" href=\"data:image/jpeg;base64,{}\"/>",
@@ -107,7 +122,7 @@ fn average(image: &GrayImage, x: usize, y: usize, n: usize) -> u8 {
 
 /// How much longer residuals are drawn than they are: the 90 % one becomes half the scale bar; a
 /// round number.
-pub(super) fn magnification(pictures: &[Picture]) -> f64 {
+fn magnification(pictures: &[Picture]) -> f64 {
     let mut lengths: Vec<f64> =
         pictures.iter().flat_map(|p| &p.corners).map(|c| c.dx.hypot(c.dy)).collect();
     lengths.sort_by(f64::total_cmp);
