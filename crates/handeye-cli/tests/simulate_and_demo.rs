@@ -26,7 +26,10 @@ fn the_demo_finds_the_truth_and_says_so() {
     let told: Value = serde_json::from_str(&json).unwrap();
     assert_eq!((code, &told["verdict"]), (0, &Value::from("accepted")));
     assert!(told["off"]["translation_mm"].as_f64().unwrap() < 0.5, "{}", told["off"]);
-    assert!(out.join("report.html").is_file() && out.join("calibration.json").is_file());
+    assert!(out.join("calibration.json").is_file());
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert_eq!(told["method"], "joint-by-place");
+    assert!(page.contains("Errors of the robot that depend on its pose"), "{page}");
     let (_, text, _) = handeye(&["demo", "--out", out.to_str().unwrap()]);
     assert!(text.contains("the truth is known here: off by 0."), "{text}");
     fs::remove_dir_all(out).unwrap();

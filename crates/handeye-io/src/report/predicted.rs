@@ -2,7 +2,7 @@
 
 use handeye::{
     Calibration, Verdict,
-    calibrate::result::{Advice, BudgetEntry, RobotErrorKind},
+    calibrate::result::{Advice, BudgetEntry},
 };
 
 use super::{escape, map, mm, section};
@@ -21,11 +21,8 @@ fn slices(c: &Calibration) -> String {
         return slices;
     }
     let of_robot = match c.robot_errors() {
-        Some(RobotErrorKind::ByPlace) => {
-            " What the robot errs from place to place, which no fixed transform can mend, is part of it."
-        }
-        Some(RobotErrorKind::OfArm) => {
-            " What the arm deviates from its model, as far as no fixed transform can mend it, is part of it."
+        Some(_) => {
+            " Errors of the robot that depend on its pose, and that no fixed transform can correct, are included."
         }
         None => "",
     };
