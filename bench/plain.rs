@@ -1,7 +1,26 @@
-//! Plain least squares over poses, which answers are compared with.
+//! Sessions as bare pose pairs, and plain least squares over them, which answers are compared with.
 
-use handeye::{HandEye, PosePair, solve::least_squares};
+use handeye::{
+    Camera, HandEye, Observation, Pose, PosePair, Session, Target, TargetPose, solve::least_squares,
+};
 use nalgebra::{DMatrix, DVector, Vector6};
+
+/// The session as pose pairs from elsewhere: where `seen` has the target, and nothing else of the images.
+pub fn as_pairs(
+    session: &Session,
+    seen: impl Fn(&Observation) -> Option<Pose<Camera, Target>>,
+) -> Session {
+    let bare = |o: &Observation| {
+        let seen = TargetPose { camera_from_target: seen(o)?, covariance: None };
+        Some(Observation { corners: vec![], surface: vec![], candidates: vec![seen], ..o.clone() })
+    };
+    Session {
+        target: None,
+        camera: None,
+        observations: session.observations.iter().filter_map(bare).collect(),
+        ..session.clone()
+    }
+}
 
 /// Least squares of the residual, rotations weighted by `lever`.
 pub fn fitted(pairs: &[PosePair], start: &HandEye, lever: f64) -> HandEye {

@@ -19,12 +19,12 @@ mod section;
 use std::env;
 
 use handeye::{
-    Anchor, Calibration, Camera, Config, HandEye, LensSigma, Mount, Observation, Point, Pose,
-    PosePair, Session, Setup, Target, TargetPose, TargetSize, Workspace, calibrate,
+    Anchor, Calibration, Camera, Config, HandEye, LensSigma, Mount, Point, Pose, PosePair, Session,
+    Setup, Target, TargetSize, Workspace, calibrate,
     simulate::{ArmErrors, Cell, CellNoise, Viewing},
 };
 use nalgebra::{Matrix3x6, Matrix6, Vector3};
-use plain::fitted;
+use plain::{as_pairs, fitted};
 
 /// Poses where the robot works.
 const FRESH: usize = 150;
@@ -372,7 +372,7 @@ fn run(kind: Kind, seed: u64) -> Option<Outcome> {
         .collect();
     let plain = fitted(&seen, &start, lever);
     if kind.bare {
-        own = as_bare(&own, &centre);
+        own = as_pairs(&own, |o| Some(o.candidates[0].camera_from_target * centre));
     }
     own.workspace = region.filter(|r| r.is_given).map(|r| r.bounds);
     let config = Config { max_error_mm: Some(50.0), ..Config::default() };
@@ -431,25 +431,6 @@ fn place(setup: Setup, pair: &PosePair) -> Vector3<f64> {
 fn is_named(found: &Calibration) -> bool {
     let codes = ["robot-errs-by-place", "arm-deviates"];
     found.method == "drift" || found.warnings.iter().any(|w| codes.contains(&w.code.as_str()))
-}
-
-/// The session as pose pairs from elsewhere.
-fn as_bare(session: &Session, centre: &Pose<Target, Target>) -> Session {
-    let bare = |o: &Observation| Observation {
-        corners: vec![],
-        surface: vec![],
-        candidates: vec![TargetPose {
-            camera_from_target: o.candidates[0].camera_from_target * *centre,
-            covariance: None,
-        }],
-        ..o.clone()
-    };
-    Session {
-        target: None,
-        camera: None,
-        observations: session.observations.iter().map(bare).collect(),
-        ..session.clone()
-    }
 }
 
 fn judged(

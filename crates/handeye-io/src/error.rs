@@ -240,7 +240,7 @@ pub(crate) fn unusable(path: &Path, what: impl Into<String>) -> Error {
 
 /// What is said of a format whose reader is not in this program.
 #[cfg(not(all(feature = "e57", feature = "netcdf", feature = "sqlite")))]
-pub(crate) fn left_out(path: &Path, format: &str, feature: &str) -> Error {
+pub(crate) fn not_built_in(path: &Path, format: &str, feature: &str) -> Error {
     let what = format!(
         "is a file in {format}, which this program was built without; build it with `--features {feature}`"
     );

@@ -117,7 +117,7 @@ fn read_file(file: &Path, tick: &Tick, take: &mut Take) -> Result<Cut, Error> {
         #[cfg(feature = "sqlite")]
         "db3" => sqlite::read(file, take),
         #[cfg(not(feature = "sqlite"))]
-        "db3" => Err(crate::error::left_out(file, "SQLite", "sqlite")),
+        "db3" => Err(crate::error::not_built_in(file, "SQLite", "sqlite")),
         "bag" | ACTIVE => ros1::read(file, take),
         PACKED => {
             let (unpacked, cut) = Unpacked::new(file, tick)?;

@@ -9,6 +9,7 @@ mod base64;
 mod cell;
 mod colours;
 mod dataset;
+mod diversity;
 mod map;
 mod picture;
 mod plot;
@@ -81,7 +82,7 @@ pub fn html(report: &Report) -> String {
     body += &arm::correction(c);
     body += &scans::scene(c);
     body += &scans::scans(c);
-    body += &diversity(c);
+    body += &diversity::diversity(c);
     body += &picture::pictures(&report.pictures);
     page(
         ("Hand-eye calibration", &report.title),
@@ -451,52 +452,4 @@ fn view(report: &Report) -> String {
         return String::new();
     };
     section("The cell", "", &scene.html("robot base, flange poses, camera and targets"))
-}
-
-fn diversity(c: &Calibration) -> String {
-    let mut content = String::new();
-    if let Some(d) = &c.diversity {
-        let _ = write!(
-            content,
-            "<p>{} captures; the largest rotation between two is {:.0} degrees; the robot travelled {:.0} x {:.0} x {:.0} mm.</p>{}\
-             <p class=\"note\">Rotations about one axis only leave the position along it free. The second bar should be above 0.05.</p>",
-            d.captures,
-            d.largest_rotation_deg,
-            d.travel_mm[0],
-            d.travel_mm[1],
-            d.travel_mm[2],
-            plot::shares(&[
-                ("first axis", d.axis_spread[0]),
-                ("second axis", d.axis_spread[1]),
-                ("third axis", d.axis_spread[2])
-            ]),
-        );
-    }
-    if let Some(s) = &c.target_scale {
-        let (what, of) = match has_board(c) {
-            true => ("Size of the target as the robot's motions see it", "the declared one"),
-            false => ("Distances as the robot's motions see them", "those in the scans"),
-        };
-        let _ = write!(
-            content,
-            "<p class=\"note\">{what}: {:.4} &plusmn; {:.4} of {of}.</p>",
-            s.value, s.sigma
-        );
-    }
-    if let Some(k) = &c.camera {
-        let _ = write!(
-            content,
-            "<p class=\"note\">Camera, found along with the poses: fx {:.2} &plusmn; {:.2}, fy {:.2} &plusmn; {:.2}, \
-             cx {:.2} &plusmn; {:.2}, cy {:.2} &plusmn; {:.2} px.</p>",
-            k.intrinsics.fx,
-            k.sigma_fx,
-            k.intrinsics.fy,
-            k.sigma_fy,
-            k.intrinsics.cx,
-            k.sigma_cx,
-            k.intrinsics.cy,
-            k.sigma_cy
-        );
-    }
-    if content.is_empty() { content } else { section("Poses", "", &content) }
 }

@@ -56,11 +56,11 @@ pub fn read_scan(path: &Path, options: &ScanOptions) -> Result<Scan, Error> {
         #[cfg(feature = "e57")]
         "e57" => of_points(e57::read(path)?, options, path),
         #[cfg(not(feature = "e57"))]
-        "e57" => Err(crate::error::left_out(path, "E57", "e57")),
+        "e57" => Err(crate::error::not_built_in(path, "E57", "e57")),
         #[cfg(feature = "netcdf")]
         "zdf" => of_points(zdf::read(path)?, options, path),
         #[cfg(not(feature = "netcdf"))]
-        "zdf" => Err(crate::error::left_out(path, "ZDF", "netcdf")),
+        "zdf" => Err(crate::error::not_built_in(path, "ZDF", "netcdf")),
         "npy" | "npz" => numpy::read(path, options),
         "png" | "tif" | "tiff" => depth::read(path, options),
         other => Err(malformed(

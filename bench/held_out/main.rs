@@ -1,10 +1,10 @@
 //! Poses that no answer was made from: how far is the rigid answer off there, beside plain least squares?
 //!
-//! `cargo run --release -p handeye-bench --bin left_out -- DATA [FILE.md] MANIFEST...`
+//! `cargo run --release -p handeye-bench --bin held_out -- DATA [FILE.md] MANIFEST...`
 //!
-//! DATA is the folder that the manifests' files are in. Of every set, captures are left out one by one, by place (five
+//! DATA is the folder that the manifests' files are in. Of every set, captures are held out one by one, by place (five
 //! groups of robot positions) and by time (five parts one after another), the rest is calibrated as bare pose pairs, and
-//! what is left out is predicted. Captures that are rejected by a calibration of all are left out of everything.
+//! the held-out ones are predicted. Captures that a calibration of all rejects as outliers are not used at all.
 
 #[path = "../plain.rs"]
 mod plain;
@@ -15,7 +15,7 @@ use std::{env, path::Path};
 
 use handeye::{
     Anchor, Base, Calibration, Config, Flange, HandEye, Observation, Point, Pose, PosePair,
-    Session, Setup, Target, TargetPose, calibrate,
+    Session, Setup, Target, calibrate,
 };
 use handeye_io::{Dataset, calibrate::calibrate_dataset};
 use nalgebra::Vector3;
@@ -24,20 +24,20 @@ use nalgebra::Vector3;
 const LEVER: f64 = 0.1;
 /// Groups by place, and parts in time.
 const GROUPS: usize = 5;
-/// Fewest captures of a set from which one is left out, and of one that is divided.
+/// Fewest captures of a set of which one is held out, and of one that is divided.
 const FEWEST: (usize, usize) = (7, 10);
 
-const HEAD: &str = "## Poses that were left out
+const HEAD: &str = "## Held-out poses
 
-Measured sets as bare pose pairs: one capture after another is left out, or one of five groups of places of the robot, or
-one of five parts in time (from ten captures on); the rest is calibrated, and predicts what was left out. Errors are in mm, root mean square at
-points 100 mm from the middle of the target.
+Measured sets as bare pose pairs: one capture after another is held out, or one of five groups of robot positions, or
+one of five parts in time (from ten captures on); the rest is calibrated, and predicts the held-out poses. Errors are in mm,
+root mean square at points 100 mm from the middle of the target.
 
 - *plain*: least squares, rotations weighted by 100 mm; *handeye*: the rigid answer; *ratio*: of both.
 - *corrected*: with what was learnt of the robot's errors by place, where that is offered.
 - *none*: parts without an answer, which count for neither.
 
-| set | captures | left out | plain | handeye | ratio | corrected | none |
+| set | captures | held out | plain | handeye | ratio | corrected | none |
 |---|---|---|---|---|---|---|---|
 ";
 
@@ -52,7 +52,7 @@ fn main() {
         rows += &row;
     }
     if let Some(file) = others.get(1) {
-        section::write(file, "left-out", &format!("{HEAD}{rows}"));
+        section::write(file, "held-out", &format!("{HEAD}{rows}"));
     }
 }
 
@@ -62,7 +62,7 @@ fn of_set(manifest: &Path, root: &Path) -> String {
     let dataset = Dataset::open_with_root(manifest, root).expect("a manifest");
     let all = calibrate_dataset(&dataset, &config(), &|_, _| {});
     let (found, session) = all.expect("a dataset that can be used");
-    let session = as_pairs(&found, &session);
+    let session = counted(&found, &session);
     let n = session.observations.len();
     if n < FEWEST.0 {
         return String::new();
@@ -90,29 +90,19 @@ fn config() -> Config {
     Config { max_error_mm: Some(1e3), ..Config::default() }
 }
 
-/// The captures that count, as pose pairs.
-fn as_pairs(found: &Calibration, session: &Session) -> Session {
+/// The captures that count, as pose pairs to the middle of the target.
+fn counted(found: &Calibration, session: &Session) -> Session {
     let corners = session.target.as_ref().map(|t| t.corners());
     let middle = corners.map_or(Vector3::zeros(), |all| {
         all.iter().map(Point::vector).sum::<Vector3<f64>>() / all.len() as f64
     });
     let centre = Pose::<Target, Target>::from_parts(&nalgebra::Matrix3::identity(), middle);
-    let used: Vec<_> = found.captures.iter().filter(|c| c.used).collect();
-    let pair = |o: &Observation| {
-        let own = used.iter().find(|c| c.id == o.capture)?;
+    let pairs = plain::as_pairs(session, |o| {
+        let own = found.captures.iter().find(|c| c.used && c.id == o.capture)?;
         let seen = own.camera_from_target.or(o.candidates.first().map(|c| c.camera_from_target))?;
-        let seen = TargetPose { camera_from_target: seen * centre, covariance: None };
-        Some(Observation { corners: vec![], surface: vec![], candidates: vec![seen], ..o.clone() })
-    };
-    Session {
-        target: None,
-        camera: None,
-        arm: None,
-        touches: vec![],
-        placements: vec![],
-        observations: session.observations.iter().filter_map(pair).collect(),
-        ..session.clone()
-    }
+        Some(seen * centre)
+    });
+    Session { arm: None, touches: vec![], placements: vec![], ..pairs }
 }
 
 /// Groups of captures near one another: each belongs to the nearest of five that are far apart.
@@ -135,7 +125,7 @@ fn by_place(session: &Session) -> Vec<Vec<usize>> {
     (0..GROUPS).map(group).filter(|part: &Vec<usize>| !part.is_empty()).collect()
 }
 
-/// What plain least squares, the answer and the corrected robot miss of parts that were left out, mm RMS, and how many
+/// What plain least squares, the answer and the corrected robot miss of held-out parts, mm RMS, and how many
 /// parts have no answer.
 fn missed(session: &Session, parts: &[Vec<usize>]) -> [f64; 4] {
     let (mut sums, mut count, mut none) = ([0.0; 3], 0.0, 0.0);
@@ -169,9 +159,9 @@ fn of_part(session: &Session, part: &[usize]) -> Option<[f64; 3]> {
     let model = found.compensation.as_ref().and_then(|c| c.model.as_ref());
     let mut sums = [0.0; 3];
     for &k in part {
-        let left = pair(session.setup, &session.observations[k]);
-        sums[0] += off(&plain, &left);
-        sums[1] += off(&own, &left);
+        let held_out = pair(session.setup, &session.observations[k]);
+        sums[0] += off(&plain, &held_out);
+        sums[1] += off(&own, &held_out);
         sums[2] += match model {
             Some(model) => {
                 let reported: Pose<Base, Flange> = session.observations[k].base_from_flange;
@@ -181,9 +171,9 @@ fn of_part(session: &Session, part: &[usize]) -> Option<[f64; 3]> {
                     mount_from_camera: model.rigid,
                     anchor_from_target: model.anchor_from_target,
                 };
-                off(&rigid, &PosePair { anchor_from_mount, ..left })
+                off(&rigid, &PosePair { anchor_from_mount, ..held_out })
             }
-            None => off(&own, &left),
+            None => off(&own, &held_out),
         };
     }
     Some(sums)
