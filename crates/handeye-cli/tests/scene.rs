@@ -179,7 +179,7 @@ fn a_camera_is_calibrated_on_what_stands_about_and_again_from_there() {
     let text = folder.read("result/calibration.json");
     let answer: Value = serde_json::from_str(&text).unwrap();
     assert_right(&answer, &flange_from_camera());
-    for word in ["board", "corner", "picture"] {
+    for word in ["board", "corner", "picture", "image"] {
         let (reasons, warnings) = (&answer["reasons"], &answer["warnings"]);
         let said = format!("{reasons}{warnings}{}{}", answer["error_budget"], answer["advice"]);
         assert!(!said.contains(word), "{word}: {said}");

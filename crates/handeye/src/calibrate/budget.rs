@@ -37,7 +37,7 @@ pub(super) fn budget(
     let mut all: Vec<BudgetEntry> = fit.noise.sigmas.iter().map(entry).collect();
     if !problem.extras.is_empty() {
         all.push(BudgetEntry {
-            source: "beliefs".into(),
+            source: "priors".into(),
             sigma:
                 "tool tip, intrinsics, size, depth and errors that captures share, by their priors"
                     .into(),

@@ -62,7 +62,7 @@ pub(super) fn fit(
 ) -> Option<Joint> {
     let mut problem = Problem {
         boards: boards.boards.clone(),
-        ..views_problem(views.session, &views.views, &[extras, &believed_tip(known)].concat())
+        ..views_problem(views.session, &views.views, &[extras, &tip_with_prior(known)].concat())
     };
     if problem.boards.is_empty() {
         return None;
@@ -87,14 +87,14 @@ pub(super) fn fit(
 }
 
 /// The tip as free as the user's knowledge of it leaves it.
-fn believed_tip(known: &KnownNoise) -> [Extra; 3] {
+fn tip_with_prior(known: &KnownNoise) -> [Extra; 3] {
     tip(known.tip_m.unwrap_or(TIP_PRIOR))
 }
 
-/// What is believed of a tip once it is known to be wrong, m per axis.
+/// Prior standard deviation of a tip that is known to be wrong, m per axis.
 const WRONG_TIP_PRIOR: f64 = 20e-3;
 
-/// Tests whether the tip is where the robot believes it; if not, believes the data instead.
+/// Tests whether the tip is where the robot has it; if not, estimates it with a wide prior.
 fn free_wrong_tip(
     problem: &mut Problem,
     fit: &mut JointFit,

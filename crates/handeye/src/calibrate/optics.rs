@@ -38,7 +38,7 @@ use crate::{
 /// What of camera and depth is free, and how far it has moved from what was given.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Optics {
-    /// The unknowns; beliefs are relative to where camera and depth stand now.
+    /// The unknowns; priors are relative to where camera and depth stand now.
     pub extras: Vec<Extra>,
     /// The target is larger than declared by this share.
     pub size: f64,

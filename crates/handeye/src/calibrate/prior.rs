@@ -1,4 +1,4 @@
-//! What is believed of print, scans and lens before anything was measured.
+//! Priors of print, scans and intrinsics, before anything was measured.
 //!
 //! Each is a mixture of normal distributions about what was declared: what a careful user has, and what goes wrong. The
 //! components of a session are all combinations that are not too unlikely.

@@ -64,7 +64,7 @@ const OUTLIER: f64 = 34.0;
 /// Names of the candidate.
 const NAME: &str = "drift";
 
-/// Standard deviation of the belief in a factor, and in a time offset (s): far more than any motion
+/// Prior standard deviation of a factor, and of a time offset (s): far more than any motion
 /// leaves open.
 const ANYTHING: f64 = 10.0;
 

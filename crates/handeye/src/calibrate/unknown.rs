@@ -31,9 +31,9 @@ pub(crate) struct Unknown {
     pub time_offset_s: Option<f64>,
 }
 
-/// Standard deviation of the belief in a factor: far more than any motion leaves open.
+/// Prior standard deviation of a factor: far more than any motion leaves open.
 const ANY_SCALE: f64 = 10.0;
-/// Standard deviation of the belief in a time offset (s): the same.
+/// Prior standard deviation of a time offset (s): the same.
 const ANY_TIME: f64 = 10.0;
 /// A factor known no better than this leaves the distances open.
 const FREE_SCALE: f64 = 0.2;

@@ -3,7 +3,7 @@
 //! A camera that reconstructs the scene, or a target of unknown size, gives rotations and
 //! directions but no metres; the robot's motions do. A first factor comes from the linear system of
 //! Andreff, Horaud and Espiau, over all captures and over small sets of them, the one that most
-//! captures agree with; then it is one more unknown of the joint fit, with no belief beforehand,
+//! captures agree with; then it is one more unknown of the joint fit, without a prior,
 //! which is linearised anew until it stays. Where the mount only turns about one point, or hardly
 //! moves, the factor goes along with the camera's position, and both are called undetermined.
 //!

@@ -48,20 +48,20 @@ impl ExtraKind {
 pub struct Extra {
     /// What it changes.
     pub kind: ExtraKind,
-    /// What is believed of it beforehand.
+    /// Mean of its prior.
     pub prior_mean: f64,
-    /// Standard deviation of that belief; a factor on it, where the kind has a [level](ExtraKind::level).
+    /// Standard deviation of its prior; a factor on it, where the kind has a [level](ExtraKind::level).
     pub prior_sigma: f64,
 }
 
 impl Extra {
-    /// Variance of what is believed of it.
+    /// Variance of its prior.
     pub(super) fn prior_variance(&self, variances: &Variances) -> f64 {
         let level = self.kind.level().map_or(1.0, |source| variances[source.index()]);
         self.prior_sigma.powi(2) * level
     }
 
-    /// An unknown that is believed to be zero.
+    /// An unknown whose prior mean is zero.
     pub fn about_zero(kind: ExtraKind, prior_sigma: f64) -> Self {
         Self { kind, prior_mean: 0.0, prior_sigma }
     }

@@ -64,9 +64,9 @@ const STEP: f64 = 1e-6;
 const STEP_WITH_LEVELS: f64 = 1e-3;
 /// A step longer than this, in the same units, comes from a start and not from noise.
 const FAR: f64 = 1.0;
-/// Captures' worth of prior belief in the first noise level.
+/// Captures' worth of the prior of the first noise level.
 pub(super) const PRIOR_VIEWS: f64 = 2.0;
-/// Touches' worth of prior belief in the first level of their noise.
+/// Touches' worth of the prior of the first level of their noise.
 pub(super) const PRIOR_TOUCHES: f64 = 2.0;
 /// Weight of rotation against translation in the fit whose residual gives the first noise level,
 /// m per rad.
@@ -253,9 +253,9 @@ fn touch_level(problem: &Problem, state: &State, noise: &NoiseModel) -> f64 {
     (TOUCH_SHARE * (sum / f64::max(count, 1.0)).sqrt()).clamp(1e-9, LARGEST_TOUCH)
 }
 
-/// Share of that residual which is believed to be the hand's: the answer of the views errs as well.
+/// Share of that residual which is taken to be the hand's: the answer of the views errs as well.
 const TOUCH_SHARE: f64 = 0.75;
-/// First belief in the error of a tip led by hand, m per axis: at most this.
+/// Prior of the error of a tip led by hand, m per axis: at most this.
 const LARGEST_TOUCH: f64 = 0.25e-3;
 
 /// The sources that act on this problem.

@@ -67,7 +67,7 @@ impl Source {
         match self {
             Source::RobotRotation => "robot rotation",
             Source::RobotPosition => "robot position",
-            Source::Picture => "picture",
+            Source::Picture => "image",
             Source::CameraTilt => "camera tilt",
             Source::CameraRoll => "camera roll",
             Source::CameraLateral => "camera lateral",

@@ -241,7 +241,7 @@ pub(crate) fn expected_gain(problem: &Problem, fit: &JointFit) -> Option<f64> {
     }
     let (h, g) = joint::normal_equations(problem, &JointFit { noise, ..fit.clone() });
     let n = h.nrows() - p;
-    // the believed size of one is no data
+    // the prior size of one is no data
     let own = h.view((p, p), (n, n)) - DMatrix::identity(n, n);
     let cross = h.view((p, 0), (n, p));
     let through = cross * fit.covariance.as_ref()?;

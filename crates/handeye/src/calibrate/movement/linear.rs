@@ -6,9 +6,9 @@ use crate::calibrate::limits::VERY_MANY;
 
 /// Fewest captures on either side of a step.
 const FEWEST_BESIDE: usize = 3;
-/// Believed probability that something moves in a session.
+/// Prior probability that something moves in a session.
 pub(super) const PRIOR: f64 = 0.2;
-/// Standard deviations of a movement, per axis: rad and m alike. Small ones and large ones are believed alike.
+/// Standard deviations of a movement, per axis: rad and m alike. Small and large ones are equally probable beforehand.
 const SIZES: [f64; 3] = [0.5e-3, 1.5e-3, 5e-3];
 /// The side that moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +46,7 @@ pub(super) struct Hypothesis {
 }
 
 impl Hypothesis {
-    /// Half of the belief goes to slips, half to steps.
+    /// Half of the prior probability goes to slips, half to steps.
     fn log_prior(&self, steps: usize) -> f64 {
         let of = if self.step.is_some() { steps as f64 } else { 1.0 };
         (PRIOR / (2.0 * (SIDES.len() * SIZES.len()) as f64 * of)).ln()
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn belief_in_all_movements_adds_up() {
+    fn prior_probabilities_of_all_movements_add_up() {
         let steps = 7;
         let one = |side, step, size| Hypothesis { side, step, size }.log_prior(steps).exp();
         let of = |(side, size)| one(side, None, size) + steps as f64 * one(side, Some(4), size);

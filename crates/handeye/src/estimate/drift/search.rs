@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     HandEye,
-    estimate::drift::sequence::{BELIEF, Levels, MEMORY, Sequence},
+    estimate::drift::sequence::{LOG_PRIOR_SIGMA, Levels, MEMORY, Sequence},
 };
 
 /// Steps of the search for the likeliest noise.
@@ -26,7 +26,7 @@ pub(super) const FIRST_STEP: f64 = 0.1;
 /// Shanno.
 pub(super) struct Search {
     pub known: KnownNoise,
-    /// Where the logarithms are believed to be.
+    /// Prior means of the logarithms.
     pub first: Vec<f64>,
     /// Whether the unit of distances drifts.
     pub scale: bool,
@@ -47,9 +47,10 @@ impl Search {
         let mut cost = |x: &DVector<f64>| {
             levels.set(x.as_slice(), &known);
             // any memory is as likely as any other
-            let believed = (0..x.len()).filter(|k| memory != Some(*k));
-            let beliefs: f64 = believed.map(|k| ((x[k] - first[k]) / BELIEF).powi(2)).sum();
-            0.5 * beliefs - filter(lines, &levels).log_likelihood(sequence, values)
+            let with_prior = (0..x.len()).filter(|k| memory != Some(*k));
+            let prior: f64 =
+                with_prior.map(|k| ((x[k] - first[k]) / LOG_PRIOR_SIGMA).powi(2)).sum();
+            0.5 * prior - filter(lines, &levels).log_likelihood(sequence, values)
         };
         let mut x = DVector::from_vec(at.levels.get(&known));
         let mut here = cost(&x);

@@ -62,8 +62,8 @@ pub(crate) struct Slow {
 /// Largest number of extras.
 pub(crate) const EXTRAS: usize = 2;
 
-/// Belief in the logarithm of each standard deviation beforehand: a factor of ten either way.
-pub(crate) const BELIEF: f64 = 2.3;
+/// Prior standard deviation of the logarithm of each noise level: a factor of ten either way.
+pub(crate) const LOG_PRIOR_SIGMA: f64 = 2.3;
 
 /// Where the noise stands: logarithms of the standard deviations, and of the memory.
 #[derive(Clone)]

@@ -86,7 +86,7 @@ impl System {
         system
     }
 
-    /// Whether unknowns are believed to be about as large as a level that is estimated.
+    /// Whether the prior size of unknowns is a level that is estimated.
     pub(crate) fn has_levels(&self) -> bool {
         !self.levels.is_empty()
     }

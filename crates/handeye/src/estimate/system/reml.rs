@@ -37,7 +37,7 @@ impl System {
             let theta = sigma * sigma;
             let first = prior.sigmas[k].sigma;
             let i = source.index();
-            let (by_prior, of_prior) = belief(source, sigma / first);
+            let (by_prior, of_prior) = prior_score(source, sigma / first);
             score[row] = 0.5 * theta * (moments.found[i] - moments.expected[i]) + by_prior;
             information[(row, row)] += of_prior;
             for (column, &l) in free.iter().enumerate() {
@@ -128,8 +128,8 @@ impl System {
     }
 }
 
-/// Score of `log θ` by what is believed of a standard deviation that is `ratio` times the first one, and its information.
-fn belief(source: Source, ratio: f64) -> (f64, f64) {
+/// Score of `log θ` by the prior of a standard deviation that is `ratio` times the first one, and its information.
+fn prior_score(source: Source, ratio: f64) -> (f64, f64) {
     if source.is_level() {
         return (-0.5 * ratio, 0.25 * ratio);
     }
@@ -177,7 +177,7 @@ impl Moments {
         }
     }
 
-    /// Unknowns of one level: what they are, and what they leave open, against what is believed of them; `through` is
+    /// Unknowns of one level: what they are, and what they leave open, against their priors; `through` is
     /// `J C_b`.
     fn add_level(
         &mut self,

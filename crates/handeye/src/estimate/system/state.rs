@@ -51,7 +51,7 @@ pub(crate) struct System {
     pub(super) levels: Vec<Level>,
 }
 
-/// Unknowns that are believed to be about as large as their level says.
+/// Unknowns whose prior size is a level that is estimated.
 pub(crate) struct Level {
     pub source: Source,
     /// Their numbers among all unknowns.
