@@ -230,10 +230,7 @@ fn alternatives(declared: &TargetModel) -> Vec<Layout> {
         }
         TargetModel::Charuco { .. } => charuco(declared),
         TargetModel::Aprilgrid { .. } => aprilgrid(declared),
-        TargetModel::ModifiedCircleGrid { .. }
-        | TargetModel::TagGrid { .. }
-        | TargetModel::Tag { .. }
-        | TargetModel::Sphere { .. } => vec![],
+        _ => vec![],
     }
 }
 
@@ -245,11 +242,7 @@ fn of_size(declared: &TargetModel, columns: u32, rows: u32) -> TargetModel {
         | TargetModel::CircleGrid { columns: c, rows: r, .. }
         | TargetModel::AsymmetricCircleGrid { columns: c, rows: r, .. }
         | TargetModel::ModifiedCircleGrid { columns: c, rows: r, .. } => (*c, *r) = (columns, rows),
-        TargetModel::Charuco { .. }
-        | TargetModel::Aprilgrid { .. }
-        | TargetModel::TagGrid { .. }
-        | TargetModel::Tag { .. }
-        | TargetModel::Sphere { .. } => {}
+        _ => {}
     }
     target
 }

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::{kinematics::Arm, names::natural};
 use crate::{
     Base, Camera, Correspondence, Flange, Intrinsics, Mount, Observation, Placement, Pose, Setup,
-    Target, Touch, Workspace, model::target::kinds::TargetModel,
+    Target, Touch, Workspace, model::target::TargetModel,
 };
 
 /// Everything that was measured in one cell.

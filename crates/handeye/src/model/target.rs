@@ -17,9 +17,9 @@ pub(crate) mod kinds;
 mod layout;
 pub(crate) mod look;
 
-pub use family::KINDS;
+pub use families::{KINDS, TargetModel};
 pub(crate) use kinds::PlacedTag;
-pub use kinds::{AprilTagFamily, Kind, TargetModel};
+pub use kinds::{AprilTagFamily, Kind};
 
 use crate::{Error, Point, Target};
 use family::Turns;

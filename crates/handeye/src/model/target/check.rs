@@ -1,6 +1,6 @@
 //! Dimensions that no target has.
 
-use super::kinds::TargetModel;
+use super::families::TargetModel;
 use crate::{Error, model::dictionary::Dictionary};
 
 /// Most corners a board may declare; larger counts are mistakes or attacks.

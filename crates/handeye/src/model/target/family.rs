@@ -1,31 +1,12 @@
-//! What a family of targets must say of itself. A new one is a file in `families/`, a variant of [`TargetModel`], and a
-//! row in both tables here; the compiler asks for what else must know it.
+//! What a family of targets must say of itself.
 
 use nalgebra::Vector2;
 
-use super::{
-    check,
-    families::*,
-    kinds::{Kind, PlacedTag, TargetModel},
-    look::{Circles, Look},
-};
+use super::{check, families::TargetModel, kinds::PlacedTag, look::Look};
 use crate::{
     Error,
     model::{print::Art, texture::Texture},
 };
-
-/// All kinds, in the order in which people are shown them.
-pub const KINDS: [Kind; 9] = [
-    checkerboard::KIND,
-    charuco::KIND,
-    aprilgrid::KIND,
-    tag_grid::KIND,
-    tag::KIND,
-    circles::PLAIN,
-    circles::ASYMMETRIC,
-    circles::WITH_LARGER,
-    sphere::KIND,
-];
 
 /// The markers on a board: the dictionary, the first of them and how many.
 pub(super) type Markers<'a> = (&'a str, u32, u64);
@@ -98,65 +79,4 @@ pub(super) trait Family {
 
     /// The target in words.
     fn in_words(&self) -> String;
-}
-
-impl TargetModel {
-    /// Reads something of the target's family.
-    pub(super) fn family<T>(&self, read: impl FnOnce(&dyn Family) -> T) -> T {
-        match *self {
-            Self::Checkerboard { columns, rows, square_mm } => {
-                read(&Checkerboard { columns, rows, square_mm })
-            }
-            Self::Charuco {
-                squares_x,
-                squares_y,
-                square_mm,
-                marker_mm,
-                ref dictionary,
-                legacy,
-                first_id,
-            } => read(&Charuco {
-                squares_x,
-                squares_y,
-                square_mm,
-                marker_mm,
-                dictionary,
-                legacy,
-                first_id,
-            }),
-            Self::Tag { ref dictionary, id, size_mm } => read(&Tag { dictionary, id, size_mm }),
-            Self::CircleGrid { columns, rows, pitch_mm } => {
-                read(&CircleGrid { circles: Circles::Plain, columns, rows, pitch_mm })
-            }
-            Self::AsymmetricCircleGrid { columns, rows, pitch_mm } => {
-                read(&CircleGrid { circles: Circles::Asymmetric, columns, rows, pitch_mm })
-            }
-            Self::ModifiedCircleGrid { columns, rows, pitch_mm } => {
-                read(&CircleGrid { circles: Circles::WithLarger, columns, rows, pitch_mm })
-            }
-            Self::Aprilgrid {
-                tags_x,
-                tags_y,
-                tag_mm,
-                spacing,
-                family,
-                first_id,
-                corner_squares,
-                border_bits,
-            } => read(&Aprilgrid {
-                tags_x,
-                tags_y,
-                tag_mm,
-                spacing,
-                family,
-                first_id,
-                corner_squares,
-                border_bits,
-            }),
-            Self::TagGrid { ref dictionary, tags_x, tags_y, tag_mm, gap_mm, first_id } => {
-                read(&TagGrid { dictionary, tags_x, tags_y, tag_mm, gap_mm, first_id })
-            }
-            Self::Sphere { diameter_mm } => read(&Sphere { diameter_mm }),
-        }
-    }
 }

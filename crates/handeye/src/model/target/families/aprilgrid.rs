@@ -40,6 +40,8 @@ pub(in crate::model::target) const KIND: Kind = Kind {
         corner_squares: true,
         border_bits: 1,
     },
+    counts: &["tags_x", "tags_y"],
+    help: "Kalibr's grid of so many AprilTags: columns x rows",
 };
 
 pub(in crate::model::target) struct Aprilgrid {

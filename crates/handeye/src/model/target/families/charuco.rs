@@ -28,6 +28,8 @@ pub(in crate::model::target) const KIND: Kind = Kind {
         legacy: false,
         first_id: 0,
     },
+    counts: &["squares_x", "squares_y"],
+    help: "ChArUco board of so many squares: columns x rows",
 };
 
 pub(in crate::model::target) struct Charuco<'a> {

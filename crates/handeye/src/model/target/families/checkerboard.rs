@@ -21,6 +21,8 @@ use crate::{
 pub(in crate::model::target) const KIND: Kind = Kind {
     name: "checkerboard",
     example: || TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 20.0 },
+    counts: &["columns", "rows"],
+    help: "Checkerboard of so many INNER corners: columns x rows",
 };
 
 pub(in crate::model::target) struct Checkerboard {

@@ -28,14 +28,20 @@ const MODIFIED_SHARES: (f64, f64) = (0.4, 0.8);
 pub(in crate::model::target) const PLAIN: Kind = Kind {
     name: "circle-grid",
     example: || TargetModel::CircleGrid { columns: 7, rows: 5, pitch_mm: 20.0 },
+    counts: &["columns", "rows"],
+    help: "Grid of so many circles: columns x rows",
 };
 pub(in crate::model::target) const ASYMMETRIC: Kind = Kind {
     name: "asymmetric-circle-grid",
     example: || TargetModel::AsymmetricCircleGrid { columns: 4, rows: 11, pitch_mm: 20.0 },
+    counts: &["columns", "rows"],
+    help: "OpenCV's asymmetric grid: circles in a row x rows",
 };
 pub(in crate::model::target) const WITH_LARGER: Kind = Kind {
     name: "modified-circle-grid",
     example: || TargetModel::ModifiedCircleGrid { columns: 10, rows: 8, pitch_mm: 20.0 },
+    counts: &["columns", "rows"],
+    help: "ROS-Industrial's grid with one larger circle: columns x rows",
 };
 
 pub(in crate::model::target) struct CircleGrid {

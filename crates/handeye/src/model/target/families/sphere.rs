@@ -11,8 +11,12 @@ use crate::{
     },
 };
 
-pub(in crate::model::target) const KIND: Kind =
-    Kind { name: "sphere", example: || TargetModel::Sphere { diameter_mm: Some(50.0) } };
+pub(in crate::model::target) const KIND: Kind = Kind {
+    name: "sphere",
+    example: || TargetModel::Sphere { diameter_mm: Some(50.0) },
+    counts: &[],
+    help: "Ball",
+};
 
 pub(in crate::model::target) struct Sphere {
     pub diameter_mm: Option<f64>,

@@ -20,6 +20,8 @@ use crate::{
 pub(in crate::model::target) const KIND: Kind = Kind {
     name: "tag",
     example: || TargetModel::Tag { dictionary: "DICT_5X5_100".into(), id: 3, size_mm: 60.0 },
+    counts: &["id"],
+    help: "One ArUco or AprilTag marker with this id",
 };
 
 pub(in crate::model::target) struct Tag<'a> {

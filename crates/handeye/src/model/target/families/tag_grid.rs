@@ -29,6 +29,8 @@ pub(in crate::model::target) const KIND: Kind = Kind {
         gap_mm: 8.0,
         first_id: 0,
     },
+    counts: &["tags_x", "tags_y"],
+    help: "OpenCV's grid of so many markers: columns x rows",
 };
 
 pub(in crate::model::target) struct TagGrid<'a> {
