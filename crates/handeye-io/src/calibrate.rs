@@ -56,7 +56,7 @@ pub fn halves_of_dataset(
         .map_err(|source| Error::Values { place: Place::file(&dataset.manifest), source })
 }
 
-/// A configuration with what the manifest says of noise and limits.
+/// A configuration with what the manifest says of noise and limits, which comes before what `config` says.
 pub(crate) fn configured(dataset: &Dataset, config: &Config) -> Config {
     Config {
         known: KnownNoise {
@@ -64,9 +64,10 @@ pub(crate) fn configured(dataset: &Dataset, config: &Config) -> Config {
             robot_position_m: dataset.noise.robot_position,
             touch_m: dataset.noise.touch,
             tip_m: dataset.noise.tip,
-        },
-        max_error_mm: dataset.limits.max_error.map(|m| m * 1e3),
-        answer_frame: dataset.answer_frame,
+        }
+        .or(config.known),
+        max_error_mm: dataset.limits.max_error.map(|m| m * 1e3).or(config.max_error_mm),
+        answer_frame: dataset.answer_frame.unwrap_or(config.answer_frame),
         ..config.clone()
     }
 }

@@ -227,6 +227,7 @@ fn camera(
     if views.is_empty() {
         return Ok((None, None));
     }
+    one_size((width, height), shots, seen)?;
     let found = intrinsics::calibrate(
         &views,
         target,
@@ -319,6 +320,21 @@ fn uncalibrated(dataset: &Dataset, error: &handeye::Error) -> Error {
 }
 
 /// Images must have the size the camera was calibrated at.
+/// Refuses images of another size than the first: they are of another camera, or of another part of its sensor.
+fn one_size(first: (usize, usize), shots: &[Shot], seen: &[Seen]) -> Result<(), Error> {
+    for (shot, s) in shots.iter().zip(seen) {
+        let (Some((w, h)), Some(path)) = (s.size, shot.image) else { continue };
+        if (w, h) != first {
+            let (width, height) = first;
+            let what =
+                format!("the image is {w} x {h} pixels, those before it are {width} x {height}");
+            let advice = "leave images of another size out, or give the intrinsics in [camera]";
+            return Err(of_capture(shot, malformed(Place::file(path), what, advice)));
+        }
+    }
+    Ok(())
+}
+
 fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), Error> {
     for (shot, s) in shots.iter().zip(seen) {
         let (Some((w, h)), Some(path)) = (s.size, shot.image) else { continue };

@@ -42,7 +42,7 @@ impl PosesFile {
     /// # Errors
     /// As [`calibrate()`].
     pub fn calibrate(&self, config: &Config) -> Result<Calibration, handeye::Error> {
-        let config = Config { known: self.noise, ..config.clone() };
+        let config = Config { known: self.noise.or(config.known), ..config.clone() };
         let calibration = match &self.measured {
             MeasuredPoses::Streams(streams) => calibrate(&streams.session(), &config),
             MeasuredPoses::Pairs(session) => calibrate(session, &config),

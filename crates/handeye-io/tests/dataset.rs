@@ -102,6 +102,51 @@ fn touches_of_all_kinds_give_the_same_point() {
     assert_eq!(by_tip.limits.max_error, Some(0.0005));
 }
 
+/// A touch of a robot whose poses are inverted and those of its tool, as `[robot]` says.
+#[test]
+fn touches_are_read_as_the_robots_poses_are() {
+    let of = |name: &str, direction: &str, robot: &str, pose: &str| {
+        let manifest = format!(
+            "setup = \"eye-in-hand\"\n{TARGET}[robot]\nposes = \"poses.csv\"\nnotation = \"ur\"\n\
+             direction = \"{direction}\"\n{robot}[corners]\nfiles = \"corners.csv\"\npixel_origin = \"centre\"\n\
+             [touches]\nkind = \"flange-pose\"\ntip = {{ in_flange_mm = [0.0, 0.0, 100.0] }}\n\
+             points = [{{ corner = 2, values = [{pose}] }}]\n"
+        );
+        let poses = "0.1,0,0,0,0,0\n0.2,0,0,0,0,0\n";
+        let dataset = open(name, &manifest, &[("poses.csv", poses), ("corners.csv", CORNERS)]);
+        dataset.touches[0].in_base.vector()
+    };
+    let turned = "0.0, 0.0, 1.5707963267948966";
+    let flange = of("plain", "base_from_flange", "", &format!("0.1, 0.0, 0.5, {turned}"));
+    assert!((flange - Vector3::new(0.1, 0.0, 0.6)).norm() < 1e-12);
+    let back = "0.0, 0.0, -1.5707963267948966";
+    let inverted = of("inverted", "flange_from_base", "", &format!("0.0, 0.1, -0.5, {back}"));
+    assert!((inverted - flange).norm() < 1e-12, "{inverted}");
+    let tool = "frame = \"tool\"\ntool = { translation_mm = [0.0, 0.0, 50.0], \
+                rotation_xyzw = [0.0, 0.0, 0.0, 1.0] }\n";
+    let of_tool = of("of-tool", "base_from_flange", tool, &format!("0.1, 0.0, 0.55, {turned}"));
+    assert!((of_tool - flange).norm() < 1e-12, "{of_tool}");
+}
+
+#[test]
+fn names_of_placements_keep_their_zeros() {
+    let manifest = format!(
+        "setup = \"eye-to-hand\"\n{TARGET}[robot]\nposes = \"poses.csv\"\nnotation = \"ur\"\ndirection = \"base_from_flange\"\n\
+         [[placements]]\nid = \"01\"\ncorners = \"a.csv\"\n[[placements]]\nid = \"1\"\ncorners = \"a.csv\"\n\
+         [corners]\nfiles = \"corners.csv\"\npixel_origin = \"centre\"\n\
+         [touches]\nfile = \"tips.csv\"\nkind = \"tip\"\nlength_unit = \"mm\"\n"
+    );
+    let files = [
+        ("poses.csv", "0.1,0,0,0,0,0\n0.2,0,0,0,0,0\n"),
+        ("corners.csv", CORNERS),
+        ("a.csv", "id x y\n0 1 2\n3 5 6\n"),
+        ("tips.csv", "placement,corner,x_mm,y_mm,z_mm\n01,05,10,20,30\n1,1,1,2,3\n"),
+    ];
+    let dataset = open("padded", &manifest, &files);
+    let named = dataset.touches.iter().map(|t| (t.placement.as_str(), t.corner));
+    assert_eq!(named.collect::<Vec<_>>(), [("01", 5), ("1", 1)]);
+}
+
 #[test]
 fn point_pairs_of_eye_in_hand_are_moved_to_the_flange() {
     let manifest = "setup = \"eye-in-hand\"\n[robot]\nposes = \"poses.csv\"\nnotation = \"ur\"\ndirection = \"base_from_flange\"\n\

@@ -105,6 +105,22 @@ fn captures_that_repeat_one_another_count_once() {
     assert!(found.rejected.is_empty());
 }
 
+#[test]
+fn a_session_with_a_name_twice_or_a_number_that_is_none_is_refused() {
+    let (session, _) = Cell::new(Setup::EyeToHand, 5).session(6).unwrap();
+    let refusal = |change: &dyn Fn(&mut handeye::Session)| {
+        let mut session = session.clone();
+        change(&mut session);
+        calibrate(&session, &Config::default()).unwrap_err().to_string()
+    };
+    let twice = refusal(&|s| s.observations[1].capture = s.observations[0].capture.clone());
+    assert!(twice.contains("give each a name of its own"), "{twice}");
+    let time = refusal(&|s| s.observations[1].time_s = Some(f64::NAN));
+    assert!(time.contains("is not a finite number"), "{time}");
+    let touch = refusal(&|s| s.touches[0].in_base = handeye::Point::new(f64::NAN, 0.0, 0.0));
+    assert!(touch.contains("is not a finite number"), "{touch}");
+}
+
 /// Where the robot is better than the images, closed forms are far from the likeliest answer.
 #[test]
 fn a_method_asked_for_by_name_states_its_own_error() {

@@ -4,7 +4,10 @@
 
 use std::path::Path;
 
-use handeye::{Base, Flange, Pose, Stamped, calibrate::streams::Stream};
+use handeye::{
+    Base, Flange, Pose, Stamped,
+    calibrate::streams::{Stream, joints_between},
+};
 use nalgebra::Isometry3;
 
 use super::survey::{Edge, Survey};
@@ -447,7 +450,7 @@ fn limit(times: &[f64]) -> f64 {
 }
 
 impl JointStream {
-    /// Values at a time, by a straight line between two samples.
+    /// Values at a time, between those of two samples.
     fn at(&self, time_s: f64) -> Option<Vec<f64>> {
         let after = self.times.partition_point(|t| *t <= time_s);
         let i = after.checked_sub(1)?;
@@ -459,12 +462,6 @@ impl JointStream {
             return None;
         }
         let part = (time_s - self.times[i]) / step;
-        Some(
-            self.values[i]
-                .iter()
-                .zip(&self.values[after])
-                .map(|(a, b)| a + part * (b - a))
-                .collect(),
-        )
+        Some(joints_between(&self.values[i], &self.values[after], part))
     }
 }

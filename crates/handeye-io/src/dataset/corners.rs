@@ -82,6 +82,10 @@ impl<'a> CornerReading<'a> {
 
     /// What to do about an id that the target has not.
     fn advice_on_ids(&self) -> String {
+        if self.target.is_some_and(TargetModel::is_empty) {
+            return "the declared target is a ball and has no corners: correct [target], or remove [corners]"
+                .into();
+        }
         let declared = self.target.map_or(String::new(), |target| {
             let (columns, rows) = target.grid();
             format!(

@@ -57,7 +57,7 @@ pub struct Dataset {
     /// How well its size is known.
     pub target_size: TargetSize,
     /// In which frame the answer is wanted, where images and scans do not agree.
-    pub answer_frame: AnswerFrame,
+    pub answer_frame: Option<AnswerFrame>,
     /// What takes a board's place, where scans are brought together by their shape.
     pub shape: Option<Shape>,
     /// What else the images may show, and is not used.

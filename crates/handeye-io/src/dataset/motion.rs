@@ -70,12 +70,15 @@ fn times(file: &str, source: &Source, root: &Path) -> Result<BTreeMap<String, f6
             let what = "is no name of a capture with its time";
             return Err(record.refuse(what, "write the columns image,time_s, the time in seconds"));
         };
-        all.insert(plain(&files::stem(Path::new(id))).to_owned(), time);
+        if all.insert(plain(&files::stem(Path::new(id))).to_owned(), time).is_some() {
+            let what = format!("gives a second time to the capture {id}");
+            return Err(record.refuse(what, "keep one line for each capture"));
+        }
     }
     Ok(all)
 }
 
-/// A name as a table has it, where numbers lose their leading zeros.
+/// A name without the leading zeros that a spreadsheet may have taken from a number.
 fn plain(name: &str) -> &str {
     let is_number = !name.is_empty() && name.bytes().all(|b| b.is_ascii_digit());
     if is_number { name.trim_start_matches('0') } else { name }

@@ -1,6 +1,6 @@
 //! From a manifest to a dataset: its files found, their records read and put together.
 
-use std::path::PathBuf;
+use std::{collections::BTreeSet, path::PathBuf};
 
 use handeye::{
     AnswerFrame, Base, Camera, Flange, Intrinsics, LensSigma, Pose, Setup, Target, TargetModel,
@@ -97,10 +97,10 @@ impl Opening {
             },
             noise: self.noise(&m.noise)?,
             limits: self.limits(m)?,
-            answer_frame: match m.answer.frame {
-                Some(FrameSpec::Image) => AnswerFrame::Image,
-                Some(FrameSpec::Scan) | None => AnswerFrame::Scan,
-            },
+            answer_frame: m.answer.frame.map(|frame| match frame {
+                FrameSpec::Image => AnswerFrame::Image,
+                FrameSpec::Scan => AnswerFrame::Scan,
+            }),
             notation: m.robot.as_ref().and_then(|r| r.table().notation),
             warnings,
             root: self.root.clone(),
@@ -303,7 +303,8 @@ impl Opening {
     }
 
     fn exclude(&self, captures: &mut Vec<CaptureSource>) -> Result<(), Error> {
-        for id in &self.manifest.captures.exclude {
+        let unique: BTreeSet<&String> = self.manifest.captures.exclude.iter().collect();
+        for id in unique {
             let Some(at) = captures.iter().position(|c| c.id == *id) else {
                 let near = nearest(id, captures.iter().map(|c| c.id.as_str()));
                 let advice = near.map_or("the captures are called like their images".into(), |n| {
@@ -340,7 +341,14 @@ impl Opening {
         let (m, place) = (&self.manifest, self.source.place("placements"));
         let file = |name: &Option<String>| -> Result<Option<PathBuf>, Error> {
             let Some(name) = name else { return Ok(None) };
-            Ok(files::expand(&self.root, name, &place)?.into_iter().next())
+            match &files::expand(&self.root, name, &place)?[..] {
+                [only] => Ok(Some(only.clone())),
+                several => Err(malformed(
+                    place.clone(),
+                    format!("\"{name}\" is {} files, a placement has one", several.len()),
+                    "name the file of this placement",
+                )),
+            }
         };
         let corners = match (file(&spec.corners)?, &m.corners) {
             (Some(path), Some(c)) => Some(
@@ -375,12 +383,11 @@ impl Opening {
 
     fn touches(&self, placements: &[PlacementSource]) -> Result<Vec<Touch>, Error> {
         let Some(spec) = &self.manifest.touches else { return Ok(vec![]) };
-        let robot = self.manifest.robot.as_ref();
         touches::read(
             spec,
             &touches::TouchContext {
                 target: self.target()?,
-                robot: robot.map(|r| r.with_arm(&self.source)).transpose()?,
+                robot: self.manifest.robot.as_ref(),
                 placements: placements.iter().map(|p| p.id.clone()).collect(),
                 source: &self.source,
                 root: &self.root,

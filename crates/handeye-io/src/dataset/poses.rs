@@ -230,6 +230,29 @@ pub(super) fn records_of_robot(
     Ok((reading, records))
 }
 
+/// What the poses of `[robot]` are.
+pub(super) struct Reported {
+    pub(super) direction: RobotDirection,
+    pub(super) flange_from_tool: Pose<Flange, Tool>,
+}
+
+impl Reported {
+    /// Poses of the flange in the base.
+    pub(super) fn flange() -> Self {
+        let direction = RobotDirection::BaseFromFlange;
+        Self { direction, flange_from_tool: Pose::identity() }
+    }
+
+    /// The pose of the flange, from one as it is written.
+    pub(super) fn base_from_flange(&self, written: Isometry3<f64>) -> Pose<Base, Flange> {
+        let iso = match self.direction {
+            RobotDirection::BaseFromFlange => written,
+            RobotDirection::FlangeFromBase => written.inverse(),
+        };
+        Pose::<Base, Tool>::claim(iso) * self.flange_from_tool.inverse()
+    }
+}
+
 /// What the robot reported, one per record.
 pub(super) fn of_robot(
     spec: &RobotSpec,
@@ -243,21 +266,14 @@ pub(super) fn of_robot(
              flange is, what controllers show), or the other way (\"flange_from_base\")?",
         )
     })?;
-    let flange_from_tool = tool(spec, source)?;
+    let reported = Reported { direction, flange_from_tool: tool(spec, source)? };
     let (poses, warnings) = read(&spec.with_arm(source)?, "robot", source, root)?;
-    let convert = |named: Named<Isometry3<f64>>| {
-        let iso = match direction {
-            RobotDirection::BaseFromFlange => named.value,
-            RobotDirection::FlangeFromBase => named.value.inverse(),
-        };
-        let base_from_tool = Pose::<Base, Tool>::claim(iso);
-        Named {
-            value: base_from_tool * flange_from_tool.inverse(),
-            id: named.id,
-            place: named.place,
-            joints: named.joints,
-            time_s: named.time_s,
-        }
+    let convert = |named: Named<Isometry3<f64>>| Named {
+        value: reported.base_from_flange(named.value),
+        id: named.id,
+        place: named.place,
+        joints: named.joints,
+        time_s: named.time_s,
     };
     Ok((poses.into_iter().map(convert).collect(), warnings))
 }

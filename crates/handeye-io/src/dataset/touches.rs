@@ -6,9 +6,10 @@ use handeye::{Base, Camera, Correspondence, Flange, Point, Pose, Setup, TargetMo
 
 use super::{
     manifest::{
-        PointPairsSpec, PointsSpec, PoseTable, Source, TouchKind, TouchPoint, TouchesSpec, fields,
+        PointPairsSpec, PointsSpec, PoseTable, RobotDirection, RobotSpec, Source, TouchKind,
+        TouchPoint, TouchesSpec, fields,
     },
-    poses::{Named, Reading, records},
+    poses::{Named, Reading, Reported, records, tool},
 };
 use crate::{
     error::{Error, Place, malformed},
@@ -23,7 +24,7 @@ pub const FIXED_BOARD: &str = "board";
 /// What touches are read with.
 pub(super) struct TouchContext<'a> {
     pub(super) target: Option<&'a TargetModel>,
-    pub(super) robot: Option<PoseTable>,
+    pub(super) robot: Option<&'a RobotSpec>,
     pub(super) placements: Vec<String>,
     pub(super) source: &'a Source,
     pub(super) root: &'a Path,
@@ -31,7 +32,7 @@ pub(super) struct TouchContext<'a> {
 
 enum Position {
     Tip(LengthUnit),
-    Flange(Box<Reading>, Point<Flange>),
+    Flange(Box<Reading>, Reported, Point<Flange>),
 }
 
 pub(super) fn read(spec: &TouchesSpec, context: &TouchContext) -> Result<Vec<Touch>, Error> {
@@ -69,7 +70,15 @@ fn position(spec: &TouchesSpec, context: &TouchContext) -> Result<Position, Erro
             "where is the tool's tip on the flange? ([touches.tip] in_flange_mm = [x, y, z])",
         )
     })?;
-    let robot = context.robot.clone().unwrap_or_default();
+    let robot = context.robot.map(|r| r.with_arm(source)).transpose()?.unwrap_or_default();
+    // poses in the notation of [robot] are what its poses are; others are those of the flange
+    let reported = match context.robot {
+        Some(robot) if kind == TouchKind::FlangePose && spec.notation.is_none() => Reported {
+            direction: robot.direction.unwrap_or(RobotDirection::BaseFromFlange),
+            flange_from_tool: tool(robot, source)?,
+        },
+        _ => Reported::flange(),
+    };
     let (at, table) = match kind {
         TouchKind::Joints => ("robot", PoseTable { notation: Some("joints".into()), ..robot }),
         _ if spec.notation.is_none() => ("robot", robot),
@@ -90,7 +99,7 @@ fn position(spec: &TouchesSpec, context: &TouchContext) -> Result<Position, Erro
     };
     let [x, y, z] = tip.in_flange_mm.map(|t| t / 1000.0);
     let reading = Box::new(Reading::of(&table, at, source, context.root)?);
-    Ok(Position::Flange(reading, Point::new(x, y, z)))
+    Ok(Position::Flange(reading, reported, Point::new(x, y, z)))
 }
 
 /// A touch of the manifest as if it were a record of a file.
@@ -128,11 +137,11 @@ fn touch(record: &Record, position: &Position, context: &TouchContext) -> Result
     let values = without_labels(record);
     let (placement, corner) = (placement(record, context)?, corner(record, context)?);
     let (in_base, base_from_flange, joints) = match position {
-        Position::Tip(unit) => (tip(&values, *unit)?, None, vec![]),
-        Position::Flange(reading, tip_in_flange) => {
+        Position::Tip(unit) => (point(&values, *unit)?, None, vec![]),
+        Position::Flange(reading, reported, tip_in_flange) => {
             let numbers = reading.numbers(&values)?;
-            let base_from_flange =
-                Pose::<Base, Flange>::claim(reading.pose(&numbers, &record.place)?);
+            let written = reading.pose(&numbers, &record.place)?;
+            let base_from_flange = reported.base_from_flange(written);
             let tip = base_from_flange * *tip_in_flange;
             (tip, Some(base_from_flange), reading.joints(&numbers))
         }
@@ -140,7 +149,7 @@ fn touch(record: &Record, position: &Position, context: &TouchContext) -> Result
     Ok(Touch { placement, corner, in_base, base_from_flange, joints })
 }
 
-fn tip<F>(record: &Record, unit: LengthUnit) -> Result<Point<F>, Error> {
+fn point<F>(record: &Record, unit: LengthUnit) -> Result<Point<F>, Error> {
     let n = record.numbers(&[&["x", "x_mm"], &["y", "y_mm"], &["z", "z_mm"]], "a point")?;
     let [x, y, z] = [0, 1, 2].map(|k| unit.to_metres(n[k]));
     match farthest(&[x, y, z]) {
@@ -172,6 +181,12 @@ fn corner(record: &Record, context: &TouchContext) -> Result<u32, Error> {
     let corner =
         match (number(&["corner", "corner_id", "id"]), number(&["row"]), number(&["column"])) {
             (Some(corner), _, _) => corner,
+            (None, Some(_), Some(_)) if context.target.is_none() => {
+                return Err(record.refuse(
+                    "names a corner by row and column, but no target is declared",
+                    "declare [target], or name corners by their ids in a column corner",
+                ));
+            }
             (None, Some(row), Some(column)) => {
                 let (columns, rows) = context.target.map(TargetModel::grid).unwrap_or_default();
                 if row >= f64::from(rows) || column >= f64::from(columns) {
@@ -271,7 +286,7 @@ fn points<F>(
             "CSV, TXT, JSON, YAML, NPY and NPZ can be read",
         ));
     }
-    records(&spec.file, &layout, root, &place)?.iter().map(|r| tip(r, unit)).collect()
+    records(&spec.file, &layout, root, &place)?.iter().map(|r| point(r, unit)).collect()
 }
 
 pub(super) fn mismatch(

@@ -43,8 +43,15 @@ pub(super) fn ros2_launch(pose: &CameraPose) -> String {
                      ],\n        \
                  ),\n    \
              ])\n",
-        pose.name, pose.parent, pose.child
+        in_python(pose.name),
+        in_python(pose.parent),
+        in_python(pose.child)
     )
+}
+
+/// Text inside single quotes of Python.
+fn in_python(text: &str) -> String {
+    text.replace('\\', "\\\\").replace('\'', "\\'").replace('\n', "\\n")
 }
 
 pub(super) fn urdf(pose: &CameraPose) -> String {

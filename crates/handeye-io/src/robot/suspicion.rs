@@ -44,11 +44,14 @@ fn length_warning(unit: LengthUnit, largest: f64, count: usize, place: &Place) -
     let metres = unit.to_metres(largest);
     let said = unit.name();
     if metres > FAR {
+        let question = match unit {
+            LengthUnit::Millimetre => "is that number right?".to_owned(),
+            _ => format!("is length_unit really \"{said}\", or is it \"mm\"?"),
+        };
         return Some(Warning::new(
             "length-unit-suspicious",
             format!(
-                "{place}: a position of {largest:.1} {said} is {metres:.0} m from the origin; \
-                 is length_unit really \"{said}\", or is it \"mm\"?"
+                "{place}: a position of {largest:.1} {said} is {metres:.0} m from the origin; {question}"
             ),
         ));
     }

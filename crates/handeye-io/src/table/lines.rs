@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::{Cell, Layout, Record};
+use super::{Cell, Layout, Record, is_padded};
 use crate::{
     error::{Error, Place, malformed},
     files,
@@ -79,8 +79,8 @@ fn words(text: &str) -> Vec<(Option<String>, Cell)> {
     for word in spaced.split_whitespace() {
         match (word.strip_suffix([':', '=']), word.parse()) {
             (Some(before), _) => name = Some(before.to_string()),
-            (None, Ok(x)) => cells.push((name.take(), Cell::Number(x))),
-            (None, Err(_)) => cells.push((name.take(), Cell::Text(word.into()))),
+            (None, Ok(x)) if !is_padded(word) => cells.push((name.take(), Cell::Number(x))),
+            (None, _) => cells.push((name.take(), Cell::Text(word.into()))),
         }
     }
     cells

@@ -24,9 +24,15 @@ impl Cell {
     fn number(&self) -> Option<f64> {
         match self {
             Cell::Number(x) => Some(*x),
+            Cell::Text(text) if is_padded(text) => text.parse().ok(),
             Cell::Text(_) => None,
         }
     }
+}
+
+/// Whether text is a whole number with zeros before it: a name more often than a number, and kept as it is written.
+pub(crate) fn is_padded(text: &str) -> bool {
+    text.len() > 1 && text.starts_with('0') && text.bytes().all(|b| b.is_ascii_digit())
 }
 
 /// One record.
@@ -193,18 +199,22 @@ impl Record {
         } else {
             self.by_name(columns, what)?
         };
-        let number = |cell: &Cell| match cell {
-            Cell::Number(x) if x.is_finite() => Ok(*x),
-            Cell::Number(x) => Err(self.refuse(
+        cells.into_iter().map(|cell| self.finite(cell)).collect()
+    }
+
+    /// The finite number that a cell must be.
+    fn finite(&self, cell: &Cell) -> Result<f64, Error> {
+        match (cell, cell.number()) {
+            (_, Some(x)) if x.is_finite() => Ok(x),
+            (Cell::Number(x), _) => Err(self.refuse(
                 format!("{x} is not a finite number"),
                 "remove the record or exclude its capture",
             )),
-            Cell::Text(text) => Err(self.refuse(
+            (Cell::Text(text), _) => Err(self.refuse(
                 format!("\"{text}\" is not a number"),
                 "correct the file, or say which columns = [..] hold the numbers",
             )),
-        };
-        cells.into_iter().map(number).collect()
+        }
     }
 
     /// What the file calls the values of `columns`; `None` where it names none of them, or not all.

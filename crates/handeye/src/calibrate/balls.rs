@@ -325,6 +325,19 @@ mod tests {
     }
 
     #[test]
+    fn captures_of_a_ball_that_repeat_one_another_count_once() {
+        let once = session(3, 0.0, 0.5);
+        let mut twice = once.clone();
+        twice.observations.extend(once.observations.iter().map(|o| {
+            let capture = format!("{} again", o.capture);
+            Observation { capture, ..o.clone() }
+        }));
+        let [once, twice] = [once, twice].map(|s| calibrate(&s, &Config::default()).unwrap());
+        assert_eq!(once.hand_eye, twice.hand_eye);
+        assert_eq!(codes(&twice), ["captures-repeated"]);
+    }
+
+    #[test]
     fn captures_of_a_ball_that_are_rejected_together_are_named() {
         for seed in 0..4 {
             let found = calibrate(&session(seed, 3e-3, 0.5), &Config::default()).unwrap();

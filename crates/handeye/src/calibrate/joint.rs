@@ -173,9 +173,9 @@ fn leave_out_wrong(
 fn worst_touch(problem: &Problem, fit: &JointFit) -> Option<(usize, usize)> {
     let mut worst: Option<(f64, (usize, usize))> = None;
     for (b, board) in problem.boards.iter().enumerate() {
-        let residuals = fit.touch_residuals(problem, board);
-        for (k, e) in residuals.iter().enumerate() {
-            let size = e.norm_squared();
+        for (k, corner) in board.corners.iter().enumerate() {
+            let alone = TouchedBoard { corners: vec![corner.clone()], ..board.clone() };
+            let size = fit.squared_residual_over_noise(problem, &alone)?;
             if worst.is_none_or(|(most, _)| size > most) {
                 worst = Some((size, (b, k)));
             }

@@ -181,7 +181,33 @@ fn check(session: &Session) -> Result<(), Error> {
                 .into(),
         ));
     }
+    are_finite(session)?;
+    let mut names: Vec<&str> = session.observations.iter().map(|o| o.capture.as_str()).collect();
+    names.sort_unstable();
+    if let Some(two) = names.windows(2).find(|two| two[0] == two[1]) {
+        let what = format!("two captures are called \"{}\": give each a name of its own", two[0]);
+        return Err(Error::Invalid(what));
+    }
     if session.unknown_scale { unscaled::check(session) } else { Ok(()) }
+}
+
+/// Refuses numbers that are none.
+fn are_finite(session: &Session) -> Result<(), Error> {
+    for o in &session.observations {
+        let poses = o.candidates.iter().all(|c| c.camera_from_target.is_finite());
+        let others = o.joints.iter().chain(&o.time_s).all(|x| x.is_finite());
+        if !(poses && others && o.base_from_flange.is_finite()) {
+            let what = "a pose, a joint value or the time is not a finite number; leave it out";
+            return Err(Error::Invalid(format!("capture {}: {what}", o.capture)));
+        }
+    }
+    let finite = |v: nalgebra::Vector3<f64>| v.iter().all(|x| x.is_finite());
+    let pairs = session.correspondences.iter();
+    let points = pairs.flat_map(|c| [c.in_camera.vector(), c.in_mount.vector()]);
+    if points.chain(session.touches.iter().map(|t| t.in_base.vector())).all(finite) {
+        return Ok(());
+    }
+    Err(Error::Invalid("a touched or measured point is not a finite number; leave it out".into()))
 }
 
 /// Most looks at camera and depth; the second settles it.

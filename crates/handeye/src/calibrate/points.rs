@@ -110,7 +110,7 @@ fn point_volume(
 }
 
 /// Spread across a line of points, over the spread along it, below which the user is warned.
-const NEARLY_COLLINEAR: f64 = 0.05;
+const NEARLY_COLLINEAR: f64 = 0.22;
 
 fn nearly_collinear(touches: &[TouchPairs]) -> Option<TouchFinding> {
     let points: Vec<Vector3<f64>> = touches.iter().map(|t| t.pairs[0].in_camera.vector()).collect();
@@ -120,5 +120,5 @@ fn nearly_collinear(touches: &[TouchPairs]) -> Option<TouchFinding> {
         scatter.symmetric_eigen().eigenvalues.iter().map(|e| e.max(0.0).sqrt()).collect();
     s.sort_by(|a, b| b.total_cmp(a));
     let ratio = s[1] / s[0];
-    (ratio < NEARLY_COLLINEAR.sqrt()).then_some(TouchFinding::NearlyCollinear { ratio })
+    (ratio < NEARLY_COLLINEAR).then_some(TouchFinding::NearlyCollinear { ratio })
 }

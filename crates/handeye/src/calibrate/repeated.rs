@@ -43,11 +43,17 @@ fn repeats(first: &Observation, other: &Observation) -> bool {
         let (seen, again) = (&seen.camera_from_target, &again.camera_from_target);
         Residual::between(seen, again).is_within(SAME_VIEW)
     };
-    is_one_place
-        && first
-            .candidates
-            .iter()
-            .any(|seen| other.candidates.iter().any(|again| alike(seen, again)))
+    let of_views =
+        first.candidates.iter().any(|seen| other.candidates.iter().any(|again| alike(seen, again)));
+    is_one_place && (of_views || is_one_ball(first, other))
+}
+
+/// Whether two captures, of scans alone, have the centre of a ball at one place.
+fn is_one_ball(first: &Observation, other: &Observation) -> bool {
+    let bare = first.candidates.is_empty() && other.candidates.is_empty();
+    let [seen, again] = [first, other].map(|o| o.surface.first().map(|c| c.in_camera.vector()));
+    let apart = seen.zip(again).map(|(a, b)| (a - b).norm());
+    bare && apart.is_some_and(|d| d < SAME_VIEW.distance)
 }
 
 impl Uncounted {

@@ -379,6 +379,17 @@ impl JointFit {
         touched::rows(board, at, extras, &values, &variances, problem.setup)
     }
 
+    /// Squared residual of touches over the variance of the noise.
+    pub(crate) fn squared_residual_over_noise(
+        &self,
+        problem: &Problem,
+        board: &TouchedBoard,
+    ) -> Option<f64> {
+        let rows = self.touch_rows(problem, board);
+        let noise = Cholesky::new(rows.covariance)?;
+        Some(rows.residual.dot(&noise.solve(&rows.residual)))
+    }
+
     /// Squared Mahalanobis distance of touches that the fit has not seen, as [`Self::squared_mahalanobis`].
     pub(crate) fn squared_mahalanobis_of_touch(
         &self,

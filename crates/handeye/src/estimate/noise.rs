@@ -197,6 +197,16 @@ pub struct KnownNoise {
 }
 
 impl KnownNoise {
+    /// These figures, and those of `other` where there are none.
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            robot_rotation_rad: self.robot_rotation_rad.or(other.robot_rotation_rad),
+            robot_position_m: self.robot_position_m.or(other.robot_position_m),
+            touch_m: self.touch_m.or(other.touch_m),
+            tip_m: self.tip_m.or(other.tip_m),
+        }
+    }
+
     /// What the user knows of a source.
     pub(super) fn sigma(&self, source: Source) -> Option<f64> {
         let known = match source {

@@ -1,11 +1,13 @@
 //! Everything that was measured in one cell, and what is known beforehand.
 
+use std::cmp::Ordering;
+
 use nalgebra::Vector3;
 
 use super::{kinematics::Arm, names::natural};
 use crate::{
-    Base, Camera, Correspondence, Flange, Intrinsics, Mount, Observation, Placement, Pose, Setup,
-    Target, Touch, Workspace, model::target::TargetModel,
+    Base, Camera, Correspondence, Flange, Intrinsics, Mount, Observation, Placement, Point, Pose,
+    Setup, Target, Touch, Workspace, model::target::TargetModel,
 };
 
 /// Everything that was measured in one cell.
@@ -145,18 +147,18 @@ impl Session {
     /// Captures and touches in the order of their names, whatever order they came in.
     pub(crate) fn in_order(&self) -> Self {
         let mut session = self.clone();
-        session.observations.sort_by(|a, b| natural(&a.capture, &b.capture));
+        let timed = session.in_sequence && session.observations.iter().all(|o| o.time_s.is_some());
+        let time = |o: &Observation| o.time_s.filter(|_| timed).unwrap_or(0.0);
+        session.observations.sort_by(|a, b| {
+            time(a).total_cmp(&time(b)).then_with(|| natural(&a.capture, &b.capture))
+        });
         session.placements.sort_by(|a, b| natural(&a.id, &b.id));
-        let at = |t: &Touch| t.in_base.vector();
         session.touches.sort_by(|a, b| {
-            natural(&a.placement, &b.placement).then(a.corner.cmp(&b.corner)).then_with(|| {
-                at(a).as_slice().partial_cmp(at(b).as_slice()).unwrap_or(std::cmp::Ordering::Equal)
-            })
+            natural(&a.placement, &b.placement)
+                .then(a.corner.cmp(&b.corner))
+                .then_with(|| by_axes(&a.in_base, &b.in_base))
         });
-        let key = |c: &Correspondence| c.in_camera.vector();
-        session.correspondences.sort_by(|a, b| {
-            key(a).as_slice().partial_cmp(key(b).as_slice()).unwrap_or(std::cmp::Ordering::Equal)
-        });
+        session.correspondences.sort_by(|a, b| by_axes(&a.in_camera, &b.in_camera));
         session
     }
 
@@ -167,6 +169,12 @@ impl Session {
         session.observations.sort_by(|a, b| time(a).total_cmp(&time(b)));
         session
     }
+}
+
+/// The order of two points by x, then y, then z.
+fn by_axes<F>(a: &Point<F>, b: &Point<F>) -> Ordering {
+    let both = [a, b].map(Point::vector);
+    (0..3).fold(Ordering::Equal, |order, k| order.then(both[0][k].total_cmp(&both[1][k])))
 }
 
 /// The camera's position along one direction, as measured by other means.

@@ -30,6 +30,7 @@ use crate::{
     solve::FEWEST_POSES,
 };
 use choose::Both;
+pub use moving::joints_between;
 pub use stream::Stream;
 
 /// Captures with the robot's poses of their moments.

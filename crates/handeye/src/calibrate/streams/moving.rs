@@ -4,6 +4,8 @@
 //! where poses are all there is. Then every capture gets the robot's pose of its own moment, and the calibration runs on
 //! the captures whole, corners and all, with the offset free about what was found.
 
+use std::f64::consts::{PI, TAU};
+
 use super::choose::Both;
 use crate::{Observation, Pose, Session, Stamped, model::session::Motion};
 
@@ -43,7 +45,15 @@ fn in_order(joints: &[Stamped<Vec<f64>>]) -> Vec<&Stamped<Vec<f64>>> {
     all
 }
 
-/// Joint values between two samples, by a straight line. Whether they are too far apart the poses tell.
+/// Joint values (rad, m) so far between those of two samples. An angle goes the shorter way: a controller that writes
+/// angles from -pi to pi jumps by a whole turn.
+pub fn joints_between(before: &[f64], after: &[f64], part: f64) -> Vec<f64> {
+    let step =
+        |a: f64, b: f64| if (b - a).abs() > PI { b - a - TAU.copysign(b - a) } else { b - a };
+    before.iter().zip(after).map(|(a, b)| a + part * step(*a, *b)).collect()
+}
+
+/// Joint values between two samples. Whether they are too far apart the poses tell.
 fn joints_at(joints: &[&Stamped<Vec<f64>>], time_s: f64) -> Option<Vec<f64>> {
     let after = joints.partition_point(|j| j.time_s <= time_s);
     let before = joints[after.checked_sub(1)?];
@@ -52,5 +62,17 @@ fn joints_at(joints: &[&Stamped<Vec<f64>>], time_s: f64) -> Option<Vec<f64>> {
     }
     let next = joints.get(after)?;
     let part = (time_s - before.time_s) / (next.time_s - before.time_s);
-    Some(before.pose.iter().zip(&next.pose).map(|(a, b)| a + part * (b - a)).collect())
+    Some(joints_between(&before.pose, &next.pose, part))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joints_between_two_samples_go_the_shorter_way() {
+        let half = joints_between(&[3.13, 0.2, 0.4], &[-3.13, 0.4, 0.4], 0.5);
+        assert!((half[0] - PI).abs() < 1e-12, "{half:?}");
+        assert!((half[1] - 0.3).abs() < 1e-12 && half[2] == 0.4, "{half:?}");
+    }
 }
