@@ -45,13 +45,13 @@ pub enum Command {
     Solve(SolveArgs),
     /// Find mistakes in a dataset: notation, units, direction, order, target size, outliers.
     Check(CheckArgs),
-    /// Write a result as a robot, ROS, OpenCV or another program reads it.
+    /// Export a result in the format of a robot controller, ROS, OpenCV or another program.
     Export(ExportArgs),
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
     Init(InitArgs),
     /// Import a dataset or result of another program (easy_handeye2, MoveIt, Zivid, HALCON, ...).
     Import(crate::import::ImportArgs),
-    /// Show what a ROS bag holds, or make a folder of captures of it.
+    /// Show the contents of a ROS bag, or extract a folder of captures from it.
     Bag(Box<crate::bag::BagArgs>),
     /// Draw a board to print, in true scale.
     Target(Box<TargetArgs>),
@@ -90,7 +90,10 @@ fn published_methods() -> String {
         format!("{}: {}", form.equation(), all.collect::<Vec<_>>().join(", "))
     };
     let forms: Vec<String> = Form::ALL.iter().map(named).collect();
-    format!("Run one published method as published; {}", forms.join("; "))
+    format!(
+        "Use one published method alone, without outlier rejection and noise estimation; {}",
+        forms.join("; ")
+    )
 }
 
 /// Arguments of `solve`.
@@ -113,9 +116,9 @@ time_offset_s):\n\
 \x20  \"robot\":  [{\"time_s\": 0.00, \"base_from_flange\": {...}}, ...],\n\
 \x20  \"camera\": [{\"time_s\": 0.01, \"camera_from_target\": {...}}, ...]\n\
 \n\
-`\"unknown_scale\": true` for target distances that are known up to one factor (measured = \
-scale * metric); `\"noise\": {\"robot_rotation_deg\": ..., \"robot_position_mm\": ...}` \
-where they are known, per axis.")]
+Set `\"unknown_scale\": true` if the target distances have an unknown common scale (measured = \
+scale * metric). Set `\"noise\": {\"robot_rotation_deg\": ..., \"robot_position_mm\": ...}` if you \
+know the standard deviations of the robot, per axis.")]
 pub struct SolveArgs {
     /// JSON file with `setup` and `pairs`, or `robot` and `camera`.
     pub pairs: PathBuf,
@@ -134,7 +137,7 @@ pub struct SolveArgs {
 \x20 handeye calibrate cell/ --out result --format ros2-launch,kuka\n\
 \x20 handeye calibrate cell.toml --root /data/cell --json")]
 pub struct CalibrateArgs {
-    /// Folder with `handeye.toml`, or a manifest.
+    /// Folder that contains `handeye.toml`, or the path of a manifest file.
     pub dataset: PathBuf,
     /// Folder that the file names in the manifest are relative to [default: the folder of the manifest].
     #[arg(long)]
@@ -148,13 +151,13 @@ pub struct CalibrateArgs {
     /// Use one published method by name instead of the joint fit (names: `handeye solve --help`).
     #[arg(long)]
     pub method: Option<String>,
-    /// Candidate `two-step-icp` (needs touches): maximum number of ICP iterations.
+    /// ICP on touched corners (candidate `two-step-icp` only): maximum number of iterations.
     #[arg(long, default_value_t = 50)]
     pub icp_max_iterations: usize,
-    /// Candidate `two-step-icp`: maximum correspondence distance, mm.
+    /// ICP on touched corners: maximum correspondence distance, mm.
     #[arg(long, default_value_t = 10.0)]
     pub icp_max_distance_mm: f64,
-    /// Candidate `two-step-icp`: stop when an iteration changes the transform by less than this (rad, m).
+    /// ICP on touched corners: stop when an iteration changes the transform by less than this (rad, m).
     #[arg(long, default_value_t = 1e-9)]
     pub icp_epsilon: f64,
 }
@@ -192,7 +195,7 @@ pub struct ExportArgs {
 pub struct InitArgs {
     /// Folder with images, scans and robot poses.
     pub folder: PathBuf,
-    /// Write over a manifest that is there.
+    /// Overwrite an existing manifest.
     #[arg(long)]
     pub force: bool,
 }
@@ -473,7 +476,7 @@ fit equally well, choose one by its number (--apply=2).\n\
 \n\
 Exit code 0: nothing is wrong; 3: something is.")]
 pub struct CheckArgs {
-    /// Folder with `handeye.toml`, or a manifest.
+    /// Folder that contains `handeye.toml`, or the path of a manifest file.
     pub dataset: PathBuf,
     /// Folder that the file names in the manifest are relative to [default: the folder of the manifest].
     #[arg(long)]

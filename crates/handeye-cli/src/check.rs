@@ -90,9 +90,11 @@ const MANY_TIMES: f64 = 1e6;
 
 fn closer(times: f64) -> String {
     match times {
-        t if t > MANY_TIMES => "score more than a million times smaller".into(),
-        t if t >= 100.0 => format!("score {t:.0} times smaller"),
-        t => format!("score {t:.1} times smaller"),
+        t if t > MANY_TIMES => {
+            "combined residual more than a million times smaller than as declared".into()
+        }
+        t if t >= 100.0 => format!("combined residual {t:.0} times smaller than as declared"),
+        t => format!("combined residual {t:.1} times smaller than as declared"),
     }
 }
 
@@ -194,8 +196,14 @@ mod tests {
 
     #[test]
     fn large_factors_are_said_in_words() {
-        assert_eq!(closer(388_105_634.0), "score more than a million times smaller");
-        assert_eq!(closer(f64::INFINITY), "score more than a million times smaller");
+        assert_eq!(
+            closer(388_105_634.0),
+            "combined residual more than a million times smaller than as declared"
+        );
+        assert_eq!(
+            closer(f64::INFINITY),
+            "combined residual more than a million times smaller than as declared"
+        );
         assert_eq!(closer(4321.9), "score 4322 times smaller");
         assert_eq!(closer(3.16), "score 3.2 times smaller");
     }

@@ -29,8 +29,7 @@ use crate::{
 \x20 handeye compare monday tuesday wednesday --out combined.json\n\
 \x20 handeye compare cell\n\
 \n\
-Of one folder of captures, halves are calibrated and compared: every second capture, by \
-place of the robot, and in time.\n\
+For one dataset, the captures are split into two halves in three ways (every second capture, by robot position, earlier and later), and the two calibrations of each split are compared.\n\
 \n\
 Distances are from the combined result: `rms` is the root of their mean square, `max` the \
 largest, `std dev` the standard deviation of a single result (n - 1 in the denominator): the \

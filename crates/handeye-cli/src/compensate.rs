@@ -25,8 +25,7 @@ use crate::{
 \x20 handeye compensate picks.csv -r result --notation ur \\\n\
 \x20     --direction base_from_flange --out send.csv\n\
 \n\
-POSES are desired flange poses, computed with the transform of the result. Written are the \
-poses to command, so that the flange reaches the desired ones. Exit code 0: corrected; 3: \
+POSES are desired flange poses, computed with the transform of the result. The output contains the poses to command so that the flange reaches the desired poses. Exit code 0: corrected; 3: \
 the result offers no correction.")]
 pub struct CompensateArgs {
     /// The poses.

@@ -39,7 +39,7 @@ moveit_calibration and ROS 2, Zivid, OpenCV, HALCON, Mech-Mind.\n\
 \n\
 Other folders: handeye init.")]
 pub struct ImportArgs {
-    /// Its file or folder; of two trajectories, the robot's.
+    /// File or folder to import; for two trajectories, the robot's file.
     pub source: PathBuf,
     /// The camera's trajectory.
     pub camera: Option<PathBuf>,
@@ -60,7 +60,7 @@ pub struct ImportArgs {
     /// Where to write, if not beside the source.
     #[arg(long, short)]
     pub out: Option<PathBuf>,
-    /// Write over a file that is there.
+    /// Overwrite an existing file.
     #[arg(long)]
     pub force: bool,
 }

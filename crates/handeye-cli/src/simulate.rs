@@ -30,7 +30,7 @@ pub struct SimulateArgs {
     /// Random seed.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Who carries the camera.
+    /// Where the camera is mounted.
     #[arg(long, value_enum, default_value = "eye-in-hand")]
     pub setup: SetupArg,
     /// Robot poses with an image.
@@ -154,12 +154,12 @@ pub struct SimulateArgs {
     pub force: bool,
 }
 
-/// Who carries the camera.
+/// Where the camera is mounted.
 #[derive(Clone, Copy, ValueEnum)]
 pub enum SetupArg {
-    /// The robot.
+    /// On the robot flange; the target is fixed.
     EyeInHand,
-    /// The cell.
+    /// Fixed in the cell; the target is on the flange.
     EyeToHand,
 }
 

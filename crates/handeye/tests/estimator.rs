@@ -12,7 +12,7 @@ use handeye::{
     estimate::{
         JointFit, KnownNoise, fit_joint,
         predict::{Volume, difference, tre},
-        touches::{Registration, fit_touches, touch_rms},
+        touch_pairs::{Registration, fit_touches, touch_rms},
     },
     simulate::{Cell, DepthSensor, Truth, Viewing},
 };

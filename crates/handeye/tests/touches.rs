@@ -9,7 +9,7 @@ use handeye::{
     estimate::{
         KnownNoise,
         predict::{Volume, difference},
-        touches::{Registration, fit_touches},
+        touch_pairs::{Registration, fit_touches},
     },
     register::IcpConfig,
     simulate::{Cell, Truth},

@@ -145,8 +145,8 @@ fn conclude(
             let verdict = if passed { Verdict::Accepted } else { Verdict::Rejected };
             let counted = format!("{} of {all} touches lie within {tolerance} mm", w.count);
             let bound = format!(
-                "with 95 % confidence at least {:.0} % of all points lie within {tolerance} mm; \
-                 to show 95 %, 59 touches are needed, all within",
+                "{all} touches show, with 95 % confidence, that at least {:.0} % of all points lie within \
+                 {tolerance} mm; to show it of 95 % of all points, use 59 touches, all of them within {tolerance} mm",
                 100.0 * w.at_least
             );
             let wanted = "95 % are wanted".to_owned();
@@ -279,15 +279,15 @@ fn text(a: &Answer) -> String {
     let mut text = format!("\n{}\n", output::verdict_as(a.verdict, word));
     text += &a.reasons.iter().map(|reason| output::wrapped("  ", reason)).collect::<String>();
     text += &format!(
-        "\n  {:<18}{:>10}{:>10}{:>11}{:>10}{:>10}   mm\n",
-        "touch", "distance", "expected", "x", "y", "z"
+        "\n  {:<18}{:>10}{:>15}{:>11}{:>10}{:>10}   mm\n",
+        "touch", "distance", "predicted RMS", "x", "y", "z"
     );
     for t in &a.touches {
         let expected = t.expected_mm.map_or("-".into(), |e| format!("{e:.3}"));
         let [x, y, z] = t.difference_mm;
         let mark = if t.within == Some(false) { " *" } else { "" };
         text += &format!(
-            "  {:<18}{:>10.3}{expected:>10}{x:>11.3}{y:>10.3}{z:>10.3}{mark}\n",
+            "  {:<18}{:>10.3}{expected:>15}{x:>11.3}{y:>10.3}{z:>10.3}{mark}\n",
             t.id, t.distance_mm
         );
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use handeye::{
     Calibration, Flange, Mount, Pose, Session, Setup, TargetPose, Warning,
     calibrate::result,
-    estimate::touches,
+    estimate::touch_pairs,
     tools::verify::{self, ByPose, Sighting, Test, Touched},
 };
 use handeye_io::{Dataset, MANIFEST, TouchedPoint, measure, read_touched_points};
@@ -159,7 +159,7 @@ fn from_dataset(
     let progress = Progress::new("reading captures", global);
     let mut session = measure::measure(&dataset, &|done, all| progress.tell(done, all))?.session;
     drop(progress);
-    let warnings = touches::each_once(&mut session.touches);
+    let warnings = touch_pairs::each_once(&mut session.touches);
     if let Some(sigma) = dataset.noise.touch {
         test.touch_sigma = sigma.hypot(calibration.robot_noise().distance);
     }

@@ -318,8 +318,7 @@ fn proven_unit(
 fn direction(draft: &mut Draft) -> RobotDirection {
     draft.ask(
         &["robot.direction"],
-        "where is the flange in the base (\"base_from_flange\", what controllers show), or the \
-         other way (\"flange_from_base\")?",
+        "which pose does the file contain: the flange in the base (\"base_from_flange\", what controllers show), or the base in the flange (\"flange_from_base\")?",
     );
     RobotDirection::BaseFromFlange
 }

@@ -39,7 +39,7 @@ fn no_consensus(
             Some(PosePair { anchor_from_mount: r.anchor_from_mount, camera_from_target })
         })
         .collect();
-    let open = Notes::open(error, views::camera_in_words(session.setup));
+    let open = Notes::undetermined(error, views::camera_in_words(session.setup));
     if let Error::TooFewPoses { .. } = error {
         return (None, open);
     }

@@ -22,7 +22,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    alike,
+    cluster_variance,
     prior::{self, Component, Declared, is_shared},
 };
 use crate::{
@@ -102,7 +102,7 @@ impl Alternatives {
         // different noise do not compare
         let widest = components.last().map_or_else(|| problem.clone(), |c| c.applied(problem));
         let reference = fit(&widest)?;
-        let excess = alike::excess(&widest, &reference, is_shared);
+        let excess = cluster_variance::excess(&widest, &reference, is_shared);
         let mut all = Vec::with_capacity(components.len());
         for component in components {
             // what is as good as `excess` times less data is, in the unknowns, a prior that much tighter

@@ -8,8 +8,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    joint::held_out_views,
     reach::{Erring, UsedTouches},
+    views_and_touches::held_out_views,
 };
 use crate::{
     Base, Flange, Observation, Pose, Setup, Touch,

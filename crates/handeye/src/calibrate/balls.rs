@@ -22,7 +22,7 @@ use crate::{
     estimate::{
         evaluate::{self, RmsResidual},
         predict::{self, PredictedTre, Volume},
-        touches,
+        touch_pairs,
     },
     findings::{CaptureFinding, TouchFinding},
     math::linalg::median,
@@ -60,7 +60,7 @@ pub(super) fn from_balls(session: &Session, task: &Task) -> Evidence {
             }
         }
         Err(error) => {
-            all.notes.add(Notes::open(error, camera_in_words(session.setup)));
+            all.notes.add(Notes::undetermined(error, camera_in_words(session.setup)));
             all
         }
     }
@@ -126,7 +126,7 @@ fn conclude(
         views.iter().zip(&fit.agrees).filter(|(_, a)| **a).map(|(v, _)| pair(v, fit)).collect();
     let used = pairs.len();
     let few = (used < FEW).then_some(CaptureFinding::Few { used, of_a_ball: true });
-    let factor = touches::small_sample(fit.degrees_of_freedom);
+    let factor = touch_pairs::small_sample(fit.degrees_of_freedom);
     let covariance = fit.covariance * factor;
     let own: Matrix6<f64> = covariance.fixed_view::<6, 6>(0, 0).into_owned();
     let free = mistakes::free_of(&own, &fit.mount_from_camera.rotation());

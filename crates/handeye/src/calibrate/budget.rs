@@ -38,9 +38,8 @@ pub(super) fn budget(
     if !problem.extras.is_empty() {
         all.push(BudgetEntry {
             source: "priors".into(),
-            sigma:
-                "tool tip, intrinsics, size, depth and errors that captures share, by their priors"
-                    .into(),
+            sigma: "tool tip, intrinsics, size, depth and systematic errors, by their priors"
+                .into(),
             sigma_mm: None,
             sigma_deg: None,
             sigma_uncertainty: None,

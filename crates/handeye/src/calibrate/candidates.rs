@@ -5,16 +5,15 @@ mod registered;
 
 use super::{
     alternatives::{Alternatives, Averaged},
-    boards::{self, Boards},
-    budget, captures,
-    joint::{self, Joint, held_out_views},
-    known_position, named,
+    budget, captures, known_position, named,
     optics::{self, MeasuredBy, Optics},
     reach::UsedTouches,
     robot::Robot,
-    size, verdict,
+    size, touch_outliers,
+    touched_boards::{self, Boards},
+    verdict,
+    views_and_touches::{self, Joint, held_out_views},
     workpiece::{Workpiece, volume},
-    wrong_touches,
 };
 use registered::stored_registration;
 
@@ -34,7 +33,7 @@ use crate::{
         JointFit, Problem,
         evaluate::{self, Estimator, HeldOut},
         predict::Volume,
-        touches::{self, TouchPairs},
+        touch_pairs::{self, TouchPairs},
     },
     findings::TouchFinding,
     mistakes,
@@ -63,7 +62,7 @@ pub(super) fn estimate<'a>(
     let fitted = match fit_views(&mut views, found, optics, task) {
         Ok(fitted) => fitted,
         Err(error) => {
-            let open = Notes::open(error, camera_in_words(views.session.setup));
+            let open = Notes::undetermined(error, camera_in_words(views.session.setup));
             evidence.notes.add(open);
             return Estimated { evidence, views: None, with_arm: None };
         }
@@ -91,14 +90,14 @@ fn fuse(
     // touches as pairs of points, for the two-step refinement and reports; below as boards, for the fit
     let (paired, unseen) = captures::pair_touches(views, fit);
     let (boards, trusted, wrong) = right_touches(views, &paired, optics, (problem, fit));
-    let joint = joint::fit(views, &boards, &problem.extras, fit, &config.known);
+    let joint = views_and_touches::fit(views, &boards, &problem.extras, fit, &config.known);
     let touched = UsedTouches {
         used: joint.as_ref().map_or(&[][..], |j| &j.used),
         wrong_tip: joint.as_ref().is_some_and(|j| j.wrong_tip.is_some()),
     };
     let (best, whole) = joint.as_ref().map_or((fit, problem), |j| (&j.fit, &j.problem));
     let robot = Robot::look(views, (whole, best), touched, volume, config);
-    let of_joint = |j: &joint::Joint| j.findings(views, robot.explains_tip());
+    let of_joint = |j: &views_and_touches::Joint| j.findings(views, robot.explains_tip());
     let (tip, of_touches) = joint.as_ref().map(of_joint).unwrap_or_default();
     evidence.notes.add(unseen.then(wrong).then(of_touches));
     let as_declared = joint.as_ref().map_or(*as_declared, |j| j.as_declared);
@@ -232,9 +231,9 @@ fn right_touches(
     optics: &Optics,
     (problem, fit): (&Problem, &JointFit),
 ) -> (Boards, Vec<TouchPairs>, Notes) {
-    let mut boards = boards::boards(views, fit, optics);
-    let wrong = wrong_touches::find(views, &boards, problem, fit);
-    wrong.left_out_of(&mut boards);
+    let mut boards = touched_boards::boards(views, fit, optics);
+    let wrong = touch_outliers::find(views, &boards, problem, fit);
+    wrong.remove_from(&mut boards);
     let right = |p: &&TouchPairs| !wrong.which.contains(&p.touch);
     let trusted = paired.iter().filter(right).cloned().collect();
     (boards, trusted, wrong.notes)
@@ -300,7 +299,7 @@ impl Judge<'_> {
         let views = self.views;
         let x = answer.mount_from_camera;
         let held_out = evaluate::rms(&left_out);
-        let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
+        let touch_rms = touch_pairs::touch_rms(self.paired, &x).map(|m| m * 1e3);
         let covariance =
             stated_covariance(fit).map(|c| self.of_both(c + excess(&fit.hand_eye, answer), answer));
         let candidate = Candidate {
@@ -358,7 +357,7 @@ impl Judge<'_> {
         let placed = solve::place_target(&pairs_of(views), &x);
         let held_out = evaluate::placed_without(&views.views, &x);
         let missed = evaluate::rms(&held_out);
-        let touch_rms = touches::touch_rms(self.paired, &x).map(|m| m * 1e3);
+        let touch_rms = touch_pairs::touch_rms(self.paired, &x).map(|m| m * 1e3);
         let candidate = Candidate {
             name: errors.candidate().into(),
             hand_eye: stored_registration(views, fit, &placed, Some(&covariance)),
@@ -450,7 +449,7 @@ fn touches_at(
         RestsOn::Touches => judge.paired.iter().any(|p| p.touch == touch),
     };
     let one = |p: &TouchPairs| {
-        let difference_mm = touches::touch_error(p, &x) * 1e3;
+        let difference_mm = touch_pairs::touch_error(p, &x) * 1e3;
         TouchResult {
             capture: p.placement.clone(),
             corner: judge.views.session.touches[p.touch].corner,

@@ -16,7 +16,7 @@ use crate::{
     estimate::{
         JointFit, evaluate,
         evaluate::HeldOut,
-        touches::{self, TouchPairs},
+        touch_pairs::{self, TouchPairs},
     },
     findings::{TouchFinding, touches::Unseen},
     math::lie,
@@ -141,7 +141,7 @@ pub(super) fn pair_touches(views: &Views, fit: &JointFit) -> (Vec<TouchPairs>, N
     let placements: Vec<Placement> =
         session.placements.iter().map(|p| oriented(p, &session.touches, &x, target)).collect();
     let (paired, missing) =
-        touches::pair_touches(session.setup, target, &chosen, &placements, &session.touches);
+        touch_pairs::pair_touches(session.setup, target, &chosen, &placements, &session.touches);
     (paired, Notes::of(without_view(session, &missing)))
 }
 

@@ -8,49 +8,46 @@
 //! | `repeated` | captures of one robot pose that repeat one another: one of them counts |
 //! | `agreement` | which captures agree, on which pose candidate? `gate` and `masked` find them, `rejected` says why others do not, `doubt` whether the majority is clear |
 //! | `optics` | where size, intrinsics or depth move far, all target poses are computed again |
-//! | `candidates` | touches of another corner are removed (`wrong_touches`), then closed forms, least squares, maximum likelihood and registration of touches; the choice by predicted error. Beside: `size`, `robot` (`arm`: is it as its model says? `place`: does it err by place?), `known_position`, `named` (a method asked for by name) |
+//! | `candidates` | touches of another corner are rejected (`touch_outliers`), then closed forms, least squares, maximum likelihood and registration of touches; the choice by predicted error. Beside: `size`, `robot` (`arm`: is it as its model says? `place`: does it err by place?), `known_position`, `named` (a method asked for by name) |
 //! | `captures` | residual of every capture |
 //! | `movement` | did anything move? |
 //! | `verdict` | accepted, rejected or undetermined |
-//! | `places` | looks at the result: captures of one place count once, and all runs again |
+//! | `near_duplicates` | looks at the result: captures of one place count once, and all runs again |
 //!
 //! Every stage returns its value and its `notes`; `evidence` gathers them, and `verdict` alone makes a [`Calibration`] of
 //! it. What looks at the result as a whole makes a new one: `sequence` (do errors drift?), `sources` (images and scans
-//! apart), `moved`, `scans`, and `beside` (what was noticed while files were read). Point pairs alone take the short way
+//! apart), `moved` (the camera moved: the answer of the last captures alone, without touches), `scans`, and `beside` (what was noticed while files were read). Point pairs alone take the short way
 //! through `points`, captures of a ball through `balls`.
 
 mod agreement;
-mod alike;
 mod alternatives;
 mod answers;
 mod arm;
 mod balls;
 pub mod beside;
 mod best_rigid;
-mod boards;
 mod budget;
 mod candidates;
 mod captures;
 mod causes;
 pub mod certificate;
+mod cluster_variance;
 mod compensation;
 mod config;
 mod doubt;
 pub mod evidence;
 pub mod findings;
 mod gate;
-mod joint;
 mod known_position;
 mod limits;
 mod masked;
 mod moved;
 mod movement;
 mod named;
+mod near_duplicates;
 mod notes;
-mod offset;
 mod optics;
 mod place;
-mod places;
 mod points;
 mod prior;
 mod reach;
@@ -58,21 +55,24 @@ mod rejected;
 pub(crate) mod repeated;
 pub mod result;
 mod robot;
+mod scan_offset;
 mod scans;
 mod sequence;
 pub(crate) mod settle;
 mod size;
 mod sources;
 pub mod streams;
+mod touch_outliers;
+mod touched_boards;
 pub(crate) mod unknown;
 mod unscaled;
 mod verdict;
 pub(crate) mod views;
+mod views_and_touches;
 mod workpiece;
-mod wrong_touches;
 
 use crate::{
-    Error, Session, TargetModel, calibrate::result::Calibration, estimate::touches,
+    Error, Session, TargetModel, calibrate::result::Calibration, estimate::touch_pairs,
     model::session::Motion,
 };
 
@@ -145,8 +145,8 @@ fn of_captures(mut session: Session, task: &Task) -> Result<Calibration, Error> 
 
 /// The same of captures in the order of their names, each of which counts.
 fn of_distinct(mut session: Session, task: &Task) -> Calibration {
-    let mut of_touches = touches::each_once(&mut session.touches);
-    of_touches.extend(touches::placements_ignored(&session));
+    let mut of_touches = touch_pairs::each_once(&mut session.touches);
+    of_touches.extend(touch_pairs::placements_ignored(&session));
     let judged = |found: Evidence| verdict::judge(session.setup, task.config, found);
     if session.observations.is_empty() {
         return judged(points::from_points(&session));
@@ -163,7 +163,7 @@ fn of_distinct(mut session: Session, task: &Task) -> Calibration {
         })
     };
     let found = run(&session);
-    let (session, of_one_place) = places::take_out(&session, &found);
+    let (session, of_one_place) = near_duplicates::take_out(&session, &found);
     let found = if of_one_place.is_empty() { found } else { run(&session) };
     let result = moved::answer_of_the_end(&session, found, run);
     let scans = scans::look(&session, &result);
@@ -251,7 +251,7 @@ fn from_views(
 
 /// The result of a session that has no answer, and why.
 fn without_answer(session: &Session, task: &Task, error: &Error) -> Calibration {
-    let notes = Notes::open(error, views::camera_in_words(session.setup));
+    let notes = Notes::undetermined(error, views::camera_in_words(session.setup));
     let mut found = Evidence { notes, ..Evidence::of_captures(session, task.unknown.open()) };
     found.captures.iter_mut().for_each(|c| c.used = false);
     verdict::judge(session.setup, task.config, found)

@@ -1,7 +1,7 @@
 //! Results of methods that were asked for by name: what the motions leave open is a property of the
 //! data, whatever numbers a closed form makes of them.
 
-use super::{joint, verdict};
+use super::{verdict, views_and_touches};
 use crate::{
     calibrate::{
         answers,
@@ -25,7 +25,7 @@ pub(super) fn by_likeliest(
     own: Choice,
 ) -> (Choice, HeldOut) {
     let problem = views::views_problem(views.session, &views.views, &fit.extras);
-    let left_out = joint::held_out_views(&problem, fit, &config.known);
+    let left_out = views_and_touches::held_out_views(&problem, fit, &config.known);
     let held_out = evaluate::rms(&left_out);
     let choice = Choice { held_out, ..own };
     let (used, rejected) = (found.used(), found.rejected.len());
@@ -49,7 +49,7 @@ pub(super) fn failure(views: &Views, config: &Config) -> Option<Notes> {
         "{} has no answer for these captures (without a method by name there may be one): {error}",
         method.name()
     );
-    Some(Notes::open(reason, camera_in_words(views.session.setup)))
+    Some(Notes::undetermined(reason, camera_in_words(views.session.setup)))
 }
 
 /// The unit of the distances as the method has found it, where it does.

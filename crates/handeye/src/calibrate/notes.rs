@@ -1,4 +1,10 @@
 //! What a stage notices beside the value that it returns.
+//!
+//! * [`Notes::note`], [`Notes::of`]: to know; the verdict does not depend on it.
+//! * [`Notes::against`]: the result is rejected, and the finding is its first reason.
+//! * [`Notes::undetermined`]: the data do not determine something; the verdict is that it is undetermined.
+//!
+//! What is noticed after the verdict is added by `Calibration::noting`.
 
 use crate::Warning;
 
@@ -30,7 +36,7 @@ impl Notes {
     }
 
     /// Nothing is determined of `what`, for this reason.
-    pub fn open(reason: impl ToString, what: String) -> Self {
+    pub fn undetermined(reason: impl ToString, what: String) -> Self {
         Self { reasons: vec![reason.to_string()], undetermined: vec![what], ..Self::default() }
     }
 

@@ -13,7 +13,7 @@ use crate::{
     estimate::{
         evaluate::RmsResidual,
         predict::{self, Volume},
-        touches::{self, Registration, TouchPairs},
+        touch_pairs::{self, Registration, TouchPairs},
     },
     findings::TouchFinding,
     model::session::Session,
@@ -23,17 +23,20 @@ use crate::{
 pub(super) fn from_points(session: &Session) -> Evidence {
     let touches = as_touches(session);
     let all: Vec<&TouchPairs> = touches.iter().collect();
-    let found = match touches::fit_touches(&all, &Pose::identity(), Registration::Svd) {
+    let found = match touch_pairs::fit_touches(&all, &Pose::identity(), Registration::Svd) {
         Ok(found) => found,
         Err(error) => {
             let what = match error {
                 Error::Collinear { .. } => "rotation about the line of the points",
                 _ => "the pose of the camera",
             };
-            return Evidence { notes: Notes::open(error, what.into()), ..Evidence::default() };
+            return Evidence {
+                notes: Notes::undetermined(error, what.into()),
+                ..Evidence::default()
+            };
         }
     };
-    let held_out = touches::held_out(&touches, &Pose::identity(), Registration::Svd);
+    let held_out = touch_pairs::held_out(&touches, &Pose::identity(), Registration::Svd);
     let volume = point_volume(session, &touches, &found.mount_from_camera);
     let tre = found.covariance.zip(volume).map(|(c, v)| predict::tre(&v, &c, |_| Vector3::zeros()));
     let mut notes = Notes::of(nearly_collinear(&touches));
@@ -70,7 +73,7 @@ fn as_touches(session: &Session) -> Vec<TouchPairs> {
 }
 
 fn candidate(
-    found: &touches::TouchFit,
+    found: &touch_pairs::TouchFit,
     held_out_m: Option<f64>,
     predicted_tre_mm: Option<f64>,
 ) -> Candidate {
@@ -104,7 +107,7 @@ fn point_volume(
 ) -> Option<Volume> {
     match &session.workspace {
         Some(w) => Some(workspace_volume(session.setup, w, x)),
-        None => touches::touched_volume(touches)
+        None => touch_pairs::touched_volume(touches)
             .map(|v| Volume { name: "the box around the points".into(), ..v }),
     }
 }

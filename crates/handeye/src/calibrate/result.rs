@@ -201,11 +201,16 @@ impl Determined {
             && self.free_translations.len() < 3
         {
             let [x, y, z] = t.map(|v| v * 1e3);
-            let free: Vec<String> =
-                self.free_translations.iter().map(|a| format!(" + any {}", axis(a))).collect();
+            let free: Vec<String> = self
+                .free_translations
+                .iter()
+                .map(|a| format!(" + s {} with s unknown", axis(a)))
+                .collect();
             lines.push(format!("translation ({x:.3}, {y:.3}, {z:.3}) mm{}", free.concat()));
         }
-        lines.extend(self.free_rotations.iter().map(|a| format!("free to turn about {}", axis(a))));
+        lines.extend(
+            self.free_rotations.iter().map(|a| format!("rotation about {} unknown", axis(a))),
+        );
         lines
     }
 }

@@ -29,7 +29,7 @@ use crate::{
         },
         evaluate::{self, RmsResidual},
         predict::{self, PredictedTre},
-        touches,
+        touch_pairs,
     },
     findings::{Finding, RobotFinding, StreamFinding, streams::Drift},
     math::lie,
@@ -291,7 +291,7 @@ impl Drifting<'_> {
     fn result(&self, task: &Task, plain: &Calibration, steady: Calibration) -> Calibration {
         let Self { sequence, found, held_out, .. } = *self;
         let fit = &found.fit;
-        let inflation = touches::small_sample(fit.degrees_of_freedom);
+        let inflation = touch_pairs::small_sample(fit.degrees_of_freedom);
         let hand_eye = stated(fit, inflation);
         let tre = predicted(sequence, found, inflation);
         let drift = in_numbers(sequence.side, found);

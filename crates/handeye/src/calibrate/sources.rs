@@ -11,7 +11,7 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::offset::{self, Found};
+use super::scan_offset::{self, Found};
 use crate::{
     Calibration, Camera, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel,
     TargetPose, Verdict,
@@ -73,7 +73,7 @@ pub(super) fn in_one_frame(
     if 2 * scans < session.observations.len() || scans == 0 {
         return run(session);
     }
-    let offset = match offset::find(session) {
+    let offset = match scan_offset::find(session) {
         Found::Nothing => return fused_or_one(session, (target, camera), frame, &run),
         Found::NotSeparable => {
             return not_separable(fused_or_one(session, (target, camera), frame, &run));

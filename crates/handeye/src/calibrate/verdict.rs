@@ -1,4 +1,8 @@
 //! Whether the answer can be used.
+//!
+//! Touches reach the verdict in three ways: when most of them contradict the images it is rejected (`touch_outliers.rs`);
+//! they change the predicted error of the joint fit; they determine directions that images do not. The residual of a
+//! single touch does not decide.
 
 use crate::{
     Camera, Mount, Pose, Setup,

@@ -12,7 +12,7 @@ use crate::{
     estimate::{
         JointFit, Source,
         predict::{self, PredictedTre, Volume},
-        touches,
+        touch_pairs,
     },
     mistakes,
 };
@@ -25,7 +25,7 @@ const OF_ONE_NOISE: f64 = 0.5;
 pub(super) fn inflation(fit: &JointFit) -> Option<f64> {
     let dof = fit.degrees_of_freedom;
     let residual = if dof > 0.0 { (fit.chi_squared / dof).max(1.0) } else { 1.0 };
-    let factor = residual * touches::small_sample(OF_ONE_NOISE * dof);
+    let factor = residual * touch_pairs::small_sample(OF_ONE_NOISE * dof);
     factor.is_finite().then_some(factor)
 }
 

@@ -40,7 +40,7 @@ use super::{
     extra::{Extra, ExtraKind},
     noise::{KnownNoise, NoiseModel, Sigma, Source},
     system::Steps,
-    touched::{self, TouchRows, TouchedBoard},
+    touch_residual::{self, TouchRows, TouchedBoard},
 };
 use crate::{
     Error, HandEye, Setup,
@@ -239,7 +239,7 @@ fn levelled(
 fn touch_level(problem: &Problem, state: &State, noise: &NoiseModel) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for board in &problem.boards {
-        let rows = touched::rows(
+        let rows = touch_residual::rows(
             board,
             &state.hand_eye,
             &[],
@@ -376,7 +376,7 @@ impl JointFit {
         let values = carried_values(problem, self);
         let variances = self.noise.variances();
         let (at, extras) = (&self.hand_eye, &problem.extras);
-        touched::rows(board, at, extras, &values, &variances, problem.setup)
+        touch_residual::rows(board, at, extras, &values, &variances, problem.setup)
     }
 
     /// Squared residual of touches over the variance of the noise.

@@ -18,7 +18,8 @@ pub enum Severity {
     Rejects,
 }
 
-/// What is known of a code.
+/// What is known of a code. It does not decide the verdict: a finding rejects the result where its stage adds it with
+/// `Notes::against`. The severity says what page and `check` show.
 pub(crate) struct Row {
     pub code: &'static str,
     pub severity: Severity,

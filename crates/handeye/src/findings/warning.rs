@@ -7,7 +7,7 @@ use super::Finding;
 /// A finding about a result, or about the data that it was made from.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Warning {
-    /// Short fixed name, for programs: `pose-flipped`.
+    /// Short fixed name, for programs: `tip-off`.
     pub code: String,
     /// What was seen and where, in a sentence for people.
     pub message: String,

@@ -1,4 +1,5 @@
-//! Closed forms: hand-eye calibration without a start value, a file per paper.
+//! Closed forms: hand-eye calibration without a start value, a file per paper. A new one is its file and, here, its
+//! module, its variant of [`Method`] and its row; a page of the book describes it.
 //!
 //! `A X = Y B` methods take the pairs as they are; `A X = X B` methods take relative motions
 //! between pairs and compute `anchor_from_target` afterwards. Every method is linear in the number of

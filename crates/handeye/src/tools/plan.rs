@@ -23,7 +23,7 @@ use crate::{
     estimate::{
         NoiseModel, Sigma, Source, observability,
         predict::{self, PredictedTre, Volume},
-        touches::small_sample,
+        touch_pairs::small_sample,
     },
     math::linalg,
     model::residual::Residual,

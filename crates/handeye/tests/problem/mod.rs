@@ -77,10 +77,10 @@ pub fn start_turned(session: &Session, method: handeye::Method) -> handeye::Hand
 }
 
 /// Corners as the camera has them with those touched (both in m).
-pub fn pairs_of_touches(session: &Session) -> Vec<handeye::estimate::touches::TouchPairs> {
+pub fn pairs_of_touches(session: &Session) -> Vec<handeye::estimate::touch_pairs::TouchPairs> {
     let target = session.target.as_ref().unwrap();
     let seen: Vec<_> = session.observations.iter().collect();
-    let (paired, missing) = handeye::estimate::touches::pair_touches(
+    let (paired, missing) = handeye::estimate::touch_pairs::pair_touches(
         session.setup,
         target,
         &seen,

@@ -10,7 +10,7 @@ use crate::{
         views::Views,
         workpiece::Workpiece,
     },
-    estimate::{self, evaluate::HeldOut, touches::TouchPairs},
+    estimate::{self, evaluate::HeldOut, touch_pairs::TouchPairs},
 };
 
 /// What every candidate is judged by.

@@ -15,7 +15,7 @@ use crate::{
     },
     estimate::{
         JointFit, evaluate,
-        touches::{self, Registration, TouchPairs},
+        touch_pairs::{self, Registration, TouchPairs},
     },
     findings::TouchFinding,
     solve,
@@ -51,9 +51,9 @@ impl Judge<'_> {
         let (views, paired) = (self.views, self.paired);
         let all: Vec<&TouchPairs> = paired.iter().collect();
         let start = fit.hand_eye.mount_from_camera;
-        let found = touches::fit_touches(&all, &start, registration)?;
+        let found = touch_pairs::fit_touches(&all, &start, registration)?;
         let x = found.mount_from_camera;
-        let shared = touches::view_covariance(paired, &view_noise(views, fit));
+        let shared = touch_pairs::view_covariance(paired, &view_noise(views, fit));
         let covariance =
             found.covariance.map(|c| self.of_camera(c + shared.unwrap_or_else(Matrix6::zeros), &x));
         // nearest neighbours that differ from the touched corners prove the match wrong
@@ -65,8 +65,8 @@ impl Judge<'_> {
             hand_eye: stored_registration(views, fit, &placed, covariance.as_ref()),
             in_sample: evaluate::in_sample(&placed, &views.views),
             held_out: evaluate::rms(&held_out),
-            touch_rms_mm: touches::touch_rms(paired, &x).map(|m| m * 1e3),
-            held_out_mm: touches::held_out(paired, &start, registration).map(|m| m * 1e3),
+            touch_rms_mm: touch_pairs::touch_rms(paired, &x).map(|m| m * 1e3),
+            held_out_mm: touch_pairs::held_out(paired, &start, registration).map(|m| m * 1e3),
             predicted_tre_mm: predicted.filter(|_| found.wrong_matches == 0),
             note: registration_note(&found),
         };
@@ -74,7 +74,7 @@ impl Judge<'_> {
     }
 }
 
-fn registration_note(found: &touches::TouchFit) -> Option<String> {
+fn registration_note(found: &touch_pairs::TouchFit) -> Option<String> {
     match found.stop {
         Some((rounds, stop)) => Some(format!(
             "{rounds} iterations, {stop:?}; {} of the matches are other corners than were touched",
@@ -115,8 +115,8 @@ pub(super) fn stored_registration(
 }
 
 /// Noise of every view as the touches see it.
-fn view_noise(views: &Views, fit: &JointFit) -> Vec<touches::ViewNoise> {
-    let one = |v: &View| touches::ViewNoise {
+fn view_noise(views: &Views, fit: &JointFit) -> Vec<touch_pairs::ViewNoise> {
+    let one = |v: &View| touch_pairs::ViewNoise {
         camera_from_target: v.pair.camera_from_target.rotation(),
         covariance: fit.noise.covariance(v, &fit.hand_eye, views.session.setup),
     };

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use crate::{Camera, Mount, Pose, calibrate::alike::WAY_OF_A_TURN};
+use crate::{Camera, Mount, Pose, calibrate::cluster_variance::WAY_OF_A_TURN};
 
 /// The camera's pose by one model.
 #[derive(Clone, Copy)]

@@ -19,7 +19,7 @@ use super::{
     JointFit, Problem,
     extra::Extra,
     noise::NoiseModel,
-    touched::{self, TouchedBoard},
+    touch_residual::{self, TouchedBoard},
 };
 use crate::{
     estimate::{
@@ -206,7 +206,7 @@ impl System {
         }
         let variances = state.noise.variances();
         for (board, block) in problem.boards.iter().zip(&self.boards) {
-            let rows = touched::rows(
+            let rows = touch_residual::rows(
                 board,
                 &state.hand_eye,
                 &problem.extras,
@@ -336,7 +336,7 @@ fn board_block(
     state: &State,
     variances: &Variances,
 ) -> BoardBlock {
-    let rows = touched::rows(
+    let rows = touch_residual::rows(
         board,
         &state.hand_eye,
         &problem.extras,

@@ -6,7 +6,7 @@ use crate::{
         NoiseModel, Problem, Source,
         noise::{COLUMNS, Factor, Variances},
         system::sights::Sights,
-        touched::TouchRows,
+        touch_residual::TouchRows,
     },
     solve::{least_squares, least_squares::Vector12},
 };

@@ -6,7 +6,7 @@ use super::super::{
     Problem,
     extra::{self, Extra, ExtraKind},
     noise::{self},
-    touched,
+    touch_residual,
 };
 use crate::{
     HandEye, Setup,
@@ -79,7 +79,7 @@ fn systematic_in_camera(problem: &Problem, state: &State) -> Option<Matrix6<f64>
             count += 1.0;
         }
     }
-    Some(touched::systematic_carry(&(sum / f64::max(count, 1.0))))
+    Some(touch_residual::systematic_carry(&(sum / f64::max(count, 1.0))))
 }
 
 /// `X` as the views see it: with the systematic difference, where the mount is the base.

@@ -1,12 +1,13 @@
-//! The joint candidate: views and touches in one fit, wrong touches left out, and a systematic
-//! difference between the two where the data show one.
+//! The joint candidate: images and touches in one fit, and a systematic difference between the two where the data show
+//! one. Touches that are outliers are rejected here one by one, each by a fit of everything else; `touch_outliers.rs` has
+//! rejected those of other corners before.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::{
     alternatives::{Alternatives, Averaged},
-    boards::Boards,
     prior::Declared,
+    touched_boards::Boards,
 };
 use crate::{
     TargetModel,
@@ -73,7 +74,7 @@ pub(super) fn fit(
     // what follows looks for other mistakes under the likeliest size
     problem = first.problem;
     let mut fit = joint::refit(&problem, &first.fit, known);
-    let left_out = leave_out_wrong(&mut problem, &mut touches, &mut fit, known);
+    let left_out = reject_outliers(&mut problem, &mut touches, &mut fit, known);
     let wrong_tip = free_wrong_tip(&mut problem, &mut fit, known);
     let conflict = conflict(&problem, &fit, wrong_tip.is_some());
     if let Some(conflict) = conflict
@@ -139,7 +140,7 @@ fn significance(h: &DMatrix<f64>, g: &DVector<f64>) -> (f64, usize) {
 const IMPROBABLE_TOUCH: f64 = 1e-4;
 
 /// Rejects, one by one, touches that are outliers to a fit made without them.
-fn leave_out_wrong(
+fn reject_outliers(
     problem: &mut Problem,
     touches: &mut [Vec<usize>],
     fit: &mut JointFit,

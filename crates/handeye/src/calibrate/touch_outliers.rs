@@ -4,10 +4,13 @@
 //! offset, which is one for all. The offset on which most touches agree is looked for, each touch
 //! proposing its own; the others touched something else. Where fewer than two thirds agree, either
 //! the touches are wrong or the views are, and no answer can be trusted.
+//!
+//! This is the first of two gates: it has the images alone, before touches enter the fit. Finer outliers are rejected in
+//! `views_and_touches.rs`, each by a fit of everything else.
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::boards::Boards;
+use super::touched_boards::Boards;
 use crate::{
     TargetModel,
     calibrate::{notes::Notes, views::Views},
@@ -105,7 +108,7 @@ pub(super) fn find(
 
 impl WrongTouches {
     /// The boards without these touches.
-    pub(super) fn left_out_of(&self, boards: &mut Boards) {
+    pub(super) fn remove_from(&self, boards: &mut Boards) {
         for (board, touches) in boards.boards.iter_mut().zip(&mut boards.touches) {
             let keep: Vec<bool> = touches.iter().map(|k| !self.which.contains(k)).collect();
             let mut keeps = keep.iter();
