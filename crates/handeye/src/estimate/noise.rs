@@ -258,11 +258,18 @@ pub(super) fn covariance(
     columns: &[Source; COLUMNS],
     variances: &[f64; Source::ALL.len()],
 ) -> Matrix6<f64> {
-    let mut scaled = *b;
-    for (k, source) in columns.iter().enumerate() {
-        scaled.column_mut(k).scale_mut(variances[source.index()]);
+    let mut s = Matrix6::zeros();
+    for (column, source) in b.as_slice().chunks_exact(6).zip(columns) {
+        let variance = variances[source.index()];
+        for (k, x) in column.iter().enumerate() {
+            let share = variance * x;
+            s.as_mut_slice()[6 * k + k..6 * k + 6]
+                .iter_mut()
+                .zip(&column[k..])
+                .for_each(|(s, y)| *s += share * y);
+        }
     }
-    let mut s = scaled * b.transpose();
+    s.fill_upper_triangle_with_lower_triangle();
     for k in 0..3 {
         s[(k, k)] += LEAST_ROTATION.powi(2);
         s[(k + 3, k + 3)] += LEAST_POSITION.powi(2);

@@ -113,10 +113,12 @@ pub(crate) fn ad(xi: &Vector6<f64>) -> Matrix6<f64> {
     blocks(&k, &Matrix3::zeros(), &hat(&nu(xi)), &k)
 }
 
-/// The block `Q(ω, v)` that couples rotation into translation.
+/// The block `Q(ω, v)` that couples rotation into translation. With `K = [ω]ₓ`, `P = [v]ₓ` and `d = ω·v`, products of
+/// three and four of them are shorter: `KPK = -d K`, `K²P + PK² = -θ² P - d K`, `KPK² + K²PK = -2d K²`.
 fn coupling(xi: &Vector6<f64>) -> Matrix3<f64> {
-    let (k, p) = (hat(&omega(xi)), hat(&nu(xi)));
-    let theta2 = omega(xi).norm_squared();
+    let (w, v) = (omega(xi), nu(xi));
+    let (k, p, d) = (hat(&w), hat(&v), w.dot(&v));
+    let theta2 = w.norm_squared();
     let theta = theta2.sqrt();
     let (a, b, c) = if theta < 1e-2 {
         (1.0 / 6.0 - theta2 / 120.0, 1.0 / 24.0 - theta2 / 720.0, 1.0 / 120.0 - theta2 / 2520.0)
@@ -129,10 +131,21 @@ fn coupling(xi: &Vector6<f64>) -> Matrix3<f64> {
             0.5 * (2.0 * theta - 3.0 * s + theta * cos) / (theta4 * theta),
         )
     };
-    0.5 * p
-        + a * (k * p + p * k + k * p * k)
-        + b * (k * k * p + p * k * k - 3.0 * k * p * k)
-        + c * (k * p * k * k + k * k * p * k)
+    let crossed = w * v.transpose() + v * w.transpose() - Matrix3::from_diagonal_element(2.0 * d);
+    let squared = w * w.transpose() - Matrix3::from_diagonal_element(theta2);
+    p * (0.5 - b * theta2) + k * (d * (2.0 * b - a)) + crossed * a - squared * (2.0 * c * d)
+}
+
+/// `J_l(ξ)⁻¹ Ad(T)`: both have two blocks alike and one of zeros.
+pub(crate) fn left_jacobian_inverse_after(
+    xi: &Vector6<f64>,
+    pose: &Isometry3<f64>,
+) -> Matrix6<f64> {
+    let j = so3_left_jacobian_inverse(&omega(xi));
+    let r = pose.rotation.to_rotation_matrix().into_inner();
+    let turned = j * r;
+    let moved = j * (hat(&pose.translation.vector) * r - coupling(xi) * turned);
+    blocks(&turned, &Matrix3::zeros(), &moved, &turned)
 }
 
 fn blocks(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>, d: &Matrix3<f64>) -> Matrix6<f64> {
@@ -164,6 +177,15 @@ mod tests {
     fn log_undoes_exp() {
         for xi in samples() {
             assert!((log(&exp(&xi)) - xi).norm() < 1e-9, "{xi}");
+        }
+    }
+
+    #[test]
+    fn a_product_of_blocks_is_that_of_the_matrices() {
+        for (xi, other) in samples().iter().zip(samples().iter().rev()) {
+            let pose = exp(other);
+            let whole = left_jacobian_inverse(xi) * adjoint(&pose);
+            assert!((left_jacobian_inverse_after(xi, &pose) - whole).norm() < 1e-12 * whole.norm());
         }
     }
 

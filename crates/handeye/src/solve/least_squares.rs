@@ -86,7 +86,7 @@ pub(crate) fn residual_with_jacobian(
 ) -> (Vector6<f64>, SMatrix<f64, 6, 12>) {
     let r = residual(hand_eye, pair);
     let inverse = lie::left_jacobian_inverse(&r);
-    let by_x = -inverse * lie::adjoint(pair.camera_from_target.inverse().iso());
+    let by_x = -lie::left_jacobian_inverse_after(&r, pair.camera_from_target.inverse().iso());
     let mut j = Matrix6x12::zeros();
     j.fixed_view_mut::<6, 6>(0, 0).copy_from(&by_x);
     j.fixed_view_mut::<6, 6>(0, 6).copy_from(&(inverse + lie::ad(&r)));

@@ -1,6 +1,6 @@
 //! One linear fit for each way in which something may have moved, weighed by their restricted likelihood.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, SMatrix, SVector, Vector3, Vector6};
+use nalgebra::{Cholesky, Matrix6, SMatrix, SVector, Vector3, Vector6};
 
 use crate::calibrate::limits::VERY_MANY;
 
@@ -94,7 +94,7 @@ pub(super) struct Displaced<'a> {
 
 /// One linear fit.
 pub(super) struct Linear {
-    pub solution: DVector<f64>,
+    pub solution: SVector<f64, UNKNOWNS>,
     log_evidence: f64,
     /// Squares that are left, of rotations and of positions.
     left: [f64; 2],
@@ -138,15 +138,27 @@ const ROUNDS: usize = 4;
 /// Least part of the noise that may be left: a fit is not better than its instruments.
 const LEAST_NOISE: f64 = 1e-2;
 
+/// Unknowns of a fit: both poses, and a movement.
+const UNKNOWNS: usize = 18;
+
+/// The normal equations of rotations or of positions, by both poses and the movement where there is one.
+struct OfKind {
+    matrix: SMatrix<f64, UNKNOWNS, UNKNOWNS>,
+    right: SVector<f64, UNKNOWNS>,
+    square: f64,
+}
+
 /// Fits both poses, a movement where there is one, and how large the noise of rotations and of positions is then: what
 /// moved in positions alone would otherwise be judged by a noise that it made itself.
 pub(super) fn linear(captures: usize, all: &Sums, movement: Option<Displaced>) -> Option<Linear> {
     let equations = 3.0 * captures as f64;
+    let of_kind = [0, 1].map(|kind| normal(kind, all, movement.as_ref()));
+    let size = movement.map(|m| m.by.size);
     let mut variances = [1.0, 1.0];
-    let mut fit = weighted(all, movement.as_ref(), variances)?;
+    let mut fit = weighted(&of_kind, size, variances)?;
     for _ in 0..ROUNDS {
         variances = fit.left.map(|left| (left / (equations - 6.0)).max(LEAST_NOISE));
-        fit = weighted(all, movement.as_ref(), variances)?;
+        fit = weighted(&of_kind, size, variances)?;
     }
     let of_noise = equations * (variances[0].ln() + variances[1].ln());
     let of_squares = fit.left[0] / variances[0] + fit.left[1] / variances[1];
@@ -154,12 +166,12 @@ pub(super) fn linear(captures: usize, all: &Sums, movement: Option<Displaced>) -
     Some(fit)
 }
 
-/// The normal equations of rotations or of positions, by both poses and the movement where there is one.
-fn normal(kind: usize, all: &Sums, movement: Option<&Displaced>) -> (DMatrix<f64>, DVector<f64>) {
-    let size = if movement.is_some() { 18 } else { 12 };
-    let (mut matrix, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
-    matrix.fixed_view_mut::<12, 12>(0, 0).copy_from(&all.0[kind].matrix);
-    right.fixed_rows_mut::<12>(0).copy_from(&all.0[kind].right);
+fn normal(kind: usize, all: &Sums, movement: Option<&Displaced>) -> OfKind {
+    let sums = &all.0[kind];
+    let mut matrix = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
+    let mut right = SVector::<f64, UNKNOWNS>::zeros();
+    matrix.fixed_view_mut::<12, 12>(0, 0).copy_from(&sums.matrix);
+    right.fixed_rows_mut::<12>(0).copy_from(&sums.right);
     if let Some(Displaced { by, once, twice }) = movement {
         let first = if by.side == Side::Camera { 0 } else { 6 };
         let (once, twice) = (&once.0[kind], &twice.0[kind]);
@@ -170,104 +182,25 @@ fn normal(kind: usize, all: &Sums, movement: Option<&Displaced>) -> (DMatrix<f64
         matrix.fixed_view_mut::<6, 6>(12, 12).copy_from(&own);
         right.fixed_rows_mut::<6>(12).copy_from(&once.right.fixed_rows::<6>(first));
     }
-    (matrix, right)
+    OfKind { matrix, right, square: sums.square }
 }
 
-/// The same under noise of these variances, as shares of those that the rows are whitened by.
-fn weighted(all: &Sums, movement: Option<&Displaced>, variances: [f64; 2]) -> Option<Linear> {
-    let of_kind = [0, 1].map(|kind| normal(kind, all, movement));
-    let mut whole = &of_kind[0].0 / variances[0] + &of_kind[1].0 / variances[1];
-    let right = &of_kind[0].1 / variances[0] + &of_kind[1].1 / variances[1];
-    let mut of_prior = 0.0;
-    if let Some(Displaced { by, .. }) = movement {
-        for k in 12..18 {
-            whole[(k, k)] += by.size.powi(-2);
-            of_prior += 2.0 * by.size.ln();
-        }
-    }
+/// The fit under noise of these variances, as shares of those that the rows are whitened by. Without a movement (of
+/// `size`, rad and m per axis) its unknowns stay zero, and their prior of one says nothing.
+fn weighted(of_kind: &[OfKind; 2], size: Option<f64>, variances: [f64; 2]) -> Option<Linear> {
+    let mut whole = of_kind[0].matrix / variances[0] + of_kind[1].matrix / variances[1];
+    let right = of_kind[0].right / variances[0] + of_kind[1].right / variances[1];
+    let size = size.unwrap_or(1.0);
+    (12..UNKNOWNS).for_each(|k| whole[(k, k)] += size.powi(-2));
+    let of_prior = 2.0 * (UNKNOWNS - 12) as f64 * size.ln();
     let cholesky = Cholesky::new(whole)?;
     let solution = -cholesky.solve(&right);
     let log_determinant: f64 = cholesky.l_dirty().diagonal().iter().map(|d| 2.0 * d.ln()).sum();
-    let left = [0, 1].map(|kind| {
-        let (matrix, right) = &of_kind[kind];
-        let by_solution = 2.0 * solution.dot(right) + solution.dot(&(matrix * &solution));
-        (all.0[kind].square + by_solution).max(0.0)
+    let left = of_kind.each_ref().map(|kind| {
+        let by_solution = 2.0 * solution.dot(&kind.right) + solution.dot(&(kind.matrix * solution));
+        (kind.square + by_solution).max(0.0)
     });
-    let by_prior =
-        movement.map_or(0.0, |m| solution.rows(12, 6).norm_squared() / m.by.size.powi(2));
+    let by_prior = solution.fixed_rows::<6>(12).norm_squared() / size.powi(2);
     let log_evidence = -0.5 * (log_determinant + of_prior + by_prior);
     Some(Linear { solution, log_evidence, left })
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
-    use super::*;
-    use crate::math::random::Random;
-
-    fn rows(count: usize, scale: f64) -> Vec<Row> {
-        let mut random = Random::new(7);
-        let mut one = || Row {
-            residual: Vector6::from_fn(|_, _| random.normal()),
-            jacobian: SMatrix::from_fn(|_, _| scale * random.normal()),
-            seen: Vector3::zeros(),
-        };
-        (0..count).map(|_| one()).collect()
-    }
-
-    #[test]
-    fn sums_leave_what_the_captures_one_by_one_leave() {
-        let rows = rows(12, 100.0);
-        let used: Vec<Used> = rows.iter().enumerate().collect();
-        let all = Sums::of(&used, |_| 1.0);
-        for which in [Some(5), None] {
-            let share = |k: usize| match which {
-                Some(step) => f64::from(u8::from(k < step)),
-                None => 1.0 - k as f64 / 11.0,
-            };
-            for side in SIDES {
-                let by = Hypothesis { side, step: which, size: 5e-3 };
-                let (once, twice) = (Sums::of(&used, share), Sums::of(&used, |k| share(k).powi(2)));
-                let movement = Displaced { by: &by, once: &once, twice: &twice };
-                let found = weighted(&all, Some(&movement), [1.0, 1.0]).unwrap();
-                let mut left = [0.0; 2];
-                for (k, row) in rows.iter().enumerate() {
-                    let poses = row.jacobian * found.solution.fixed_rows::<12>(0);
-                    let moved = row.by(side) * found.solution.fixed_rows::<6>(12) * share(k);
-                    let r = row.residual + poses + moved;
-                    left[0] += r.fixed_rows::<3>(0).norm_squared();
-                    left[1] += r.fixed_rows::<3>(3).norm_squared();
-                }
-                for kind in 0..2 {
-                    assert!((left[kind] - found.left[kind]).abs() < 1e-9, "{left:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn where_steps_are_looked_for_at_few_places_one_is_found_near_its_own() {
-        let mut rows = rows(3 * VERY_MANY, 1e3);
-        let delta = Vector6::new(1e-3, -1e-3, 2e-3, 3e-3, 1e-3, -2e-3);
-        for row in &mut rows[..250] {
-            row.residual -= row.by(Side::Target) * delta;
-        }
-        let used: Vec<Used> = rows.iter().enumerate().collect();
-        let all = Sums::of(&used, |_| 1.0);
-        let still = linear(used.len(), &all, None).unwrap();
-        let found = weighed(&used, &all, &still);
-        let best = found.iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
-        assert!(best.1.side == Side::Target && best.1.step.unwrap().abs_diff(250) <= 3);
-        assert!((best.2.solution.fixed_rows::<6>(12) - delta).norm() < 2e-4);
-    }
-
-    #[test]
-    fn prior_probabilities_of_all_movements_add_up() {
-        let steps = 7;
-        let one = |side, step, size| Hypothesis { side, step, size }.log_prior(steps).exp();
-        let of = |(side, size)| one(side, None, size) + steps as f64 * one(side, Some(4), size);
-        let all = SIZES.into_iter().flat_map(|size| SIDES.map(|side| (side, size)));
-        assert!((all.map(of).sum::<f64>() - PRIOR).abs() < 1e-12);
-    }
 }
