@@ -204,7 +204,7 @@ mod tests {
             closer(f64::INFINITY),
             "combined residual more than a million times smaller than as declared"
         );
-        assert_eq!(closer(4321.9), "score 4322 times smaller");
-        assert_eq!(closer(3.16), "score 3.2 times smaller");
+        assert_eq!(closer(4321.9), "combined residual 4322 times smaller than as declared");
+        assert_eq!(closer(3.16), "combined residual 3.2 times smaller than as declared");
     }
 }
