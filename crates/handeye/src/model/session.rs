@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::{kinematics::Arm, names::natural};
 use crate::{
     Base, Camera, Correspondence, Flange, Intrinsics, Mount, Observation, Placement, Point, Pose,
-    Setup, Target, Touch, Workspace, model::target::TargetModel,
+    Setup, Target, Touch, Workspace, model::target::kinds::TargetModel,
 };
 
 /// Everything that was measured in one cell.

@@ -17,9 +17,9 @@ pub(crate) mod kinds;
 mod layout;
 pub(crate) mod look;
 
-pub use families::{KINDS, TargetModel};
+pub use families::KINDS;
 pub(crate) use kinds::PlacedTag;
-pub use kinds::{AprilTagFamily, Kind};
+pub use kinds::{AprilTagFamily, Kind, TargetModel};
 
 use crate::{Error, Point, Target};
 use family::Turns;

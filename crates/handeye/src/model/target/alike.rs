@@ -2,7 +2,7 @@
 
 use std::{mem::discriminant, ops::Range};
 
-use crate::model::target::families::TargetModel;
+use crate::model::target::kinds::TargetModel;
 
 impl TargetModel {
     /// Which markers of which dictionary are on the board.

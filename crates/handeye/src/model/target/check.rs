@@ -1,6 +1,6 @@
 //! Dimensions that no target has.
 
-use super::families::TargetModel;
+use super::kinds::TargetModel;
 use crate::{Error, model::dictionary::Dictionary};
 
 /// Most corners a board may declare; larger counts are mistakes or attacks.

@@ -2,7 +2,11 @@
 
 use nalgebra::Vector2;
 
-use super::{check, families::TargetModel, kinds::PlacedTag, look::Look};
+use super::{
+    check,
+    kinds::{PlacedTag, TargetModel},
+    look::Look,
+};
 use crate::{
     Error,
     model::{print::Art, texture::Texture},
