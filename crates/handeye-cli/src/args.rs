@@ -91,7 +91,7 @@ fn published_methods() -> String {
     };
     let forms: Vec<String> = Form::ALL.iter().map(named).collect();
     format!(
-        "Use one published method alone, without outlier rejection and noise estimation; {}",
+        "Take the answer of one published method on the captures that agree, in place of the best candidate; {}",
         forms.join("; ")
     )
 }

@@ -31,7 +31,7 @@ pub struct BagArgs {
     /// A TOML file with the `[target]` that the camera sees.
     #[arg(long)]
     pub target: Option<PathBuf>,
-    /// Who carries the camera.
+    /// Where the camera is mounted.
     #[arg(long, value_enum)]
     pub setup: Option<SetupArg>,
     /// Topic of the images, where there are several.

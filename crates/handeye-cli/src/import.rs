@@ -43,7 +43,7 @@ pub struct ImportArgs {
     pub source: PathBuf,
     /// The camera's trajectory.
     pub camera: Option<PathBuf>,
-    /// Who carries the camera, where the files do not say it.
+    /// Where the camera is mounted, where the files do not say it.
     #[arg(long, value_enum)]
     pub setup: Option<SetupArg>,
     /// Direction of the poses, where the files do not state it: base_from_flange (where the flange is),

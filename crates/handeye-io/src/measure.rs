@@ -227,7 +227,10 @@ fn camera(
     if views.is_empty() {
         return Ok((None, None));
     }
-    one_size((width, height), shots, seen)?;
+    // others are of another camera, or of another part of its sensor
+    let other = format!("those before it are {width} x {height}");
+    let advice = "leave images of another size out, or give the intrinsics in [camera]";
+    all_of_size((width, height), (&other, advice), shots, seen)?;
     let found = intrinsics::calibrate(
         &views,
         target,
@@ -319,31 +322,28 @@ fn uncalibrated(dataset: &Dataset, error: &handeye::Error) -> Error {
     malformed(Place::file(&dataset.manifest), what, "add the camera's intrinsics to the manifest")
 }
 
-/// Images must have the size the camera was calibrated at.
-/// Refuses images of another size than the first: they are of another camera, or of another part of its sensor.
-fn one_size(first: (usize, usize), shots: &[Shot], seen: &[Seen]) -> Result<(), Error> {
-    for (shot, s) in shots.iter().zip(seen) {
-        let (Some((w, h)), Some(path)) = (s.size, shot.image) else { continue };
-        if (w, h) != first {
-            let (width, height) = first;
-            let what =
-                format!("the image is {w} x {h} pixels, those before it are {width} x {height}");
-            let advice = "leave images of another size out, or give the intrinsics in [camera]";
-            return Err(of_capture(shot, malformed(Place::file(path), what, advice)));
-        }
+/// Images must have the size that the camera was calibrated at.
+fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), Error> {
+    let (width, height) = (camera.width as usize, camera.height as usize);
+    if width == 0 {
+        return Ok(());
     }
-    Ok(())
+    let other = format!("the camera was calibrated at {width} x {height}");
+    let advice = "give `resized` in [camera], or intrinsics for this size";
+    all_of_size((width, height), (&other, advice), shots, seen)
 }
 
-fn check_size(camera: &Intrinsics, shots: &[Shot], seen: &[Seen]) -> Result<(), Error> {
+/// Refuses the first image of another size, with what has this one, and what to do.
+fn all_of_size(
+    size: (usize, usize),
+    (other, advice): (&str, &str),
+    shots: &[Shot],
+    seen: &[Seen],
+) -> Result<(), Error> {
     for (shot, s) in shots.iter().zip(seen) {
         let (Some((w, h)), Some(path)) = (s.size, shot.image) else { continue };
-        if (w, h) != (camera.width as usize, camera.height as usize) && camera.width > 0 {
-            let what = format!(
-                "the image is {w} x {h} pixels, the camera was calibrated at {} x {}",
-                camera.width, camera.height
-            );
-            let advice = "give `resized` in [camera], or intrinsics for this size";
+        if (w, h) != size {
+            let what = format!("the image is {w} x {h} pixels, {other}");
             return Err(of_capture(shot, malformed(Place::file(path), what, advice)));
         }
     }

@@ -13,7 +13,9 @@ use handeye::{
     simulate::{Cell, CellNoise, DepthSensor},
 };
 use handeye_io::{
-    Dataset, measure,
+    Dataset,
+    calibrate::calibrate_dataset,
+    measure,
     simulated::{self, ScanFormat, Writing},
 };
 
@@ -59,6 +61,41 @@ fn exact_lists_of_corners_are_read_back_exactly() {
         assert!(error < 1e-6, "{setup:?}: {error:.1e} mm");
         fs::remove_dir_all(folder).unwrap();
     }
+}
+
+/// A limit of the caller's holds where the manifest has none, and the manifest's comes first.
+#[test]
+fn limits_of_the_caller_hold_where_the_manifest_says_nothing() {
+    let folder = folder("limits");
+    write(&small(Setup::EyeInHand), &folder, false);
+    let verdict = |max_error_mm| {
+        let config = Config { max_error_mm, ..Config::default() };
+        let dataset = Dataset::open(&folder).unwrap();
+        calibrate_dataset(&dataset, &config, &|_, _| {}).unwrap().0.verdict
+    };
+    assert_eq!(verdict(None), Verdict::Accepted);
+    assert_eq!(verdict(Some(1e-3)), Verdict::Rejected);
+    let manifest = fs::read_to_string(folder.join("handeye.toml")).unwrap();
+    fs::write(folder.join("handeye.toml"), manifest + "\n[limits]\nmax_error_mm = 10.0\n").unwrap();
+    assert_eq!(verdict(Some(1e-3)), Verdict::Accepted);
+    fs::remove_dir_all(folder).unwrap();
+}
+
+/// Of one camera whose intrinsics are to be estimated, images of two sizes are not.
+#[test]
+fn images_of_two_sizes_give_no_intrinsics() {
+    let folder = folder("sizes");
+    write(&small(Setup::EyeInHand), &folder, true);
+    let manifest = fs::read_to_string(folder.join("handeye.toml")).unwrap();
+    let (before, camera) = manifest.split_once("[camera]").unwrap();
+    let after = camera.find("\n[").map_or("", |at| &camera[at..]);
+    fs::write(folder.join("handeye.toml"), format!("{before}{after}")).unwrap();
+    let dataset = Dataset::open(&folder).unwrap();
+    let last = dataset.captures.last().unwrap().image.clone().unwrap();
+    image::GrayImage::new(320, 240).save(&last).unwrap();
+    let error = measure::measure(&dataset, &|_, _| {}).err().unwrap().to_string();
+    assert!(error.contains("320 x 240 pixels, those before it are 640 x 480"), "{error}");
+    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]

@@ -119,6 +119,12 @@ mod tests {
     use crate::{export::tests::example, robot::Units, tree::Tree, units::*};
 
     #[test]
+    fn quotes_in_a_name_do_not_end_a_launch_files_text() {
+        let launch = ros2_launch(&CameraPose { parent: "it's", ..example() });
+        assert!(launch.contains(r"'--frame-id', 'it\'s',"), "{launch}");
+    }
+
+    #[test]
     fn urdf_angles_turn_about_the_fixed_axes() {
         let text = urdf(&example());
         let document = roxmltree::Document::parse(&text).unwrap();

@@ -16,8 +16,9 @@
 //!
 //! Every stage returns its value and its `notes`; `evidence` gathers them, and `verdict` alone makes a [`Calibration`] of
 //! it. What looks at the result as a whole makes a new one: `sequence` (do errors drift?), `sources` (images and scans
-//! apart), `moved` (the camera moved: the answer of the last captures alone, without touches), `scans`, and `beside` (what was noticed while files were read). Point pairs alone take the short way
-//! through `points`, captures of a ball through `balls`.
+//! apart), `moved` (the camera moved: the answer of the last captures alone, without touches), `scans`, and `beside`
+//! (what was noticed while files were read). Point pairs alone take the short way through `points`, captures of a ball
+//! through `balls`.
 
 mod agreement;
 mod alternatives;

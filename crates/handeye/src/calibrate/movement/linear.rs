@@ -204,3 +204,93 @@ fn weighted(of_kind: &[OfKind; 2], size: Option<f64>, variances: [f64; 2]) -> Op
     let log_evidence = -0.5 * (log_determinant + of_prior + by_prior);
     Some(Linear { solution, log_evidence, left })
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+    use super::*;
+    use crate::math::random::Random;
+
+    fn rows(count: usize, scale: f64) -> Vec<Row> {
+        let mut random = Random::new(7);
+        let mut one = || Row {
+            residual: Vector6::from_fn(|_, _| random.normal()),
+            jacobian: SMatrix::from_fn(|_, _| scale * random.normal()),
+            seen: Vector3::zeros(),
+        };
+        (0..count).map(|_| one()).collect()
+    }
+
+    #[test]
+    fn sums_leave_what_the_captures_one_by_one_leave() {
+        let rows = rows(12, 100.0);
+        let used: Vec<Used> = rows.iter().enumerate().collect();
+        let all = Sums::of(&used, |_| 1.0);
+        for which in [Some(5), None] {
+            let share = |k: usize| match which {
+                Some(step) => f64::from(u8::from(k < step)),
+                None => 1.0 - k as f64 / 11.0,
+            };
+            for side in SIDES {
+                let by = Hypothesis { side, step: which, size: 5e-3 };
+                let (once, twice) = (Sums::of(&used, share), Sums::of(&used, |k| share(k).powi(2)));
+                let movement = Displaced { by: &by, once: &once, twice: &twice };
+                let of_kind = [0, 1].map(|kind| normal(kind, &all, Some(&movement)));
+                let found = weighted(&of_kind, Some(by.size), [1.0, 1.0]).unwrap();
+                let mut left = [0.0; 2];
+                for (k, row) in rows.iter().enumerate() {
+                    let poses = row.jacobian * found.solution.fixed_rows::<12>(0);
+                    let moved = row.by(side) * found.solution.fixed_rows::<6>(12) * share(k);
+                    let r = row.residual + poses + moved;
+                    left[0] += r.fixed_rows::<3>(0).norm_squared();
+                    left[1] += r.fixed_rows::<3>(3).norm_squared();
+                }
+                for kind in 0..2 {
+                    assert!((left[kind] - found.left[kind]).abs() < 1e-9, "{left:?}");
+                }
+            }
+        }
+    }
+
+    /// Six unknowns that nothing moves say nothing of the others, nor of the evidence.
+    #[test]
+    fn a_fit_without_movement_is_that_of_both_poses_alone() {
+        let rows = rows(12, 100.0);
+        let used: Vec<Used> = rows.iter().enumerate().collect();
+        let all = Sums::of(&used, |_| 1.0);
+        let of_kind = [0, 1].map(|kind| normal(kind, &all, None));
+        let found = weighted(&of_kind, None, [1.0, 2.0]).unwrap();
+        let whole = all.0[0].matrix + all.0[1].matrix / 2.0;
+        let right = all.0[0].right + all.0[1].right / 2.0;
+        let alone = Cholesky::new(whole).unwrap();
+        let apart = found.solution.fixed_rows::<12>(0) + alone.solve(&right);
+        assert!(apart.norm() < 1e-12 && found.solution.fixed_rows::<6>(12).norm() == 0.0);
+        assert!((found.log_evidence + 0.5 * alone.determinant().ln()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn where_steps_are_looked_for_at_few_places_one_is_found_near_its_own() {
+        let mut rows = rows(3 * VERY_MANY, 1e3);
+        let delta = Vector6::new(1e-3, -1e-3, 2e-3, 3e-3, 1e-3, -2e-3);
+        for row in &mut rows[..250] {
+            row.residual -= row.by(Side::Target) * delta;
+        }
+        let used: Vec<Used> = rows.iter().enumerate().collect();
+        let all = Sums::of(&used, |_| 1.0);
+        let still = linear(used.len(), &all, None).unwrap();
+        let found = weighed(&used, &all, &still);
+        let best = found.iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+        assert!(best.1.side == Side::Target && best.1.step.unwrap().abs_diff(250) <= 3);
+        assert!((best.2.solution.fixed_rows::<6>(12) - delta).norm() < 2e-4);
+    }
+
+    #[test]
+    fn prior_probabilities_of_all_movements_add_up() {
+        let steps = 7;
+        let one = |side, step, size| Hypothesis { side, step, size }.log_prior(steps).exp();
+        let of = |(side, size)| one(side, None, size) + steps as f64 * one(side, Some(4), size);
+        let all = SIZES.into_iter().flat_map(|size| SIDES.map(|side| (side, size)));
+        assert!((all.map(of).sum::<f64>() - PRIOR).abs() < 1e-12);
+    }
+}

@@ -145,6 +145,18 @@ fn the_order_of_the_samples_does_not_matter() {
 }
 
 #[test]
+fn moments_before_zero_are_in_the_order_of_their_times() {
+    let scene = Scene::new(0.0);
+    let early = |s: &mut f64| *s -= 15.0;
+    let mut streams = scene.record(1);
+    streams.robot.iter_mut().for_each(|s| early(&mut s.time_s));
+    streams.camera.iter_mut().for_each(|s| early(&mut s.time_s));
+    let times: Vec<f64> =
+        streams.session().in_order().observations.iter().filter_map(|o| o.time_s).collect();
+    assert!(times[0] < 0.0 && times.is_sorted(), "{times:?}");
+}
+
+#[test]
 fn gaps_jitter_and_wrong_poses_do_no_harm() {
     let scene = Scene { noise: (2e-3, 5e-4), ..Scene::new(-0.8) };
     let mut streams = scene.record(9);
