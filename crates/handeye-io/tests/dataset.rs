@@ -177,8 +177,9 @@ fn touches_without_placements_are_on_the_fixed_board() {
 
 #[test]
 fn what_cannot_be_meant_is_refused_and_what_is_said_twice_counts_once() {
-    let base = "setup = \"eye-to-hand\"\n[robot]\nposes = \"poses.csv\"\nnotation = \"ur\"\ndirection = \"base_from_flange\"\n\
-                [corners]\nfiles = \"corners.csv\"\npixel_origin = \"centre\"\n";
+    let robot = "setup = \"eye-to-hand\"\n[robot]\nposes = \"poses.csv\"\nnotation = \"ur\"\ndirection = \"base_from_flange\"\n";
+    let corners = "[corners]\nfiles = \"corners.csv\"\npixel_origin = \"centre\"\n";
+    let board = "[board_poses]\nposes = \"poses.csv\"\nnotation = \"ur\"\ndirection = \"camera_from_target\"\n";
     let files = [
         ("poses.csv", "0.1,0,0,0,0,0\n0.2,0,0,0,0,0\n"),
         ("corners.csv", CORNERS),
@@ -187,20 +188,23 @@ fn what_cannot_be_meant_is_refused_and_what_is_said_twice_counts_once() {
         ("tips.csv", "row,column,x_mm,y_mm,z_mm\n1,2,10,20,30\n"),
     ];
     let refusal = |name: &str, more: &str| {
-        let path = folder(name, &format!("{base}{more}"), &files);
+        let path = folder(name, &format!("{robot}{more}"), &files);
         let error = Dataset::open(&path).err().map(|e| e.to_string());
         fs::remove_dir_all(path).unwrap();
         error.unwrap_or_default()
     };
-    let several =
-        refusal("several", &format!("{TARGET}[[placements]]\nid = \"A\"\ncorners = \"a*.csv\"\n"));
+    let several = refusal(
+        "several",
+        &format!("{corners}{TARGET}[[placements]]\nid = \"A\"\ncorners = \"a*.csv\"\n"),
+    );
     assert!(several.contains("\"a*.csv\" is 2 files, a placement has one"), "{several}");
     let touches = "[touches]\nfile = \"tips.csv\"\nkind = \"tip\"\nlength_unit = \"mm\"\n";
-    let untold = refusal("untold", touches);
+    let untold = refusal("untold", &format!("{board}{touches}"));
     assert!(untold.contains("no target is declared"), "{untold}");
-    let ball = refusal("ball", "[target]\nkind = \"sphere\"\ndiameter_mm = 50.0\n");
+    let ball =
+        refusal("ball", &format!("{corners}[target]\nkind = \"sphere\"\ndiameter_mm = 50.0\n"));
     assert!(ball.contains("is a ball and has no corners"), "{ball}");
-    let twice = format!("{base}{TARGET}[captures]\nexclude = [\"b\", \"b\"]\n");
+    let twice = format!("{robot}{corners}{TARGET}[captures]\nexclude = [\"b\", \"b\"]\n");
     assert_eq!(open("twice", &twice, &files).captures.len(), 1);
 }
 
