@@ -18,6 +18,11 @@ pub(crate) fn tree(text: &str, path: &Path) -> Result<Tree, Error> {
     Ok(element(&document.root_element(), 0))
 }
 
+/// Text for an element or an attribute of XML or HTML.
+pub(crate) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
 /// Deeper elements are left out: no calibration file nests so far.
 const DEEPEST: usize = 64;
 

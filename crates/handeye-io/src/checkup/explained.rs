@@ -29,6 +29,7 @@ pub(super) fn explained(case: &Case, found: &mistakes::Explanation) -> Vec<Expla
         after: found.after,
         p_value: found.p_value,
         captures: case.evidence.named(&found.captures),
+        is_cause: is_cause(&found.finding),
         ..Explanation::new(code(&found.finding), found.finding.message(), vec![])
     };
     let left = case.evidence.names.len() - found.obsolete.len();
@@ -45,6 +46,14 @@ pub(super) fn explained(case: &Case, found: &mistakes::Explanation) -> Vec<Expla
         e.by_hand = Some(by_hand(&found.finding, &e.captures, left));
     }
     all
+}
+
+/// Whether a finding says what is wrong, and not only that something is.
+fn is_cause(finding: &Finding) -> bool {
+    !matches!(
+        finding,
+        Finding::Captures(CaptureFinding::Disagreeing { .. } | CaptureFinding::Repeated { .. })
+    )
 }
 
 /// The code of a mistake; two have had a name of their own in a check, and programs know it.

@@ -58,13 +58,16 @@ pub struct Explanation {
     pub changes: Vec<Change>,
     /// What the user has to do where no value of the manifest corrects it.
     pub by_hand: Option<String>,
+    /// It says what is wrong, and not only that something is.
+    #[serde(skip)]
+    pub(crate) is_cause: bool,
 }
 
 impl Explanation {
     /// A mistake with what corrects it, for which no score speaks.
     fn new(code: &'static str, message: String, changes: Vec<Change>) -> Self {
         let (after, p_value, captures, by_hand) = (None, None, vec![], None);
-        Self { code, message, after, p_value, captures, changes, by_hand }
+        Self { code, message, after, p_value, captures, changes, by_hand, is_cause: true }
     }
 
     /// The mistake with the keys that correct it.
@@ -241,9 +244,8 @@ pub(crate) fn basic_mistake(
 
 /// Another layout of the target, where the captures contradict one another and nothing explains it.
 fn add_layout(found: &mut Checkup, dataset: &Dataset) {
-    let explained = |e: &Explanation| !SAY_LITTLE.contains(&e.code);
     let most_agree = found.declared.is_some_and(|d| d.is_most(found.captures));
-    if found.ok || most_agree || found.explanations.iter().any(explained) {
+    if found.ok || most_agree || found.explanations.iter().any(|e| e.is_cause) {
         return;
     }
     if let Some(layout) = layout::layout_of_contradicting(dataset) {
@@ -273,8 +275,6 @@ fn add_touches(found: &mut Checkup, judged: &Judged) {
     found.explanations.extend(touches);
 }
 
-/// Codes of findings that say that something is wrong, but not what.
-const SAY_LITTLE: [&str; 2] = ["captures-disagree", "captures-repeated"];
 /// An answer may be one of so many; more are no answer.
 const MOST_ANSWERS: usize = 3;
 
@@ -285,8 +285,7 @@ pub(crate) fn diagnosis(dataset: &Dataset, measured: &Measured) -> Option<String
     }
     let found = examine(measured, &Judged::new(dataset, &measured.session)).ok()?;
     let first = found.explanations.get(..found.alike.max(1))?;
-    let is_answer = |e: &Explanation| !SAY_LITTLE.contains(&e.code);
-    if first.len() > MOST_ANSWERS || !first.iter().all(is_answer) {
+    if first.len() > MOST_ANSWERS || !first.iter().all(|e| e.is_cause) {
         return None;
     }
     let all: Vec<String> = first.iter().map(Explanation::sentence).collect();

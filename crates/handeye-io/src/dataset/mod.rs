@@ -41,6 +41,7 @@ pub(crate) use rereading::{Rereading, rereadings};
 pub use robot_file::{RobotFile, RobotPoses, columns, read_robot_poses};
 pub use shapes::Shape;
 pub use touches::FIXED_BOARD;
+pub(crate) use touches::without_labels;
 
 /// Name of the manifest in a folder.
 pub const MANIFEST: &str = "handeye.toml";

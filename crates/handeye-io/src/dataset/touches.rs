@@ -121,14 +121,12 @@ fn inline(point: &TouchPoint, source: &Source) -> Record {
 const LABELS: [&str; 6] = ["placement", "corner", "corner_id", "row", "column", "id"];
 
 /// The record without the columns that say what was touched.
-fn without_labels(record: &Record) -> Record {
-    let kept = record
-        .names
-        .iter()
-        .zip(&record.cells)
-        .filter(|(n, _)| !LABELS.contains(&n.to_lowercase().as_str()));
+pub(crate) fn without_labels(record: &Record) -> Record {
+    let name = |k: usize| record.names.get(k).cloned().unwrap_or_default();
+    let is_label = |k: &usize| LABELS.contains(&name(*k).to_lowercase().as_str());
+    let kept = (0..record.cells.len()).filter(|k| !is_label(k));
     let (names, cells): (Vec<String>, Vec<Cell>) =
-        kept.map(|(n, c)| (n.clone(), c.clone())).unzip();
+        kept.map(|k| (name(k), record.cells[k].clone())).unzip();
     let named = names.iter().all(|n| !n.is_empty());
     Record { names: if named { names } else { vec![] }, cells, ..record.clone() }
 }

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use handeye::model::print::Shape;
 
 use super::Sheet;
+use crate::xml::escape;
 
 /// The text of an SVG file.
 pub fn svg(sheet: &Sheet, title: &str) -> String {
@@ -14,7 +15,7 @@ pub fn svg(sheet: &Sheet, title: &str) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\">\n\
          <title>{}</title>\n<rect width=\"{w}\" height=\"{h}\" fill=\"white\"/>\n\
          <path fill=\"black\" d=\"{}\"/>\n",
-        escaped(title),
+        escape(title),
         outlines.join("\n")
     );
     for t in &sheet.texts {
@@ -24,7 +25,7 @@ pub fn svg(sheet: &Sheet, title: &str) -> String {
             mm(t.x),
             mm(t.y),
             mm(t.size),
-            escaped(&t.text)
+            escape(&t.text)
         );
     }
     text + "</svg>\n"
@@ -52,10 +53,6 @@ fn outline(shape: &Shape) -> String {
 fn mm(value: f64) -> String {
     let text = format!("{:.4}", value + 0.0);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

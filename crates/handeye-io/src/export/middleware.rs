@@ -3,7 +3,7 @@
 use handeye::{Setup, quaternion_xyzw};
 
 use super::{CameraPose, METRES, TURNS, number, numbers};
-use crate::robot::Notation;
+use crate::{robot::Notation, xml::escape};
 
 /// Translation and quaternion, `x y z qx qy qz qw`.
 fn seven(pose: &CameraPose) -> [String; 7] {
@@ -61,16 +61,12 @@ pub(super) fn urdf(pose: &CameraPose) -> String {
            <child link=\"{}\"/>\n  \
            <origin xyz=\"{}\" rpy=\"{}\"/>\n\
          </joint>\n",
-        escaped(pose.name),
-        escaped(pose.parent),
-        escaped(pose.child),
+        escape(pose.name),
+        escape(pose.parent),
+        escape(pose.child),
         seven(pose)[..3].join(" "),
         rpy(pose),
     )
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 pub(super) fn easy_handeye(pose: &CameraPose) -> String {
@@ -108,8 +104,8 @@ pub(super) fn moveit(pose: &CameraPose) -> String {
         seven(pose)[..3].join(" "),
         rpy(pose),
         seven(pose).join(" "),
-        escaped(pose.parent),
-        escaped(pose.child),
+        escape(pose.parent),
+        escape(pose.child),
     )
 }
 

@@ -14,6 +14,7 @@ use super::{
 };
 use crate::{
     camera::read_intrinsics,
+    dataset::without_labels,
     image::image_size,
     table::{self, Cell, Layout, Record},
     target_file::read_target,
@@ -215,17 +216,6 @@ fn touches(records: &[Record], group: &Group) -> Option<Touches> {
     let poses = poses(&values);
     let unit = unit(&values);
     Some(Touches { count: records.len(), placements, poses, unit })
-}
-
-const LABELS: [&str; 6] = ["placement", "corner", "corner_id", "row", "column", "id"];
-
-fn without_labels(record: &Record) -> Record {
-    let label = |k: usize| record.names.get(k).is_some_and(|n| LABELS.contains(&n.as_str()));
-    let kept = (0..record.cells.len()).filter(|k| !label(*k));
-    let (names, cells) = kept
-        .map(|k| (record.names.get(k).cloned().unwrap_or_default(), record.cells[k].clone()))
-        .unzip();
-    Record { names, cells, ..record.clone() }
 }
 
 // ---------------------------------------------------------------- poses

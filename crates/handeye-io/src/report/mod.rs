@@ -37,6 +37,8 @@ pub use registration::{NamedCloud, Registration, registration_html};
 pub use shown::{Shown, Thing, ThingCount, shown_html};
 pub use touch_test::{TouchTest, touch_test_html};
 
+use crate::xml::escape;
+
 /// What the page shows.
 pub struct Report<'a> {
     /// Name of the data set.
@@ -147,11 +149,6 @@ fn word(verdict: Verdict) -> &'static str {
         Verdict::Rejected => "Rejected",
         Verdict::Undetermined => "Undetermined",
     }
-}
-
-/// Text for HTML.
-pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 fn section(title: &str, class: &str, content: &str) -> String {

@@ -69,7 +69,6 @@ pub(super) fn estimate<'a>(
     };
     let (factor, later) = (unknown::scale(&fitted.fit), unknown::clock(&fitted.fit));
     evidence.unit_and_clock = task.unknown.found(factor, later);
-    evidence = evidence.with_open_unit_named();
     let Some(volume) = volume(&views, &fitted.fit) else {
         return Estimated { evidence, views: None, with_arm: None };
     };
@@ -180,14 +179,13 @@ fn compare(
     if config.method.is_none() {
         candidates.extend(joint.and_then(|j| judge.joint_candidate(j)));
         candidates.extend(judge.robot_candidate(fit));
-    } else if candidates.is_empty() && evidence.notes.undetermined.is_empty() {
+    } else if candidates.is_empty() && !evidence.is_open() {
         evidence.notes.add(named::failure(views, config).unwrap_or_default());
     }
     let mut chosen = choose(&candidates, judge.workpiece, volume, config);
     if config.method.is_some() {
         evidence.unit_and_clock = named::unit(views, task, &evidence);
-        let is_open = !evidence.notes.undetermined.is_empty() && !evidence.notes.rejects;
-        if is_open {
+        if evidence.is_open() && !evidence.notes.rejects {
             let own = chosen.map(|(own, _)| own).unwrap_or_default();
             chosen = Some(named::by_likeliest(views, fit, config, &evidence, own));
         }

@@ -1,8 +1,8 @@
 //! Residual of every capture and touch, and which way round the target lies.
 
 use crate::{
-    Camera, HandEye, Intrinsics, Mount, Observation, Placement, Point, Pose, Target, TargetModel,
-    TargetPose, Touch,
+    Camera, HandEye, ImageCorner, Intrinsics, Mount, Observation, Placement, Point, Pose, Target,
+    TargetModel, TargetPose, Touch,
     calibrate::{
         evidence::{Choice, Evidence},
         notes::Notes,
@@ -19,7 +19,7 @@ use crate::{
         touch_pairs::{self, TouchPairs},
     },
     findings::{TouchFinding, touches::Unseen},
-    math::lie,
+    math::{lie, linalg::root_mean},
     model::{residual::Residual, session::Session},
     solve::View,
 };
@@ -222,11 +222,7 @@ pub(super) fn with_residuals(views: &Views, mut found: Evidence) -> Evidence {
 
 /// The chosen answer about the target's first corner.
 fn answer(choice: &Choice, views: &Views) -> Option<HandEye> {
-    let stored = HandEye {
-        mount_from_camera: choice.hand_eye.mount_from_camera?,
-        anchor_from_target: choice.hand_eye.anchor_from_target?,
-    };
-    Some(stored.retarget(views.target_from_corner))
+    Some(choice.hand_eye.hand_eye()?.retarget(views.target_from_corner))
 }
 
 /// RMS distance (px) of corners to the target model seen from the image's own best pose.
@@ -237,13 +233,9 @@ fn picture_residual(
     relabel: &[u32],
     camera: &Intrinsics,
 ) -> Option<f64> {
-    let squares: Vec<f64> = o
-        .corners
-        .iter()
-        .filter_map(|c| {
-            let corner = target.corner(*relabel.get(c.id as usize)?)?;
-            Some((camera.project(&(*pose * corner).vector())? - c.pixel).norm_squared())
-        })
-        .collect();
-    (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+    let square = |c: &ImageCorner| {
+        let corner = target.corner(*relabel.get(c.id as usize)?)?;
+        Some((camera.project(&(*pose * corner).vector())? - c.pixel).norm_squared())
+    };
+    root_mean(o.corners.iter().filter_map(square))
 }

@@ -2,7 +2,7 @@
 
 use super::result::{Calibration, CaptureResult};
 use crate::{
-    Error, HandEye, PosePair, Warning,
+    Error, PosePair, Warning,
     estimate::certify::{Certificate, certify},
     solve::{self, Method},
 };
@@ -25,9 +25,7 @@ impl Calibration {
 /// # Errors
 /// As [`certify`].
 pub fn certify_result(result: &Calibration) -> Result<Option<Certificate>, Error> {
-    let both = result.hand_eye.mount_from_camera.zip(result.hand_eye.anchor_from_target);
-    let Some((mount_from_camera, anchor_from_target)) = both else { return Ok(None) };
-    let answer = HandEye { mount_from_camera, anchor_from_target };
+    let Some(answer) = result.hand_eye.hand_eye() else { return Ok(None) };
     let pair = |c: &CaptureResult| {
         Some(PosePair {
             anchor_from_mount: result.setup.anchor_from_mount(c.base_from_flange),

@@ -22,7 +22,7 @@ use crate::{
 const FORMAT: &str = "handeye-calibration-1";
 
 /// The unit of distances where it is not determined, in words.
-const SCALE: &str = "scale of the measured distances";
+pub(super) const SCALE: &str = "scale of the measured distances";
 
 /// The time offset where it is not determined, in words.
 pub(super) const TIME_OFFSET: &str = "time offset between camera and robot";
@@ -138,13 +138,9 @@ impl Evidence {
         self.captures.iter().any(|c| c.corners + c.corners_3d > 0)
     }
 
-    /// With the unit of distances among what is not determined, where it is not.
-    pub fn with_open_unit_named(mut self) -> Self {
-        let open = &mut self.notes.undetermined;
-        if self.unit_and_clock.scale.is_none() && !open.iter().any(|what| what == SCALE) {
-            open.push(SCALE.into());
-        }
-        self
+    /// Whether the data leave something undetermined.
+    pub fn is_open(&self) -> bool {
+        self.unit_and_clock.scale.is_none() || !self.notes.undetermined.is_empty()
     }
 
     /// The result, now that the verdict is known.

@@ -35,7 +35,7 @@ use crate::{
     },
     estimate::JointFit,
     findings::movement::{Movement, MovementKind},
-    math::{lie, statistics},
+    math::{lie, linalg::root_mean, statistics},
     register::rigid_fit::point_jacobian,
     solve::{consensus::Consensus, least_squares},
 };
@@ -173,7 +173,9 @@ fn block(recorded: &Recorded) -> Option<(Movement, Matrix6<f64>)> {
     let at_a_place = is_at_a_place(&recorded.poses, longest, &seen);
     let name = |i: usize| recorded.names[i].to_owned();
     let distance = match side {
-        Side::Camera => root_mean_square(rows.iter().map(|row| moved(&delta, &row.seen))),
+        Side::Camera => {
+            root_mean(rows.iter().map(|row| moved(&delta, &row.seen).powi(2))).unwrap_or(0.0)
+        }
         Side::Target => lie::nu(&delta).norm(),
     };
     let other = |s: Side| explained.iter().any(|(side, _)| *side == s);
@@ -260,11 +262,6 @@ fn moved(delta: &Vector6<f64>, seen: &Vector3<f64>) -> f64 {
     (lie::omega(delta).cross(seen) + lie::nu(delta)).norm()
 }
 
-fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0.0), |(s, n), x| (s + x * x, n + 1.0));
-    f64::sqrt(sum / f64::max(count, 1.0))
-}
-
 /// A step or a slip in the captures that agree, and the mean square of what it displaces the camera's pose by.
 fn gradual(recorded: &Recorded) -> Option<(Movement, Matrix6<f64>)> {
     let rows = &recorded.agreeing();
@@ -291,7 +288,9 @@ fn gradual(recorded: &Recorded) -> Option<(Movement, Matrix6<f64>)> {
     let (_, best, of_best) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
     let delta = Vector6::from_fn(|k, _| of_best.solution[12 + k]);
     let distance = match best.side {
-        Side::Camera => root_mean_square(rows.iter().map(|(_, row)| moved(&delta, &row.seen))),
+        Side::Camera => {
+            root_mean(rows.iter().map(|(_, row)| moved(&delta, &row.seen).powi(2))).unwrap_or(0.0)
+        }
         Side::Target => lie::nu(&delta).norm(),
     };
     let name = |k: usize| recorded.names[rows[k].0].to_owned();
@@ -324,7 +323,7 @@ pub(super) fn covered(found: Suspected, mut evidence: Evidence) -> Evidence {
                 let j = point_jacobian(p);
                 (j * spread * j.transpose()).trace()
             });
-            movement.widened_mm = root_mean_square(squares.map(f64::sqrt)) * 1e3;
+            movement.widened_mm = root_mean(squares).unwrap_or(0.0) * 1e3;
             *stated = Some(rows(&(own + spread)));
         }
         choice.predicted_tre_mm =

@@ -55,9 +55,7 @@ pub(super) fn failure(views: &Views, config: &Config) -> Option<Notes> {
 /// The unit of the distances as the method has found it, where it does.
 pub(super) fn unit(views: &Views, task: &Task, found: &Evidence) -> UnitAndClock {
     let estimated = found.unit_and_clock;
-    if task.config.method != Some(solve::Method::AndreffScaled)
-        || !found.notes.undetermined.is_empty()
-    {
+    if task.config.method != Some(solve::Method::AndreffScaled) || found.is_open() {
         return estimated;
     }
     match solve::andreff::solve_with_scale(&views::pairs_of(views)) {

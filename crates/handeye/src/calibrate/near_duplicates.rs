@@ -35,7 +35,7 @@ const IMPROBABLE: f64 = 1e-3;
 /// The session without captures whose errors are those of another one at the same place, as an answer shows them.
 pub(super) fn take_out(session: &Session, found: &Calibration) -> (Session, Uncounted) {
     let all_count = || (session.clone(), Uncounted::none());
-    let Some(hand_eye) = answer(found) else { return all_count() };
+    let Some(hand_eye) = found.hand_eye.hand_eye() else { return all_count() };
     // rejected ones as well: where places differ, captures of one agree with each other alone
     let places = places(&session.observations);
     if !errors_belong_to(&places, |i| residual(session, &hand_eye, i)) {
@@ -52,13 +52,6 @@ pub(super) fn take_out(session: &Session, found: &Calibration) -> (Session, Unco
         }
     }
     (Session { observations: kept, ..session.clone() }, Uncounted::of_one_place(out))
-}
-
-fn answer(found: &Calibration) -> Option<HandEye> {
-    Some(HandEye {
-        mount_from_camera: found.hand_eye.mount_from_camera?,
-        anchor_from_target: found.hand_eye.anchor_from_target?,
-    })
 }
 
 /// Captures in groups about the first of each place.

@@ -9,7 +9,8 @@ use nalgebra::{Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Anchor, Base, Camera, Flange, Intrinsics, Mount, Pose, Setup, Target, Verdict, Warning,
+    Anchor, Base, Camera, Flange, HandEye, Intrinsics, Mount, Pose, Setup, Target, Verdict,
+    Warning,
     estimate::{
         Source,
         certify::Certificate,
@@ -61,6 +62,16 @@ pub struct Answer {
     /// Covariance of both, 6 x 6.
     #[serde(default)]
     pub covariance: PoseCovariance,
+}
+
+impl Answer {
+    /// Both poses, where both are determined.
+    pub(crate) fn hand_eye(&self) -> Option<HandEye> {
+        Some(HandEye {
+            mount_from_camera: self.mount_from_camera?,
+            anchor_from_target: self.anchor_from_target?,
+        })
+    }
 }
 
 /// One way to the answer, beside the others.

@@ -97,7 +97,7 @@ pub(super) fn with_drift(
         && session.correspondences.is_empty()
         && session.known_position.is_none()
         && session.observations.iter().all(|o| o.corners.is_empty() && o.candidates.len() == 1);
-    let Some(start) = answer(plain) else { return Ok(None) };
+    let Some(start) = plain.hand_eye.hand_eye() else { return Ok(None) };
     if !bare || task.config.method.is_some() || plain.warnings.iter().any(is_no_drift) {
         return Ok(None);
     }
@@ -136,13 +136,6 @@ fn loose(found: &DriftFit, plain: &Calibration) -> Calibration {
         drift.in_words()
     )];
     plain.clone().rejected_for(reasons).noting([StreamFinding::Drift { drift, is_fitted: false }])
-}
-
-fn answer(plain: &Calibration) -> Option<HandEye> {
-    Some(HandEye {
-        mount_from_camera: plain.hand_eye.mount_from_camera?,
-        anchor_from_target: plain.hand_eye.anchor_from_target?,
-    })
 }
 
 /// Which captures of the session the result rests on.

@@ -8,7 +8,7 @@ use crate::{
     Camera, Mount, Pose, Setup,
     calibrate::{
         config::Config,
-        evidence::{Choice, Evidence},
+        evidence::{Choice, Evidence, SCALE},
         limits::{BELIEVABLE, FEWEST_HELD_OUT, LEAST_AGREEING, MOST_PREDICTED_MM},
         result::{Answer, Calibration, Determined},
     },
@@ -21,13 +21,15 @@ use crate::{
 /// The result with its verdict: reasons against the answer first.
 pub(super) fn judge(setup: Setup, config: &Config, mut found: Evidence) -> Calibration {
     let contradictions = contradictions(&found);
-    found = found.with_open_unit_named();
     if found.notes.rejects || !contradictions.is_empty() {
         // data that contradict themselves leave nothing to determine
         found.notes.undetermined.clear();
         found.determined = None;
         found.notes.reasons.extend(contradictions);
         return found.into_result(setup, Verdict::Rejected);
+    }
+    if found.unit_and_clock.scale.is_none() {
+        found.notes.undetermined.insert(0, SCALE.into());
     }
     let imprecise = imprecision(config, &found);
     let has_answer = found.choice.as_ref().is_some_and(|c| c.hand_eye.mount_from_camera.is_some());

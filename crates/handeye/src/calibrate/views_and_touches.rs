@@ -23,7 +23,7 @@ use crate::{
         joint,
     },
     findings::TouchFinding,
-    math::statistics,
+    math::{linalg::root_mean, statistics},
     model::residual::Residual,
 };
 
@@ -264,7 +264,7 @@ impl Joint {
     pub(super) fn touch_rms(&self) -> Option<f64> {
         let residuals =
             self.problem.boards.iter().flat_map(|b| self.fit.touch_residuals(&self.problem, b));
-        root_mean_square(residuals.map(|e| e.norm_squared()))
+        root_mean(residuals.map(|e| e.norm_squared()))
     }
 
     /// RMS distance (m) of tip and corner over touches left out of the fit: one board at a time
@@ -287,7 +287,7 @@ impl Joint {
                 squares.extend(self.missed(&without, &alone, known));
             }
         }
-        root_mean_square(squares.into_iter())
+        root_mean(squares)
     }
 
     fn missed(&self, without: &Problem, board: &TouchedBoard, known: &KnownNoise) -> Vec<f64> {
@@ -380,9 +380,4 @@ pub(super) fn held_out_views(problem: &Problem, fit: &JointFit, known: &KnownNoi
         }
     }
     found
-}
-
-fn root_mean_square(squares: impl Iterator<Item = f64>) -> Option<f64> {
-    let (sum, count) = squares.fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
-    (count > 0.0).then(|| f64::sqrt(sum / count))
 }

@@ -9,7 +9,10 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::view::{Sighting, View};
-use crate::{ImageCorner, Intrinsics, TargetModel, math::linalg::median};
+use crate::{
+    ImageCorner, Intrinsics, TargetModel,
+    math::linalg::{median, root_mean},
+};
 
 /// Fewer corners leave nothing beside the homography's eight numbers.
 const FEWEST_CORNERS: usize = 6;
@@ -50,8 +53,7 @@ pub fn residuals(
 
 /// Root of the mean squared length of residuals, px.
 pub fn rms(residuals: &[Vector2<f64>]) -> f64 {
-    let sum: f64 = residuals.iter().map(|r| r.norm_squared()).sum();
-    (sum / residuals.len().max(1) as f64).sqrt()
+    root_mean(residuals.iter().map(|r| r.norm_squared())).unwrap_or(0.0)
 }
 
 fn sighting(corner: &ImageCorner, target: &TargetModel) -> Option<Sighting> {

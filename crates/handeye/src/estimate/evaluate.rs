@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Error, HandEye, Intrinsics, Observation, PosePair, Setup, TargetModel,
     estimate::predict::Volume,
+    math::linalg::root_mean,
     model::residual::Residual,
     solve::{self, Method, View, least_squares, motions},
 };
@@ -111,11 +112,8 @@ pub(crate) fn placed_without(
 
 /// Root mean squares of residuals; those that are missing are left out.
 pub fn rms(residuals: &[Option<Residual>]) -> RmsResidual {
-    let all: Vec<Residual> = residuals.iter().flatten().copied().collect();
-    let mean = |part: fn(&Residual) -> f64| {
-        let sum: f64 = all.iter().map(|m| part(m).powi(2)).sum();
-        (!all.is_empty()).then(|| (sum / all.len() as f64).sqrt())
-    };
+    let mean =
+        |part: fn(&Residual) -> f64| root_mean(residuals.iter().flatten().map(|m| part(m).powi(2)));
     RmsResidual {
         rotation_rms_deg: mean(|m| m.angle).map(f64::to_degrees),
         translation_rms_mm: mean(|m| m.distance).map(|t| t * 1e3),

@@ -13,7 +13,7 @@ use crate::{
     detect::target_poses,
     math::{
         lie::{self, hat},
-        linalg::median,
+        linalg::{median, root_mean},
         optimize::{self, Damping, Problem, Rules, Singular, Stop, Tried},
     },
     model::camera::LENS_PARAMETERS,
@@ -196,7 +196,7 @@ impl Adjustment {
     }
 
     pub fn rms(&self) -> f64 {
-        root_mean(&self.squares(|c| c.weight > 0.0))
+        root_mean(self.squares(|c| c.weight > 0.0)).unwrap_or(0.0)
     }
 
     /// Schwarz's criterion on the best 95 % of the residuals.
@@ -344,13 +344,11 @@ impl Adjustment {
 
     fn view_fit(&self, view: &View) -> ViewFit {
         let used = view.corners.iter().filter(|c| c.weight > 0.0);
-        let squares: Vec<f64> = used
-            .filter_map(|c| residual(&self.camera, &view.pose, c))
-            .map(|r| r.norm_squared())
-            .collect();
+        let squares =
+            used.filter_map(|c| residual(&self.camera, &view.pose, c)).map(|r| r.norm_squared());
         ViewFit {
             camera_from_target: Some(Pose::claim(view.pose)),
-            rms_px: root_mean(&squares),
+            rms_px: root_mean(squares).unwrap_or(0.0),
             left_out: view.corners.iter().filter(|c| c.weight <= 0.0).map(|c| c.id).collect(),
         }
     }
@@ -416,8 +414,4 @@ pub(super) fn linearised(
     by_pose.fixed_view_mut::<2, 3>(0, 0).copy_from(&(-turned * hat(&corner.in_target)));
     by_pose.fixed_view_mut::<2, 3>(0, 3).copy_from(&turned);
     Some((pixel - corner.pixel, camera.by_lens(&point), by_pose))
-}
-
-pub(super) fn root_mean(squares: &[f64]) -> f64 {
-    (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
 }

@@ -4,7 +4,7 @@ use super::{
 };
 use crate::{
     Distortion,
-    math::{lie, random::Random},
+    math::{lie, linalg::root_mean, random::Random},
     model::camera::LENS_PARAMETERS,
 };
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3, Vector6};
@@ -111,7 +111,7 @@ fn apart(truth: &Intrinsics, found: &Intrinsics, views: &[Vec<ImageCorner>]) -> 
         let ray = truth.ray(&corner.pixel).unwrap();
         (found.project(&ray).unwrap() - corner.pixel).norm_squared()
     };
-    root_mean(&views.iter().flatten().map(off).collect::<Vec<_>>())
+    root_mean(views.iter().flatten().map(off)).unwrap()
 }
 
 #[test]

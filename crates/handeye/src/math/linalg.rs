@@ -151,16 +151,23 @@ pub(crate) fn inverse_spd(m: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(inverse)
 }
 
-/// Inverse of a symmetric matrix in which directions may be free: these get the standard deviation
-/// `sigma`.
-pub(crate) fn inverse_with_free(m: &DMatrix<f64>, sigma: f64) -> Option<DMatrix<f64>> {
+/// Standard deviation (rad, m) of what nothing determines: far beyond any answer, and yet a number that the algebra can
+/// work with. No measurement notices it.
+pub(crate) const FREE_SIGMA: f64 = 10.0;
+
+/// Inverse of an information matrix in which directions may be free: these get [`FREE_SIGMA`].
+pub(crate) fn inverse_with_free(m: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    inverse_spd(m).or_else(|| inverse_by_eigenvalues(m))
+}
+
+fn inverse_by_eigenvalues(m: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (scaled, scale) = scaled(m)?;
     let eigen = scaled.symmetric_eigen();
     let n = m.nrows();
     let mut inverse = DMatrix::zeros(n, n);
     for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
         let direction = vector.component_mul(&scale);
-        let free = sigma * sigma / direction.norm_squared();
+        let free = FREE_SIGMA * FREE_SIGMA / direction.norm_squared();
         let variance = if *value > LEAST_EIGENVALUE { 1.0 / value } else { free };
         inverse.ger(variance, &direction, &direction, 1.0);
     }
@@ -173,6 +180,12 @@ const LEAST_EIGENVALUE: f64 = 1e-13;
 /// Row and column of every entry, in the order of storage.
 fn indices(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(move |j| (0..n).map(move |i| (i, j)))
+}
+
+/// Root of the mean of squares; `None` of nothing.
+pub fn root_mean(squares: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = squares.into_iter().fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+    (count > 0.0).then(|| f64::sqrt(sum / count))
 }
 
 /// The middle value, the mean of the middle two of an even number; 0 of none.

@@ -10,7 +10,7 @@
 
 use super::{
     evidence::{Convention, Evidence, Explanation},
-    score::{combined, pair, scored},
+    score::{combined, scored},
     thresholds::SIFTED,
 };
 use crate::{
@@ -56,7 +56,7 @@ fn convention(evidence: &Evidence, k: usize) -> Option<Explanation> {
 /// One closed form over all captures in their first pose candidates; a robot of one axis has its own.
 fn quick_score(captures: &[Readings]) -> f64 {
     let pairs: Vec<PosePair> =
-        captures.iter().filter(|c| !c.camera_from_target.is_empty()).map(|c| pair(c, 0)).collect();
+        captures.iter().filter(|c| !c.camera_from_target.is_empty()).map(|c| c.pair(0)).collect();
     let found = solve::solve(&pairs, Method::Shah).ok().or_else(|| few_axes::solve(&pairs));
     found.map_or(f64::INFINITY, |found| {
         combined(&pairs.iter().map(|p| found.loop_residual(p)).collect::<Vec<_>>())

@@ -23,7 +23,7 @@ use crate::{
     TargetModel,
     detect::surface::tukey,
     math::{
-        linalg::median,
+        linalg::{median, root_mean},
         statistics::{self, MAD},
     },
 };
@@ -139,7 +139,7 @@ pub fn flatness(captures: &[Vec<ScanCorner>]) -> Option<Flatness> {
         if freedom > 0.0 { (all.iter().map(off).sum::<f64>() / freedom).max(1.0) } else { 1.0 };
     let map = map(&all);
     let places: Vec<Vector2<f64>> = map.iter().map(|d| d.at).collect();
-    let rms_m = rms(map.iter().map(|d| d.height_m));
+    let rms_m = root_mean(map.iter().map(|d| d.height_m.powi(2))).unwrap_or(0.0);
     let f = curvature.dot(&(information * curvature)) / (3.0 * excess);
     let chance = if freedom > 0.0 {
         statistics::of_f(f, (3.0, freedom))
@@ -152,16 +152,14 @@ pub fn flatness(captures: &[Vec<ScanCorner>]) -> Option<Flatness> {
     Some(Flatness { board, captures, map, corner_sigma_m: median(variances).sqrt() })
 }
 
-fn rms(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), v| (sum + v * v, count + 1.0));
-    (sum / f64::max(count, 1.0)).sqrt()
-}
-
 fn own_bend(s: &Surface, scale: &Scale) -> Option<Bend> {
     let places: Vec<Vector2<f64>> = s.deviations.iter().map(|d| d.0).collect();
     let covariance = s.information.cholesky()?.inverse();
     let chi2 = s.curvature.dot(&(s.information * s.curvature));
-    let told = (rms(s.deviations.iter().map(|d| d.1)), statistics::of_chi_square(chi2, 3));
+    let told = (
+        root_mean(s.deviations.iter().map(|d| d.1.powi(2))).unwrap_or(0.0),
+        statistics::of_chi_square(chi2, 3),
+    );
     Some(bend(&s.curvature, &covariance, &places, scale, told))
 }
 

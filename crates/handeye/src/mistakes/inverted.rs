@@ -4,7 +4,7 @@
 //! those inverted: `A⁻¹ X = Y B` is `A Y = X B⁻¹`. One fit with the robot poses inverted stands for all of them.
 
 use super::{
-    score::{Score, combined, pair, scored},
+    score::{Score, combined, scored},
     thresholds::{EXPLAINS, FEWEST_TO_JUDGE, LARGE, ROUNDING},
 };
 use crate::{
@@ -54,7 +54,7 @@ fn cannot_explain(inverted: &[Readings], before: &Score) -> bool {
     if before.agree < inverted.len() || inverted.iter().any(|c| c.camera_from_target.len() != 1) {
         return false;
     }
-    let pairs: Vec<PosePair> = inverted.iter().map(|c| pair(c, 0)).collect();
+    let pairs: Vec<PosePair> = inverted.iter().map(|c| c.pair(0)).collect();
     let Ok(hand_eye) = solve(&pairs, Method::Shah) else { return false };
     let residuals: Vec<Residual> = pairs.iter().map(|p| hand_eye.loop_residual(p)).collect();
     combined(&residuals) > CLOSED_FORM * before.score

@@ -5,7 +5,7 @@
 
 use super::{
     frozen::is_same_robot,
-    score::{agreeing, pair},
+    score::agreeing,
     thresholds::{AS_GOOD, LEAST_TYPICAL, NEARLY, RESTORABLE, RESTORED},
 };
 use crate::{
@@ -49,7 +49,7 @@ impl<'a> Outliers<'a> {
     /// Captures against what they agree on, without a fit and its noise.
     pub fn unfitted(captures: &'a [Readings], found: &'a Consensus) -> Self {
         let of = |c: &Readings| {
-            let with = |k| View::bare(pair(c, k));
+            let with = |k| View::bare(c.pair(k));
             (0..c.camera_from_target.len()).map(with).collect()
         };
         Self::new(captures, captures.iter().map(of).collect(), found, None)

@@ -11,7 +11,6 @@
 
 use super::thresholds::{BELIEVABLE, UNIT};
 use crate::{
-    PosePair,
     model::residual::Residual,
     solve::consensus::{self, Consensus, Readings},
 };
@@ -34,7 +33,7 @@ impl Score {
     pub(crate) fn new(captures: &[Readings], found: &Consensus) -> Self {
         let all: Vec<Residual> = (0..captures.len())
             .filter(|&i| !captures[i].camera_from_target.is_empty())
-            .map(|i| found.hand_eye.loop_residual(&pair(&captures[i], found.reading[i])))
+            .map(|i| found.hand_eye.loop_residual(&captures[i].pair(found.reading[i])))
             .collect();
         let median = Residual::median(&all);
         // the consensus compares captures with one another: bad ones that are alike would agree
@@ -63,14 +62,6 @@ pub fn scored(captures: &[Readings]) -> Option<(Score, Consensus)> {
 pub(super) fn combined(all: &[Residual]) -> f64 {
     let log = |r: &Residual| r.over(UNIT).powi(2).ln_1p();
     (all.iter().map(log).sum::<f64>() / all.len().max(1) as f64).exp_m1().sqrt()
-}
-
-/// A capture with one of its pose candidates.
-pub(super) fn pair(capture: &Readings, candidate: usize) -> PosePair {
-    PosePair {
-        anchor_from_mount: capture.anchor_from_mount,
-        camera_from_target: capture.camera_from_target[candidate],
-    }
 }
 
 /// Captures that agree.

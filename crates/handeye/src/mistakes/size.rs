@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, SMatrix};
 use super::{
     evidence::{Evidence, Explanation},
     frozen::is_same_robot,
-    score::{Score, agreeing, pair, scored},
+    score::{Score, agreeing, scored},
     size_cause::cause_of_size,
     thresholds::{FEWEST, IMPROBABLE_SIZE, LEAST_SIZE_ERROR, MOST_AGREE, MOST_UNCERTAIN, REACH},
 };
@@ -136,11 +136,11 @@ fn fitted(captures: &[Readings]) -> Option<(Vec<PosePair>, HandEye)> {
     let found = consensus::consensus(captures).ok()?;
     let used = agreeing(&found);
     if used.len() as f64 >= MOST_AGREE * captures.len() as f64 && used.len() >= FEWEST {
-        let pairs: Vec<_> = used.iter().map(|&i| pair(&captures[i], found.reading[i])).collect();
+        let pairs: Vec<_> = used.iter().map(|&i| captures[i].pair(found.reading[i])).collect();
         return closed_form(pairs);
     }
     let readable = (0..captures.len()).filter(|&i| !captures[i].camera_from_target.is_empty());
-    closed_form(readable.map(|i| pair(&captures[i], found.reading[i])).collect())
+    closed_form(readable.map(|i| captures[i].pair(found.reading[i])).collect())
 }
 
 fn closed_form(pairs: Vec<PosePair>) -> Option<(Vec<PosePair>, HandEye)> {

@@ -38,6 +38,16 @@ pub struct Readings {
     pub camera_from_target: Vec<Pose<Camera, Target>>,
 }
 
+impl Readings {
+    /// The capture with one of its readings.
+    pub(crate) fn pair(&self, reading: usize) -> PosePair {
+        PosePair {
+            anchor_from_mount: self.anchor_from_mount,
+            camera_from_target: self.camera_from_target[reading],
+        }
+    }
+}
+
 /// What most captures agree on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Consensus {
@@ -71,7 +81,7 @@ const METRES_PER_RAD: f64 = 0.3;
 pub fn consensus(captures: &[Readings]) -> Result<Consensus, Error> {
     let readable: Vec<usize> =
         (0..captures.len()).filter(|&i| !captures[i].camera_from_target.is_empty()).collect();
-    let first: Vec<PosePair> = readable.iter().map(|&i| pair(&captures[i], 0)).collect();
+    let first: Vec<PosePair> = readable.iter().map(|&i| captures[i].pair(0)).collect();
     if first.len() < FEWEST_POSES {
         return Err(solve::too_few(first.len()));
     }
@@ -103,7 +113,7 @@ fn harden(captures: &[Readings], hand_eye: &HandEye) -> HandEye {
     let (found, sigma) = settle(captures, *hand_eye);
     let readable = (0..captures.len()).filter(|&i| !captures[i].camera_from_target.is_empty());
     let views: Vec<View> =
-        readable.map(|i| View::bare(pair(&captures[i], found.reading[i]))).collect();
+        readable.map(|i| View::bare(captures[i].pair(found.reading[i]))).collect();
     graduated(&views, hand_eye, sigma, GATE)
 }
 
@@ -113,13 +123,6 @@ fn no_agreement() -> Error {
                camera's have different rotation angles. Are the images and the robot poses of \
                the same captures, in the same order, and the poses read in the right notation?"
             .into(),
-    }
-}
-
-fn pair(capture: &Readings, reading: usize) -> PosePair {
-    PosePair {
-        anchor_from_mount: capture.anchor_from_mount,
-        camera_from_target: capture.camera_from_target[reading],
     }
 }
 
@@ -138,10 +141,10 @@ fn hypotheses(captures: &[Readings], triple: [usize; 3], two_axes: bool) -> Vec<
     let mut allowed: Vec<(f64, [PosePair; 3])> = Vec::new();
     for a in 0..i.camera_from_target.len() {
         for b in 0..j.camera_from_target.len() {
-            let (first, second) = (pair(i, a), pair(j, b));
+            let (first, second) = (i.pair(a), j.pair(b));
             let Some(one) = angle_residual(&first, &second) else { continue };
             for c in 0..k.camera_from_target.len() {
-                let third = pair(k, c);
+                let third = k.pair(c);
                 let (Some(two), Some(three)) =
                     (angle_residual(&first, &third), angle_residual(&second, &third))
                 else {
@@ -180,7 +183,7 @@ fn distance(hand_eye: &HandEye, pair: &PosePair) -> f64 {
 /// The reading that fits best, and its `d²`.
 fn best_reading(capture: &Readings, hand_eye: &HandEye) -> Option<(usize, f64)> {
     (0..capture.camera_from_target.len())
-        .map(|k| (k, distance(hand_eye, &pair(capture, k))))
+        .map(|k| (k, distance(hand_eye, &capture.pair(k))))
         .min_by(|x, y| x.1.total_cmp(&y.1))
 }
 
@@ -205,7 +208,7 @@ fn polish(captures: &[Readings], start: HandEye) -> HandEye {
             break;
         }
         let views: Vec<View> =
-            chosen.iter().map(|&(i, k)| View::bare(pair(&captures[i], k))).collect();
+            chosen.iter().map(|&(i, k)| View::bare(captures[i].pair(k))).collect();
         hand_eye = fit_fixed_weights(&views, &hand_eye, METRES_PER_RAD);
         last = chosen;
     }
@@ -244,7 +247,7 @@ fn settle(captures: &[Readings], hand_eye: HandEye) -> (Consensus, Residual) {
     let parts: Vec<Option<Residual>> = captures
         .iter()
         .zip(&best)
-        .map(|(c, b)| b.map(|(k, _)| hand_eye.loop_residual(&pair(c, k))))
+        .map(|(c, b)| b.map(|(k, _)| hand_eye.loop_residual(&c.pair(k))))
         .collect();
     let sigma = |part: fn(&Residual) -> f64, least: f64| {
         // the median of a chi-distributed length with three degrees of freedom is 1.538 sigma;

@@ -22,7 +22,7 @@ use crate::{
     Anchor, Camera, Error, Mount, Point, Pose,
     math::{
         lie,
-        linalg::median,
+        linalg::{self, FREE_SIGMA, median},
         optimize::{self, Damping, Problem, Rules, Singular, Tried},
         random::Random,
         subsets::{self, Draw},
@@ -86,8 +86,6 @@ const RULES: Rules = Rules {
 const STEP: f64 = 1e-12;
 /// Rounds of fit, noise and agreement.
 const ROUNDS: usize = 6;
-/// Standard deviation of what nothing determines.
-const FREE_SIGMA: f64 = 10.0;
 /// Least standard deviation of a centre, m.
 const LEAST_SIGMA: f64 = 1e-7;
 
@@ -164,12 +162,11 @@ pub(crate) fn fit_points(views: &[PointView]) -> Result<PointFit, Error> {
     state = descend(&used, state, Some(robot), STEPS.1);
     let mut h = Weighted { views: &used, robot: Some(robot) }.normal(&state).h;
     (0..9).for_each(|k| h[(k, k)] += FREE_SIGMA.powi(-2));
-    let covariance =
-        crate::math::linalg::inverse_spd(&nalgebra::DMatrix::from_column_slice(9, 9, h.as_slice()))
-            .map_or_else(
-                || Nine::identity() * FREE_SIGMA.powi(2),
-                |c| Nine::from_column_slice(c.as_slice()),
-            );
+    let covariance = linalg::inverse_spd(&nalgebra::DMatrix::from_column_slice(9, 9, h.as_slice()))
+        .map_or_else(
+            || Nine::identity() * FREE_SIGMA.powi(2),
+            |c| Nine::from_column_slice(c.as_slice()),
+        );
     Ok(PointFit {
         mount_from_camera: state.x,
         in_anchor: Point::from_vector(state.p),

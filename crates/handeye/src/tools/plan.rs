@@ -25,7 +25,7 @@ use crate::{
         predict::{self, PredictedTre, Volume},
         touch_pairs::small_sample,
     },
-    math::linalg,
+    math::linalg::{self, FREE_SIGMA},
     model::residual::Residual,
     register::rigid_fit::point_jacobian,
     solve::{
@@ -98,8 +98,6 @@ pub struct Choice {
 
 /// Poses up to this many are chosen for what they determine, further ones for the error.
 const FIRST: usize = 6;
-/// Standard deviation (rad, m) of where camera and target sit before anything is measured.
-const FREE_SIGMA: f64 = 10.0;
 /// Robots err alike in poses that are alike: turned and shifted by less, a second one
 /// tells nothing new.
 const ALIKE: Residual = Residual { angle: 0.05, distance: 0.02 };

@@ -10,7 +10,10 @@ use crate::{
     HandEye,
     detect::sight::Sight,
     estimate::drift::sequence::{Drift, EXTRAS, Levels, Sequence, Side, Slow},
-    math::{lie, linalg},
+    math::{
+        lie,
+        linalg::{self, FREE_SIGMA},
+    },
     solve::least_squares,
 };
 
@@ -26,8 +29,6 @@ pub(super) type Square = SMatrix<f64, STATE, STATE>;
 type Gain = SMatrix<f64, STATE, 6>;
 pub(super) type See = SMatrix<f64, 6, STATE>;
 
-/// Standard deviation (rad, m) of what nothing determines.
-pub(super) const FREE_SIGMA: f64 = 10.0;
 /// One view, about where the fit stands.
 pub(super) struct Line {
     pub rows: Rows,
@@ -196,7 +197,7 @@ impl Filtered {
 }
 
 pub(super) fn covariance(h: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    linalg::inverse_spd(h).or_else(|| linalg::inverse_with_free(h, FREE_SIGMA))
+    linalg::inverse_with_free(h)
 }
 
 /// One view on the way forward, for the way back.

@@ -2,7 +2,11 @@ use super::{kalman::*, *};
 use crate::{
     PosePair, Setup,
     estimate::{NoiseModel, drift::sequence::Side, noise::Sigma},
-    math::{lie, linalg, random::Random},
+    math::{
+        lie,
+        linalg::{self, FREE_SIGMA},
+        random::Random,
+    },
     solve::{
         View,
         tests::{exact_pairs, truths},

@@ -27,7 +27,7 @@ use crate::{
         system::state::{BoardBlock, Level, State, System},
     },
     math::{
-        linalg,
+        linalg::{self, FREE_SIGMA},
         optimize::{self, Damping, Rules, Singular, Tried},
     },
     solve::least_squares,
@@ -53,10 +53,6 @@ const RULES: Rules = Rules {
     slack: 1e-12,
     singular: Singular::IsDamped,
 };
-
-/// Standard deviation (rad, m) of what nothing determines: far beyond any answer, and yet a number
-/// that the algebra can work with. No measurement notices it.
-const FREE_SIGMA: f64 = 10.0;
 
 impl System {
     pub fn at(problem: &Problem, state: &State) -> Self {
@@ -120,7 +116,7 @@ impl System {
 
     /// Inverse of the information; what the data leave free has [`FREE_SIGMA`].
     fn covariance(&self) -> Option<DMatrix<f64>> {
-        linalg::inverse_spd(&self.h).or_else(|| linalg::inverse_with_free(&self.h, FREE_SIGMA))
+        linalg::inverse_with_free(&self.h)
     }
 
     /// The same, believed only as far as it is not the robot's own noise that passes for information.

@@ -15,10 +15,13 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::{FREE_SIGMA, NoiseModel, views::divide};
+use super::{NoiseModel, views::divide};
 use crate::{
     estimate::system::state::System,
-    math::{lie, linalg},
+    math::{
+        lie,
+        linalg::{self, FREE_SIGMA},
+    },
 };
 
 /// Columns of a view's factor that are the robot's.
