@@ -289,9 +289,10 @@ fn shape_findings(session: &Session, fit: &JointFit) -> Vec<TargetFinding> {
 
 /// What lens model and print typically leave in a corner, px.
 pub(super) fn excess(session: &Session, target: &TargetModel, camera: &Intrinsics) -> Option<f64> {
-    let pictures = session.observations.iter().map(|o| o.corners.as_slice());
-    let placed = session.placements.iter().map(|p| p.corners.as_slice());
-    detect::typical_excess(pictures.chain(placed).filter(|c| !c.is_empty()), target, camera)
+    let pictures = session.observations.iter().map(|o| (&o.corners[..], &o.candidates[..]));
+    let placed = session.placements.iter().map(|p| (&p.corners[..], &p.candidates[..]));
+    let all = pictures.chain(placed).filter(|(corners, _)| !corners.is_empty());
+    detect::typical_excess_near(all, target, camera)
 }
 
 /// The views, each with what its corners know of camera and depth.

@@ -110,9 +110,21 @@ pub fn typical_excess<'a>(
     target: &TargetModel,
     intrinsics: &Intrinsics,
 ) -> Option<f64> {
-    let excess = |corners: &[ImageCorner]| {
-        let poses = target_poses(corners, &[], target, intrinsics).ok()?;
-        poses.first().map(|p| p.excess_px)
+    typical_excess_near(pictures.into_iter().map(|corners| (corners, &[][..])), target, intrinsics)
+}
+
+/// As [`typical_excess`], of images with poses of the target that are nearly right.
+pub(crate) fn typical_excess_near<'a>(
+    pictures: impl IntoIterator<Item = (&'a [ImageCorner], &'a [TargetPose])>,
+    target: &TargetModel,
+    intrinsics: &Intrinsics,
+) -> Option<f64> {
+    let excess = |(corners, poses): (&[ImageCorner], &[TargetPose])| {
+        let mut fit = Fit::new(corners, &[], target, intrinsics).ok()?;
+        let near = fit.nearest(poses).and_then(|start| fit.polish(start));
+        let posed = near
+            .or_else(|| target_poses(corners, &[], target, intrinsics).ok()?.into_iter().next());
+        posed.map(|p| p.excess_px)
     };
     let all: Vec<f64> = pictures.into_iter().filter_map(excess).collect();
     (all.len() >= FEWEST_TYPICAL).then(|| median(all))

@@ -1,5 +1,5 @@
 use super::{
-    adjustment::{Corner, Shared, linearised, residual, root_mean},
+    adjustment::{Corner, Shared, linearised, residual},
     *,
 };
 use crate::{

@@ -60,6 +60,19 @@ pub(in crate::detect) struct Felt {
     pub weight: f64,
 }
 
+/// A pose, ready for many points.
+pub(in crate::detect) struct At {
+    rotation: Matrix3<f64>,
+    translation: Vector3<f64>,
+}
+
+impl At {
+    pub fn of(pose: &Isometry3<f64>) -> Self {
+        let rotation = pose.rotation.to_rotation_matrix().into_inner();
+        Self { rotation, translation: pose.translation.vector }
+    }
+}
+
 pub(in crate::detect) struct Fit<'a> {
     pub seen: Vec<Seen>,
     pub felt: Vec<Felt>,
@@ -144,6 +157,16 @@ impl<'a> Fit<'a> {
         self.summary(&pose)
     }
 
+    /// The pose among these that fits best as it is.
+    pub fn nearest(&self, poses: &[TargetPose]) -> Option<Isometry3<f64>> {
+        let with_cost = |p: &TargetPose| {
+            let pose = *p.camera_from_target.iso();
+            (self.linearise(&pose).cost, pose)
+        };
+        let nearest = poses.iter().map(with_cost).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        nearest.0.is_finite().then_some(nearest.1)
+    }
+
     fn reweight(&mut self, weight: impl Fn(f64) -> f64) {
         self.seen.iter_mut().for_each(|c| c.weight = weight(0.0));
         self.felt.iter_mut().for_each(|c| c.weight = weight(0.0));
@@ -151,7 +174,8 @@ impl<'a> Fit<'a> {
 
     /// Weights by distance in standard deviations; `scale` multiplies those of the image.
     fn reweight_by(&mut self, pose: &Isometry3<f64>, scale: f64, weight: impl Fn(f64) -> f64) {
-        let seen: Vec<f64> = self.seen.iter().map(|c| self.distance(pose, c)).collect();
+        let at = At::of(pose);
+        let seen: Vec<f64> = self.seen.iter().map(|c| self.distance(&at, c)).collect();
         for (corner, d) in self.seen.iter_mut().zip(seen) {
             corner.weight = weight((d / scale).max(1e-12));
         }
@@ -163,8 +187,8 @@ impl<'a> Fit<'a> {
     }
 
     /// Distance of a corner from the model in its own standard deviations.
-    fn distance(&self, pose: &Isometry3<f64>, corner: &Seen) -> f64 {
-        let Some((r, _)) = self.residual(pose, corner) else { return f64::INFINITY };
+    fn distance(&self, at: &At, corner: &Seen) -> f64 {
+        let Some((r, _)) = self.residual(at, corner) else { return f64::INFINITY };
         let information = self.information(corner);
         r.dot(&(information * r)).sqrt()
     }
@@ -173,7 +197,8 @@ impl<'a> Fit<'a> {
     /// Rousseeuw's factor for few corners, whose residuals a pose makes small (*Least median of squares
     /// regression*, 1984).
     fn median_scale(&self, pose: &Isometry3<f64>) -> f64 {
-        let all = self.seen.iter().map(|c| self.distance(pose, c));
+        let at = At::of(pose);
+        let all = self.seen.iter().map(|c| self.distance(&at, c));
         let freedom = (2.0 * self.seen.len() as f64 - 6.0).max(1.0);
         ((1.0 + 5.0 / freedom) * median(all) / CHI2_2_MEDIAN.sqrt()).max(1.0)
     }
@@ -183,29 +208,43 @@ impl<'a> Fit<'a> {
         whole.try_inverse().unwrap_or_else(Matrix2::zeros)
     }
 
-    /// `π(T p) - u` and its derivative by `δ` of `T exp(δ)`.
-    pub fn residual(
-        &self,
-        pose: &Isometry3<f64>,
-        corner: &Seen,
-    ) -> Option<(Vector2<f64>, Matrix2x6<f64>)> {
-        let (point, by_pose) = moved(pose, &corner.in_target);
-        let (pixel, by_point) = self.intrinsics.project_with_jacobian(&point)?;
-        Some((pixel - corner.pixel, by_point * by_pose))
+    /// `π(T p) - u` and its derivative by `δ` of `T exp(δ)`: of every row `b` of `∂π R`, that is `p × b` and `b`.
+    #[inline]
+    pub fn residual(&self, at: &At, corner: &Seen) -> Option<(Vector2<f64>, Matrix2x6<f64>)> {
+        let p = &corner.in_target;
+        let (pixel, by_point) =
+            self.intrinsics.project_with_jacobian(&(at.rotation * p + at.translation))?;
+        let b = by_point * at.rotation;
+        let mut j = Matrix2x6::zeros();
+        for i in 0..2 {
+            let (x, y, z) = (b[(i, 0)], b[(i, 1)], b[(i, 2)]);
+            let turns = [p.y * z - p.z * y, p.z * x - p.x * z, p.x * y - p.y * x];
+            for (k, value) in turns.into_iter().chain([x, y, z]).enumerate() {
+                j[(i, k)] = value;
+            }
+        }
+        Some((pixel - corner.pixel, j))
     }
 
     /// Infinite cost when a corner is behind the camera.
     fn linearise(&self, pose: &Isometry3<f64>) -> Normal {
         let mut sum = Normal { h: Matrix6::zeros(), g: Vector6::zeros(), cost: 0.0 };
+        let at = At::of(pose);
         for corner in self.seen.iter().filter(|c| c.weight > 0.0) {
-            let Some((r, j)) = self.residual(pose, corner) else {
+            let Some((r, j)) = self.residual(&at, corner) else {
                 return Normal { cost: f64::INFINITY, ..sum };
             };
             let w = self.information(corner) * corner.weight;
-            sum.h += j.transpose() * w * j;
-            sum.g += j.transpose() * (w * r);
-            sum.cost += r.dot(&(w * r));
+            let (weighted, wr) = (w * j, w * r);
+            for a in 0..6 {
+                for b in 0..=a {
+                    sum.h[(a, b)] += j[(0, a)] * weighted[(0, b)] + j[(1, a)] * weighted[(1, b)];
+                }
+                sum.g[a] += j[(0, a)] * wr.x + j[(1, a)] * wr.y;
+            }
+            sum.cost += r.dot(&wr);
         }
+        sum.h.fill_upper_triangle_with_lower_triangle();
         for corner in self.felt.iter().filter(|c| c.weight > 0.0) {
             let (point, j) = moved(pose, &corner.in_target);
             let r = point - corner.in_camera;
@@ -227,11 +266,12 @@ impl<'a> Fit<'a> {
     /// `τ²` so that the squared residuals sum up to the degrees of freedom; the 3D corners' factor
     /// likewise.
     fn estimate_excess(&mut self, pose: &Isometry3<f64>) {
+        let at = At::of(pose);
         let used: Vec<(Vector2<f64>, Matrix2<f64>)> = self
             .seen
             .iter()
             .filter(|c| c.weight > 0.0)
-            .filter_map(|c| Some((self.residual(pose, c)?.0, c.covariance)))
+            .filter_map(|c| Some((self.residual(&at, c)?.0, c.covariance)))
             .collect();
         let freedom = (2.0 * used.len() as f64 - 6.0).max(1.0);
         let chi2 = |excess: f64| -> f64 {
@@ -267,7 +307,8 @@ impl<'a> Fit<'a> {
         if used.len() < FEWEST {
             return None;
         }
-        let square = |c: &&Seen| self.residual(pose, c).map_or(0.0, |(r, _)| r.norm_squared());
+        let at = At::of(pose);
+        let square = |c: &&Seen| self.residual(&at, c).map_or(0.0, |(r, _)| r.norm_squared());
         let rms_px = (used.iter().map(square).sum::<f64>() / used.len() as f64).sqrt();
         Some(PosedTarget {
             pose: TargetPose {

@@ -1,4 +1,4 @@
-use super::*;
+use super::{fit::At, *};
 use crate::{Camera, Distortion, Pose, Target, math::random::Random};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3, Vector6};
 
@@ -135,11 +135,13 @@ fn the_jacobian_matches_central_differences() {
     let truth = pose(&mut random);
     let (seen, camera) = (corners(&truth, 0.0, &mut random), camera());
     let fit = Fit::new(&seen, &[], &board(), &camera).unwrap();
-    let (_, analytic) = fit.residual(truth.iso(), &fit.seen[30]).unwrap();
+    let (_, analytic) = fit.residual(&At::of(truth.iso()), &fit.seen[30]).unwrap();
     for k in 0..6 {
         let mut step = Vector6::zeros();
         step[k] = 1e-6;
-        let at = |d: Vector6<f64>| fit.residual(truth.retract(&d).iso(), &fit.seen[30]).unwrap().0;
+        let at = |d: Vector6<f64>| {
+            fit.residual(&At::of(truth.retract(&d).iso()), &fit.seen[30]).unwrap().0
+        };
         let numeric = (at(step) - at(-step)) / 2e-6;
         assert!((analytic.column(k) - numeric).norm() < 1e-4, "{k}");
     }
