@@ -97,8 +97,8 @@ pub(crate) fn so3_left_jacobian_inverse(w: &Vector3<f64>) -> Matrix3<f64> {
         // (1 + cos θ) / (2 θ sin θ) written by half angles: no 0/0 at θ = π
         (1.0 - 0.5 * theta * (0.5 * theta).cos() / (0.5 * theta).sin()) / theta2
     };
-    let k = hat(w);
-    Matrix3::identity() - 0.5 * k + c * k * k
+    // K² = w wᵀ - θ² I
+    Matrix3::identity() * (1.0 - c * theta2) - 0.5 * hat(w) + w * (c * w).transpose()
 }
 
 /// `J_l(ξ)⁻¹` of SE(3).
