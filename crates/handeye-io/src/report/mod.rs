@@ -185,10 +185,9 @@ fn refused(content: &str) -> String {
 fn found(c: &Calibration) -> String {
     let all = findings::findings(c);
     // what is a reason against the answer stands at the top already
-    let of_warnings = all.iter().filter(|f| {
-        !c.reasons.contains(&f.message) && c.warnings.iter().any(|w| w.message == f.message)
-    });
-    let item = |f: &handeye::calibrate::result::JudgedFinding| {
+    let of_warnings = all.iter().skip(all.len() - c.warnings.len()).zip(&c.warnings);
+    let of_warnings = of_warnings.filter(|(_, w)| !c.is_reason(w));
+    let item = |(f, _): (&handeye::calibrate::result::JudgedFinding, _)| {
         let class = match f.severity {
             Severity::Info => "info",
             Severity::ChangesAnswer => "changes",

@@ -84,7 +84,7 @@ pub(super) fn agree<'a>(session: &'a Session, task: &Task) -> (Evidence, Option<
         target_from_corner,
         indices,
     };
-    let movement = fit.and_then(|fit| movement::look(&captures, &found, &fit));
+    let movement = fit.and_then(|fit| movement::suspected(&captures, &found, &fit));
     (evidence, Some(Agreement { views, found, movement }))
 }
 

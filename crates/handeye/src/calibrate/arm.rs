@@ -18,7 +18,10 @@ use crate::{
         result::{ArmDeviation, ArmHeldOut, ArmResult},
         views::Views,
     },
-    estimate::{Extra, ExtraKind, JointFit, Problem, Source, evaluate, joint, place::Place},
+    estimate::{
+        Extra, ExtraKind, JointFit, Problem, Source, compensation::ByUnknowns, evaluate, joint,
+        place::Place,
+    },
     findings::RobotFinding,
     math::lie,
     model::{
@@ -63,7 +66,7 @@ const ROUNDS: usize = 3;
 const SETTLED: f64 = 0.05;
 
 /// Looks whether the arm deviates.
-pub(super) fn look(
+pub(super) fn fitted_arm(
     views: &Views,
     problem: &Problem,
     fit: &JointFit,
@@ -317,8 +320,8 @@ impl Erring for ArmFit {
         Some(Place::new(&self.model.base_from_flange(&joints), &joints))
     }
 
-    fn by_own(&self, at: &Place) -> DMatrix<f64> {
-        self.arm.by_deviations(&at.joints, &self.which)
+    fn errors(&self, at: &Place) -> ByUnknowns {
+        ByUnknowns::wholly_known(self.arm.by_deviations(&at.joints, &self.which))
     }
 }
 

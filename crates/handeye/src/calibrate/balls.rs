@@ -54,7 +54,7 @@ pub(super) fn from_balls(session: &Session, task: &Task) -> Evidence {
     match points::fit_points(&views) {
         Ok(fit) => {
             let found = conclude(session, &seen, &views, &fit, all);
-            match movement::look_in(&recorded(session, (&seen, &views), &fit)) {
+            match movement::suspected_in(&recorded(session, (&seen, &views), &fit)) {
                 Some(moved) => movement::covered(moved, found),
                 None => found,
             }

@@ -95,7 +95,7 @@ fn fuse(
         wrong_tip: joint.as_ref().is_some_and(|j| j.wrong_tip.is_some()),
     };
     let (best, whole) = joint.as_ref().map_or((fit, problem), |j| (&j.fit, &j.problem));
-    let robot = Robot::look(views, (whole, best), touched, volume, config);
+    let robot = Robot::estimated(views, (whole, best), touched, volume, config);
     let of_joint = |j: &views_and_touches::Joint| j.findings(views, robot.explains_tip());
     let (tip, of_touches) = joint.as_ref().map(of_joint).unwrap_or_default();
     evidence.notes.add(unseen.then(wrong).then(of_touches));

@@ -25,12 +25,12 @@ fn severity(code: &str, verdict: Verdict) -> Severity {
 /// All findings of a result: the reasons against it first, then its warnings in their order.
 pub fn findings(result: &Calibration) -> Vec<JudgedFinding> {
     let accepted = result.verdict == Verdict::Accepted;
-    let is_warning = |reason: &String| result.warnings.iter().any(|w| w.message == *reason);
+    let is_own = |reason: &&String| !accepted && !result.warnings.iter().any(|w| w.says(reason));
     let code = if result.verdict == Verdict::Undetermined { "undetermined" } else { "rejected" };
-    let reasons = result.reasons.iter().filter(|r| !accepted && !is_warning(r));
+    let reasons = result.reasons.iter().filter(is_own);
     let of_reason = |reason: &String| judged(code, Severity::Rejects, reason.clone());
     let of_warning = |w: &Warning| {
-        let is_reason = !accepted && result.reasons.contains(&w.message);
+        let is_reason = !accepted && result.is_reason(w);
         let severity =
             if is_reason { Severity::Rejects } else { severity(&w.code, result.verdict) };
         let headline = w.finding.as_ref().and_then(|f| f.headline());
@@ -69,6 +69,11 @@ pub fn reservation(result: &Calibration) -> Option<String> {
 }
 
 impl Calibration {
+    /// Whether a finding is among the reasons of the verdict: a reason that is a finding has its sentence.
+    pub fn is_reason(&self, warning: &Warning) -> bool {
+        self.reasons.iter().any(|reason| warning.says(reason))
+    }
+
     /// With what was noticed beside it, after what is said already.
     pub(crate) fn noting<F: Into<Warning>>(self, later: impl IntoIterator<Item = F>) -> Self {
         let later = later.into_iter().map(Into::into);

@@ -167,7 +167,7 @@ fn of_distinct(mut session: Session, task: &Task) -> Calibration {
     let (session, of_one_place) = near_duplicates::take_out(&session, &found);
     let found = if of_one_place.is_empty() { found } else { run(&session) };
     let result = moved::answer_of_the_end(&session, found, run);
-    let scans = scans::look(&session, &result);
+    let scans = scans::of_scans(&session, &result);
     let result = Calibration { scans: scans.result, ..result.noting(scans.warnings) };
     let result = moved::reported(result, scans.is_bent);
     of_one_place.put_back(result).noting(of_touches)
@@ -224,7 +224,7 @@ fn from_views(
     let Some(Agreement { views, found, movement }) = agreement else { return evidence };
     if round < OPTICS_ROUNDS
         && let Some((moved, next)) =
-            optics::look(given, &views, &found.hand_eye, optics, task.config)
+            optics::moved_session(given, &views, &found.hand_eye, optics, task.config)
     {
         let again = from_views(given, (&moved, &next, round + 1), task);
         if again.choice.as_ref().is_some_and(|c| c.name.is_some()) {

@@ -89,14 +89,18 @@ pub(super) struct Suspected {
 }
 
 /// Looks for movement; `None` where nothing points to it and nothing has to be widened.
-pub(super) fn look(captures: &Captures, found: &Consensus, fit: &JointFit) -> Option<Suspected> {
+pub(super) fn suspected(
+    captures: &Captures,
+    found: &Consensus,
+    fit: &JointFit,
+) -> Option<Suspected> {
     let nearest = |i: usize| {
         let all = (0..captures.readings[i].camera_from_target.len())
             .filter(|k| !found.agrees[i] || *k == found.reading[i])
             .filter_map(|k| row(captures, fit, i, k));
         all.min_by(|a, b| a.residual.norm().total_cmp(&b.residual.norm()))
     };
-    look_in(&Recorded {
+    suspected_in(&Recorded {
         names: captures.session.observations.iter().map(|o| o.capture.as_str()).collect(),
         poses: captures.readings.iter().map(|r| r.anchor_from_mount).collect(),
         agrees: found.agrees.clone(),
@@ -107,7 +111,7 @@ pub(super) fn look(captures: &Captures, found: &Consensus, fit: &JointFit) -> Op
 }
 
 /// The same of captures that are linearised already.
-pub(super) fn look_in(recorded: &Recorded) -> Option<Suspected> {
+pub(super) fn suspected_in(recorded: &Recorded) -> Option<Suspected> {
     let (movement, spread) = block(recorded).or_else(|| gradual(recorded))?;
     let rows = recorded.agreeing();
     let information = of_camera(&rows)?;

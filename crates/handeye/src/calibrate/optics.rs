@@ -69,7 +69,7 @@ const LINEAR_LENS: f64 = 1e-3;
 const LINEAR_DISTORTION: f64 = 5e-3;
 
 /// Looks whether camera or depth must move; the session as it is then, or `None` where all stays.
-pub(super) fn look(
+pub(super) fn moved_session(
     given: &Session,
     views: &Views,
     start: &crate::HandEye,

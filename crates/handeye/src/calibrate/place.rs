@@ -58,7 +58,7 @@ pub(super) struct ByPlace {
 
 /// Looks whether the robot errs by place; `None` where nothing speaks for it. Touches show how the tool is held in the
 /// `volume`.
-pub(super) fn look(
+pub(super) fn errors_by_place(
     views: &Views,
     (problem, fit): (&Problem, &JointFit),
     touched: UsedTouches,

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, Isometry3, Matrix3, Matrix3xX, Matrix6, Vector3};
 use crate::{
     Base, Camera, Flange, Mount, Pose, Setup,
     calibrate::views::Views,
-    estimate::{ExtraKind, JointFit, place::Place, predict::Volume},
+    estimate::{ExtraKind, JointFit, compensation::ByUnknowns, place::Place, predict::Volume},
     register::rigid_fit::{point_jacobian, rigid_fit},
 };
 
@@ -44,16 +44,11 @@ pub(super) trait Erring {
     /// The place at which the flange is there, `near` another one; `None` where the arm does not reach.
     fn place_for(&self, flange: &Pose<Base, Flange>, near: &Place) -> Option<Place>;
 
-    /// How its flange moves with each of its errors: a step on the right.
-    fn by_own(&self, at: &Place) -> DMatrix<f64>;
+    /// How its flange moves with each of its errors there, and how far it errs beside.
+    fn errors(&self, at: &Place) -> ByUnknowns;
 
     /// Whether its controller gets the corrected tip; it goes on with the one that it has otherwise.
     fn corrects_tip(&self) -> bool;
-
-    /// Variance per axis (rad², m²) of the part of its error there that does not follow from its unknowns.
-    fn rest(&self, _at: &Place) -> [f64; 2] {
-        [0.0; 2]
-    }
 }
 
 /// Where a robot that does not know of its own errors must be sent, and what it misses then.
@@ -221,7 +216,14 @@ struct Work<'a, R> {
     x: Pose<Mount, Camera>,
     held: Vec<Held>,
     /// From where the camera looks; nowhere where it stands still.
-    views: Vec<Option<Place>>,
+    views: Vec<Option<Stand>>,
+}
+
+/// A place from which the camera looks.
+struct Stand {
+    reported: Pose<Base, Flange>,
+    actual: Pose<Base, Flange>,
+    errors: ByUnknowns,
 }
 
 impl<'a, R: Erring> Work<'a, R> {
@@ -252,11 +254,16 @@ impl<'a, R: Erring> Work<'a, R> {
             };
             held = seen.clone().map(|place| hold(place, tool, tool)).collect();
         }
-        let views: Vec<Option<Place>> = match setup {
+        let stand = |place: Place| Stand {
+            reported: robot.reported(&place),
+            actual: robot.actual(&place),
+            errors: robot.errors(&place),
+        };
+        let views: Vec<Option<Stand>> = match setup {
             Setup::EyeToHand => vec![None],
             Setup::EyeInHand => {
                 let step = views.used.len().div_ceil(VIEWS).max(1);
-                seen.step_by(step).map(Some).collect()
+                seen.step_by(step).map(|place| Some(stand(place))).collect()
             }
         };
         (!held.is_empty()).then_some(Self { robot, x, held, views })
@@ -293,15 +300,15 @@ impl<'a, R: Erring> Work<'a, R> {
         all
     }
 
-    fn in_base(&self, view: Option<&Place>, p: &Vector3<f64>) -> Vector3<f64> {
+    fn in_base(&self, view: Option<&Stand>, p: &Vector3<f64>) -> Vector3<f64> {
         let on_mount = self.x.rotation() * p + self.x.translation();
-        view.map_or(on_mount, |view| carried(&self.robot.actual(view), &on_mount))
+        view.map_or(on_mount, |view| carried(&view.actual, &on_mount))
     }
 
     /// One way to go there.
     fn sample(
         &self,
-        view: Option<&Place>,
+        view: Option<&Stand>,
         held: &Held,
         p: &Vector3<f64>,
         there: &Vector3<f64>,
@@ -310,19 +317,20 @@ impl<'a, R: Erring> Work<'a, R> {
         let flange = Pose::from_parts(&held.rotation, there - held.rotation * held.tool);
         let place = robot.place_for(&flange, &held.place)?;
         let reported = carried(&robot.reported(&place), &held.controllers);
-        let reached = held.rotation * point_jacobian(&held.tool) * robot.by_own(&place);
+        let errors = robot.errors(&place);
+        let reached = held.rotation * point_jacobian(&held.tool) * &errors.unknowns;
         let reached = self.with_tip(reached, &held.rotation);
         let on_mount = self.x.rotation() * p + self.x.translation();
-        let of_tool = carried_variance(robot.rest(&place), &held.tool);
+        let of_tool = carried_variance(errors.rest(), &held.tool);
         let (m, by, rest) = match view {
             None => (reported, -reached, of_tool),
             Some(view) => {
-                let (at, actual) = (robot.reported(view), robot.actual(view));
-                let seen = actual.rotation() * point_jacobian(&on_mount) * robot.by_own(view);
+                let moved = view.actual.rotation() * point_jacobian(&on_mount);
+                let seen = moved * &view.errors.unknowns;
                 let seen = self.with_tip(seen, &Matrix3::zeros());
-                let back = at.rotation().transpose();
-                let rest = of_tool + carried_variance(robot.rest(view), &on_mount);
-                (back * (reported - at.translation()), back * (seen - reached), rest)
+                let back = view.reported.rotation().transpose();
+                let rest = of_tool + carried_variance(view.errors.rest(), &on_mount);
+                (back * (reported - view.reported.translation()), back * (seen - reached), rest)
             }
         };
         let to_camera = self.x.rotation().transpose();

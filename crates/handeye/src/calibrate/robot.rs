@@ -32,21 +32,21 @@ pub(super) struct Robot {
 
 impl Robot {
     /// Looks at arm and places.
-    pub(super) fn look(
+    pub(super) fn estimated(
         views: &Views,
         (problem, fit): (&Problem, &JointFit),
         touched: UsedTouches,
         volume: &Volume,
         config: &Config,
     ) -> Self {
-        let (arm, inconsistent) = match arm::look(views, problem, fit, touched, config) {
+        let (arm, inconsistent) = match arm::fitted_arm(views, problem, fit, touched, config) {
             Ok(arm) => (arm, None),
             Err(finding) => (None, Some(finding)),
         };
         let reach = arm.as_ref().and_then(|a| reach(views, a, volume));
         let place = match &reach {
             Some(_) => None,
-            None => place::look(views, (problem, fit), touched, volume, config),
+            None => place::errors_by_place(views, (problem, fit), touched, volume, config),
         };
         Self { arm, reach, place, inconsistent }
     }

@@ -36,7 +36,7 @@ pub(super) struct OfScans {
 }
 
 /// What the scans say of board and frames, under an answer.
-pub(super) fn look(session: &Session, answer: &Calibration) -> OfScans {
+pub(super) fn of_scans(session: &Session, answer: &Calibration) -> OfScans {
     let none = OfScans::default();
     let Some(target) = session.target.as_ref().filter(|t| !t.is_empty()) else { return none };
     let seen = seen(session, target, answer);

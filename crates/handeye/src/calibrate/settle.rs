@@ -58,7 +58,7 @@ pub(crate) fn settle(
     let mut stand = start;
     let mut round = 0;
     loop {
-        let mut settled = look(stand, free_scale, setup, known, at(stand))?;
+        let mut settled = settled_about(stand, free_scale, setup, known, at(stand))?;
         let still = take(&mut stand, &settled.fit);
         round += 1;
         if still || round == ROUNDS {
@@ -68,7 +68,7 @@ pub(crate) fn settle(
     }
 }
 
-fn look(
+fn settled_about(
     stand: Stand,
     free_scale: bool,
     setup: Setup,

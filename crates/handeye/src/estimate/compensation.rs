@@ -190,7 +190,7 @@ impl Compensation {
         of_camera: &Matrix6<f64>,
     ) -> Corrected {
         let by = self.errors.by_unknowns(place);
-        let ([turn, shift], By { unknowns, known, .. }) = (by.rest(), by);
+        let ([turn, shift], ByUnknowns { unknowns, known, .. }) = (by.rest(), by);
         let n = unknowns.ncols();
         let mut by_all = DMatrix::zeros(6, 6 + n);
         by_all.view_mut((0, 0), (6, 6)).copy_from(of_camera);
@@ -209,7 +209,7 @@ impl Compensation {
 }
 
 /// How errors move with what they are made of.
-pub(crate) struct By {
+pub(crate) struct ByUnknowns {
     /// A step on the right, for each.
     pub unknowns: DMatrix<f64>,
     /// Size of errors of which nothing is known: rad, m.
@@ -218,7 +218,12 @@ pub(crate) struct By {
     known: f64,
 }
 
-impl By {
+impl ByUnknowns {
+    /// Errors that follow from their unknowns alone.
+    pub fn wholly_known(unknowns: DMatrix<f64>) -> Self {
+        Self { unknowns, level: [0.0; 2], known: 1.0 }
+    }
+
     /// Variance per axis (rad², m²) of what that does not tell.
     pub fn rest(&self) -> [f64; 2] {
         self.level.map(|level| level.powi(2) * (1.0 - self.known))
@@ -255,15 +260,14 @@ impl RobotErrors {
         Some(command)
     }
 
-    fn by_unknowns(&self, reported: &Pose<Base, Flange>) -> By {
+    fn by_unknowns(&self, reported: &Pose<Base, Flange>) -> ByUnknowns {
         match self {
             Self::ByPlace(place) => place.by_unknowns(&place.place(reported)),
             Self::ByArm(arm) => match arm.joints(reported) {
                 Some(q) => {
-                    let unknowns = arm.corrected.by_deviations(&q, &arm.deviations);
-                    By { unknowns, level: [0.0; 2], known: 1.0 }
+                    ByUnknowns::wholly_known(arm.corrected.by_deviations(&q, &arm.deviations))
                 }
-                None => By { unknowns: DMatrix::zeros(6, 0), level: [0.0; 2], known: 0.0 },
+                None => ByUnknowns { unknowns: DMatrix::zeros(6, 0), level: [0.0; 2], known: 0.0 },
             },
         }
     }
@@ -285,14 +289,14 @@ impl ByPlace {
     }
 
     /// How that moves with the strengths.
-    pub(crate) fn by_unknowns(&self, place: &Place) -> By {
+    pub(crate) fn by_unknowns(&self, place: &Place) -> ByUnknowns {
         let waves = self.waves_at(place);
         let m = place::of_flange(&place.base_from_flange);
         let mut unknowns = DMatrix::zeros(6, 6 * waves.len());
         for (k, wave) in waves.iter().enumerate() {
             unknowns.view_mut((0, 6 * k), (6, 6)).copy_from(&(m * *wave));
         }
-        By { unknowns, level: self.level, known: waves.norm_squared().min(1.0) }
+        ByUnknowns { unknowns, level: self.level, known: waves.norm_squared().min(1.0) }
     }
 
     /// The place of a pose that the robot reports: joint values only where the arm is known.

@@ -93,7 +93,7 @@ pub fn fit_joint(
     let mut state = State::new(problem, start, NoiseModel::start(acting(problem)));
     let prior = first_noise(problem, &state, known);
     state.noise = prior.clone();
-    Ok(climb(problem, state, &prior, known))
+    Ok(maximise_likelihood(problem, state, &prior, known))
 }
 
 /// Fits `X`, `Y` and the noise to views alone.
@@ -123,7 +123,7 @@ pub fn refit(problem: &Problem, near: &JointFit, known: &KnownNoise) -> JointFit
     let prior = first_noise(problem, &state, known);
     let found = |s: &Sigma| near.noise.sigmas.iter().find(|n| n.source == s.source).copied();
     state.noise.sigmas = prior.sigmas.iter().map(|s| found(s).unwrap_or(*s)).collect();
-    climb(problem, state, &prior, known)
+    maximise_likelihood(problem, state, &prior, known)
 }
 
 /// Fits the unknowns again for another prior, from an answer that is near and under its noise.
@@ -149,7 +149,12 @@ fn carried_values(problem: &Problem, near: &JointFit) -> DVector<f64> {
 }
 
 /// Steps and noise updates side by side, until neither moves; then one last step.
-fn climb(problem: &Problem, mut state: State, prior: &NoiseModel, known: &KnownNoise) -> JointFit {
+fn maximise_likelihood(
+    problem: &Problem,
+    mut state: State,
+    prior: &NoiseModel,
+    known: &KnownNoise,
+) -> JointFit {
     let mut system = System::at(problem, &state);
     for round in 0..MOST_ROUNDS {
         let moved = system.advance(problem, &mut state);

@@ -24,6 +24,11 @@ impl PartialEq for Warning {
 }
 
 impl Warning {
+    /// Whether a sentence is the one of this finding.
+    pub(crate) fn says(&self, sentence: &str) -> bool {
+        self.message == sentence
+    }
+
     /// From its two parts.
     pub fn new(code: &str, message: impl Into<String>) -> Self {
         Self { code: code.into(), message: message.into(), finding: None }

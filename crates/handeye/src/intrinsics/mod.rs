@@ -101,7 +101,8 @@ pub fn calibrate(
     }
     let mut adjusted: Option<Adjustment> = None;
     for start in starts(views, target, width, height, lens) {
-        let next = Adjustment::new(views, target, start).and_then(|start| climb(start, lens));
+        let next = Adjustment::new(views, target, start)
+            .and_then(|start| with_terms_that_pay(start, lens));
         let is_better = |a: &Adjustment| adjusted.as_ref().is_none_or(|b| a.rms() < b.rms());
         if let Some(next) = next.filter(is_better) {
             adjusted = Some(next);
@@ -164,7 +165,7 @@ fn undetermined() -> Error {
 }
 
 /// Adds distortion terms while they pay.
-fn climb(mut adjustment: Adjustment, lens: LensModel) -> Option<Adjustment> {
+fn with_terms_that_pay(mut adjustment: Adjustment, lens: LensModel) -> Option<Adjustment> {
     let mut best: Option<(f64, Adjustment)> = None;
     for free in lens.ladder() {
         if free.leading >= 9 && adjustment.views.len() < FEWEST_VIEWS_FOR_K3 {

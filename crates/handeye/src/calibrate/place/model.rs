@@ -1,6 +1,6 @@
 //! Fits with errors by place among their unknowns, for the lengths over which these may change.
 
-use nalgebra::{DMatrix, Matrix6};
+use nalgebra::Matrix6;
 
 use super::{
     captures::{errors, places, poses, with_waves, work},
@@ -17,7 +17,7 @@ use crate::{
     },
     estimate::{
         ExtraKind, JointFit, Problem,
-        compensation::ByPlace as Errors,
+        compensation::{ByPlace as Errors, ByUnknowns},
         extra::TIP_PRIOR,
         joint,
         place::{self, Kernel, Place, Waves},
@@ -221,11 +221,7 @@ impl Erring for Model {
         Some(Place { base_from_flange: reported, ..there })
     }
 
-    fn by_own(&self, at: &Place) -> DMatrix<f64> {
-        self.errors.by_unknowns(at).unknowns
-    }
-
-    fn rest(&self, at: &Place) -> [f64; 2] {
-        self.errors.by_unknowns(at).rest()
+    fn errors(&self, at: &Place) -> ByUnknowns {
+        self.errors.by_unknowns(at)
     }
 }

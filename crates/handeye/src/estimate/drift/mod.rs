@@ -90,7 +90,7 @@ pub(crate) fn fit_drift(
 ) -> Result<DriftFit, Error> {
     check(sequence, used)?;
     let starts = starts(sequence, used, near, known, free);
-    Ok(climb(sequence, used, near, known, starts).finish(sequence, used))
+    Ok(maximise_likelihood(sequence, used, near, known, starts).finish(sequence, used))
 }
 
 fn check(sequence: &Sequence, used: &[bool]) -> Result<(), Error> {
@@ -167,7 +167,7 @@ fn scaled(sequence: &Sequence) -> bool {
 }
 
 /// Noise and unknowns in turn, until neither moves; from the start that soon is the likeliest.
-fn climb(
+fn maximise_likelihood(
     sequence: &Sequence,
     used: &[bool],
     near: &JointFit,
