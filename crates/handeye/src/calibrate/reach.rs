@@ -216,11 +216,11 @@ struct Work<'a, R> {
     x: Pose<Mount, Camera>,
     held: Vec<Held>,
     /// From where the camera looks; nowhere where it stands still.
-    views: Vec<Option<Stand>>,
+    views: Vec<Option<Viewpoint>>,
 }
 
 /// A place from which the camera looks.
-struct Stand {
+struct Viewpoint {
     reported: Pose<Base, Flange>,
     actual: Pose<Base, Flange>,
     errors: ByUnknowns,
@@ -254,16 +254,16 @@ impl<'a, R: Erring> Work<'a, R> {
             };
             held = seen.clone().map(|place| hold(place, tool, tool)).collect();
         }
-        let stand = |place: Place| Stand {
+        let viewpoint = |place: Place| Viewpoint {
             reported: robot.reported(&place),
             actual: robot.actual(&place),
             errors: robot.errors(&place),
         };
-        let views: Vec<Option<Stand>> = match setup {
+        let views: Vec<Option<Viewpoint>> = match setup {
             Setup::EyeToHand => vec![None],
             Setup::EyeInHand => {
                 let step = views.used.len().div_ceil(VIEWS).max(1);
-                seen.step_by(step).map(|place| Some(stand(place))).collect()
+                seen.step_by(step).map(|place| Some(viewpoint(place))).collect()
             }
         };
         (!held.is_empty()).then_some(Self { robot, x, held, views })
@@ -300,7 +300,7 @@ impl<'a, R: Erring> Work<'a, R> {
         all
     }
 
-    fn in_base(&self, view: Option<&Stand>, p: &Vector3<f64>) -> Vector3<f64> {
+    fn in_base(&self, view: Option<&Viewpoint>, p: &Vector3<f64>) -> Vector3<f64> {
         let on_mount = self.x.rotation() * p + self.x.translation();
         view.map_or(on_mount, |view| carried(&view.actual, &on_mount))
     }
@@ -308,7 +308,7 @@ impl<'a, R: Erring> Work<'a, R> {
     /// One way to go there.
     fn sample(
         &self,
-        view: Option<&Stand>,
+        view: Option<&Viewpoint>,
         held: &Held,
         p: &Vector3<f64>,
         there: &Vector3<f64>,

@@ -156,11 +156,11 @@ fn own_bend(s: &Surface, scale: &Scale) -> Option<Bend> {
     let places: Vec<Vector2<f64>> = s.deviations.iter().map(|d| d.0).collect();
     let covariance = s.information.cholesky()?.inverse();
     let chi2 = s.curvature.dot(&(s.information * s.curvature));
-    let told = (
+    let rms_and_p = (
         root_mean(s.deviations.iter().map(|d| d.1.powi(2))).unwrap_or(0.0),
         statistics::of_chi_square(chi2, 3),
     );
-    Some(bend(&s.curvature, &covariance, &places, scale, told))
+    Some(bend(&s.curvature, &covariance, &places, scale, rms_and_p))
 }
 
 /// Heights of one capture's corners, and the surface through them.

@@ -176,3 +176,20 @@ fn three_corners_are_too_few() {
     assert_eq!(error, Error::TooFewPoints { found: 3, needed: 4 });
     assert!(target_poses(&seen[..9], &[], &board(), &camera()).is_err(), "one row");
 }
+
+/// Known poses save the search for them, and nothing else.
+#[test]
+fn what_corners_typically_leave_is_the_same_from_known_poses() {
+    let (mut random, camera) = (Random::new(11), camera());
+    let poses: Vec<Pose<Camera, Target>> = (0..6).map(|_| pose(&mut random)).collect();
+    let seen: Vec<_> = poses.iter().map(|pose| corners(pose, 0.3, &mut random)).collect();
+    let near = |pose: &Pose<Camera, Target>| {
+        let camera_from_target = pose.retract(&Vector6::repeat(1e-3));
+        [TargetPose { camera_from_target, covariance: None }]
+    };
+    let near: Vec<[TargetPose; 1]> = poses.iter().map(near).collect();
+    let pictures = seen.iter().zip(&near).map(|(c, n)| (&c[..], &n[..]));
+    let found = typical_excess_near(pictures, &board(), &camera).unwrap();
+    let whole = typical_excess(seen.iter().map(|c| &c[..]), &board(), &camera).unwrap();
+    assert!(whole > 0.01 && (found - whole).abs() < 1e-9, "{found} {whole}");
+}

@@ -1,8 +1,8 @@
 //! The families of targets, a file each: where its corners are, what is printed, which turns look the same.
 //!
 //! A new one is a file here, its variant of [`TargetModel`] with its lengths in `kinds.rs`, and in this file its line among
-//! the modules, what is read of its variant, and its row in [`KINDS`]. Its print is drawn, looked for, named by an option of the program and read from
-//! files with that; only what people mean when they declare it wrongly is known elsewhere.
+//! the modules, what is read of its variant, and its row in [`KINDS`]. Its print is drawn, looked for, named by an option
+//! of the program and read from files with that; only what people mean when they declare it wrongly is known elsewhere.
 
 mod aprilgrid;
 mod charuco;
