@@ -1,91 +1,60 @@
 //! From measurements to a calibration with a verdict: the flow of the whole core.
 //!
-//! [`calibrate`] is the only entry point. The stages, in the order in which they run:
+//! [`calibrate`] is the only entry point. What it asks, in the order in which it asks:
 //!
-//! | stage | question |
+//! | room | question |
 //! |---|---|
-//! | `streams`, `unscaled` | the robot's pose at each capture's time; the unit of distances where that is unknown |
-//! | `repeated` | captures of one robot pose that repeat one another: one of them counts |
-//! | `agreement` | which captures agree, on which pose candidate? `gate` and `masked` find them, `rejected` says why others do not, `doubt` whether the majority is clear |
+//! | `unknowns` | the robot's pose at each capture's time (`streams`); the unit of distances where that is unknown (`unscaled`) |
+//! | `captures` | which captures repeat one another, which agree, on which pose candidate (`agreement`)? |
 //! | `optics` | where size, intrinsics or depth move far, all target poses are computed again |
-//! | `candidates` | touches of another corner are rejected (`touch_outliers`), then closed forms, least squares, maximum likelihood and registration of touches; the choice by predicted error. Beside: `size`, `robot` (`arm`: is it as its model says? `place`: does it err by place?), `known_position`, `named` (a method asked for by name) |
-//! | `captures` | residual of every capture |
-//! | `movement` | did anything move? |
-//! | `verdict` | accepted, rejected or undetermined |
-//! | `near_duplicates` | looks at the result: captures of one place count once, and all runs again |
+//! | `candidates` | closed forms, least squares, maximum likelihood and registration of touches; the choice by predicted error. It asks `touches` (which are of another corner; the fit of views and touches together), `robot` (`arm`: is it as its model says? `place`: does it err by place?) and `prediction` (how far off points will be) |
+//! | `captures` | residual of every capture; did anything move (`movement`), and what does that do to the answer (`moved`)? Captures of one place count once (`near_duplicates`), and all runs again; do errors drift (`sequence`)? |
+//! | `scans` | image frame or scan frame, where the two disagree (`sources`); what the scans say of the board |
 //!
-//! Every stage returns its value and its `notes`; `evidence` gathers them, and `verdict` alone makes a [`Calibration`] of
-//! it. What looks at the result as a whole makes a new one: `sequence` (do errors drift?), `sources` (images and scans
-//! apart), `moved` (the camera moved: the answer of the last captures alone, without touches), `scans`, and `beside`
-//! (what was noticed while files were read). Point pairs alone take the short way through `points`, captures of a ball
-//! through `balls`.
+//! What is handed from stage to stage stands in `flow`: every stage returns its value and its `notes`; `evidence` gathers
+//! them, and `verdict` alone makes a [`Calibration`] of it. What looks at the result as a whole makes a new one, as does
+//! `result::beside` (what was noticed while files were read). Sessions without images of a target, point pairs and
+//! captures of a ball, take the short way through `points`.
 
-mod agreement;
-mod alternatives;
-mod answers;
-mod arm;
-mod balls;
-pub mod beside;
-mod best_rigid;
-mod budget;
 mod candidates;
 mod captures;
-mod causes;
-pub mod certificate;
-mod cluster_variance;
-mod compensation;
-mod config;
-mod doubt;
-pub mod evidence;
-pub mod findings;
-mod gate;
-mod known_position;
-mod limits;
-mod masked;
-mod moved;
-mod movement;
-mod named;
-mod near_duplicates;
-mod notes;
+mod flow;
 mod optics;
-mod place;
 mod points;
-mod prior;
-mod reach;
-mod rejected;
-pub(crate) mod repeated;
+mod prediction;
 pub mod result;
 mod robot;
-mod scan_offset;
 mod scans;
-mod sequence;
-pub(crate) mod settle;
-mod size;
-mod sources;
-pub mod streams;
-mod touch_outliers;
-mod touched_boards;
-pub(crate) mod unknown;
-mod unscaled;
-mod verdict;
-pub(crate) mod views;
-mod views_and_touches;
-mod workpiece;
+mod touches;
+mod unknowns;
 
 use crate::{
     Error, Session, TargetModel, calibrate::result::Calibration, estimate::touch_pairs,
     model::session::Motion,
 };
 
-use agreement::Agreement;
 use candidates::Estimated;
-pub use captures::relabelling;
-pub use config::{AnswerFrame, Config};
-use evidence::Evidence;
-pub use evidence::unjudged;
-use notes::Notes;
+pub use captures::residuals::relabelling;
+use captures::{
+    agreement::{self, Agreement},
+    moved, movement, near_duplicates, repeated, residuals, sequence,
+};
+pub use flow::{
+    config::{AnswerFrame, Config},
+    evidence::unjudged,
+};
+use flow::{
+    evidence::Evidence,
+    notes::Notes,
+    unknown::{Task, Unknown},
+    verdict, views,
+};
 use optics::Optics;
-use unknown::{Task, Unknown};
+use points::{balls, pairs};
+pub use result::{beside, certificate, findings};
+use scans::sources;
+pub use unknowns::streams;
+use unknowns::unscaled;
 
 /// Runs the whole calibration. Bad data end in a verdict, not in an error.
 ///
@@ -150,7 +119,7 @@ fn of_distinct(mut session: Session, task: &Task) -> Calibration {
     of_touches.extend(touch_pairs::placements_ignored(&session));
     let judged = |found: Evidence| verdict::judge(session.setup, task.config, found);
     if session.observations.is_empty() {
-        return judged(points::from_points(&session));
+        return judged(pairs::from_points(&session));
     }
     if let Some(TargetModel::Sphere { .. }) = session.target {
         let run = |session: &Session| judged(balls::from_balls(session, task));
@@ -243,7 +212,7 @@ fn from_views(
             return again;
         }
     }
-    let evidence = captures::with_residuals(&views, evidence);
+    let evidence = residuals::with_residuals(&views, evidence);
     match movement {
         Some(moved) => movement::covered(moved, evidence),
         None => evidence,

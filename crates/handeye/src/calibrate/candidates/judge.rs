@@ -5,10 +5,9 @@ use nalgebra::Matrix6;
 use crate::{
     Camera, Mount, Pose,
     calibrate::{
-        evidence::RestsOn,
+        flow::{evidence::RestsOn, views::Views},
+        prediction::workpiece::Workpiece,
         result::{Candidate, RobotErrorKind},
-        views::Views,
-        workpiece::Workpiece,
     },
     estimate::{self, evaluate::HeldOut, touch_pairs::TouchPairs},
 };

@@ -6,20 +6,21 @@ use super::judge::{Judge, Judged};
 use crate::{
     Error, HandEye,
     calibrate::{
-        answers::stored,
-        config::Config,
-        evidence::RestsOn,
-        notes::Notes,
+        flow::{
+            config::Config,
+            evidence::RestsOn,
+            notes::Notes,
+            views::{Views, pairs_of},
+        },
+        prediction::answers::stored,
         result::{Answer, Candidate, PoseCovariance, rows},
-        views::{Views, pairs_of},
     },
     estimate::{
         JointFit, evaluate,
         touch_pairs::{self, Registration, TouchPairs},
     },
     findings::TouchFinding,
-    solve,
-    solve::View,
+    solve::{self, View},
 };
 
 impl Judge<'_> {
