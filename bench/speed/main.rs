@@ -3,8 +3,8 @@
 //! `cargo run --release -p handeye-bench --bin speed -- [FILE]`; with a FILE, writes it between the
 //! markers `speed` there as well.
 
-#[allow(clippy::unwrap_used, reason = "shared with tests")]
-#[path = "../../crates/handeye/tests/problem/mod.rs"]
+#[allow(clippy::unwrap_used, dead_code, reason = "shared with tests")]
+#[path = "../../crates/handeye/tests/all/problem/mod.rs"]
 mod problem;
 #[path = "../section.rs"]
 mod section;
