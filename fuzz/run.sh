@@ -6,7 +6,9 @@ set -euo pipefail
 cd "$(dirname "$0")"
 seconds=${1:-15}
 
-if ! command -v cargo-fuzz >/dev/null; then cargo install -q --locked cargo-fuzz; fi
+if ! command -v cargo-fuzz >/dev/null; then
+  CARGO_PROFILE_DEV_DEBUG=0 cargo install -q --debug --locked cargo-fuzz
+fi
 # Without the sanitizers, which need a nightly compiler: the program has no unsafe code of its own.
 # The seeds are built with the targets: apart from them, everything would be compiled twice.
 cargo fuzz build --sanitizer none --codegen-units 16
