@@ -13,7 +13,8 @@ use crate::boards::Board;
 ///
 /// A folder of captures goes in; a transform comes out, with its uncertainty, a verdict, and the
 /// evidence. Exit codes: 0 accepted, 1 the input cannot be used, 2 wrong command line, 3 rejected
-/// or undetermined (the result is still written).
+/// or undetermined (the result is still written), 4 with --strict: accepted with findings that
+/// changed the answer.
 #[derive(Parser)]
 #[command(name = "handeye", version, max_term_width = 80)]
 pub struct Program {
@@ -91,16 +92,33 @@ fn published_methods() -> String {
     };
     let forms: Vec<String> = Form::ALL.iter().map(named).collect();
     format!(
-        "Take the answer of one published method on the captures that agree, in place of the best candidate; {}",
+        "Take the answer of one published method on the captures that agree, in place of the best candidate; \
+         several, or all, are compared in a table; {}",
         forms.join("; ")
     )
 }
 
+/// What a script wants of a result.
+#[derive(Args)]
+pub struct Acceptance {
+    /// Accept only if the predicted error (95 %) is below this [default: what the manifest says, or 10].
+    #[arg(long, value_name = "MM")]
+    pub max_error_mm: Option<f64>,
+    /// Exit code 4 if the result is accepted with findings that changed the answer.
+    #[arg(long)]
+    pub strict: bool,
+    /// Print one line, for a log, instead of the summary.
+    #[arg(long)]
+    pub oneline: bool,
+}
+
 /// Arguments of `solve`.
 #[derive(Args)]
-#[command(after_help = "Example:\n\
+#[command(after_help = "Examples:\n\
 \x20 handeye solve pairs.json\n\
 \x20 handeye solve pairs.json --method park-martin --json\n\
+\x20 handeye solve pairs.csv --setup eye-to-hand --out result\n\
+\x20 handeye solve pairs.json --method all\n\
 \n\
 pairs.json:\n\
 \x20 {\"setup\": \"eye-in-hand\",\n\
@@ -118,13 +136,26 @@ time_offset_s):\n\
 \n\
 Set `\"unknown_scale\": true` if the target distances have an unknown common scale (measured = \
 scale * metric). Set `\"noise\": {\"robot_rotation_deg\": ..., \"robot_position_mm\": ...}` if you \
-know the standard deviations of the robot, per axis.")]
+know the standard deviations of the robot, per axis.\n\
+\n\
+CSV, NPY and NPZ need --setup. A line of a CSV: base_from_flange and camera_from_target, each as \
+x y z (m) and quaternion x y z w, or as the 16 numbers of a matrix, row by row; an id may come \
+first. NPY: N x 2 x 4 x 4; NPZ: two arrays of N x 4 x 4 with these names.")]
 pub struct SolveArgs {
-    /// JSON file with `setup` and `pairs`, or `robot` and `camera`.
+    /// JSON file with `setup` and `pairs`, or `robot` and `camera`; or CSV, NPY or NPZ with pairs.
     pub pairs: PathBuf,
-    /// Run one published method as published, by its name.
-    #[arg(long, help = published_methods())]
-    pub method: Option<String>,
+    /// Where the camera is mounted, for CSV, NPY and NPZ.
+    #[arg(long, value_enum)]
+    pub setup: Option<crate::simulate::SetupArg>,
+    /// Run published methods as published, by their names.
+    #[arg(long, value_delimiter = ',', help = published_methods())]
+    pub method: Vec<String>,
+    /// Folder for calibration.json and report.html; created if it does not exist.
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+    /// What a script wants of the result.
+    #[command(flatten)]
+    pub acceptance: Acceptance,
     /// Try to prove that the least-squares solution is the global optimum.
     #[arg(long)]
     pub certify: bool,
@@ -135,7 +166,8 @@ pub struct SolveArgs {
 #[command(after_help = "Examples:\n\
 \x20 handeye calibrate cell/\n\
 \x20 handeye calibrate cell/ --out result --format ros2-launch,kuka\n\
-\x20 handeye calibrate cell.toml --root /data/cell --json")]
+\x20 handeye calibrate cell.toml --root /data/cell --json\n\
+\x20 handeye calibrate cell/ --max-error-mm 0.5 --strict --oneline >> nightly.log")]
 pub struct CalibrateArgs {
     /// Folder that contains `handeye.toml`, or the path of a manifest file.
     pub dataset: PathBuf,
@@ -160,6 +192,9 @@ pub struct CalibrateArgs {
     /// ICP on touched corners: stop when an iteration changes the transform by less than this (rad, m).
     #[arg(long, default_value_t = 1e-9)]
     pub icp_epsilon: f64,
+    /// What a script wants of the result.
+    #[command(flatten)]
+    pub acceptance: Acceptance,
 }
 
 /// Arguments of `export`.

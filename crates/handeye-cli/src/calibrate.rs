@@ -5,7 +5,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::{Calibration, Config, Session, Verdict, register::IcpConfig};
+use handeye::{
+    Calibration, Config, Session, Verdict, calibrate::findings, register::IcpConfig,
+};
 use handeye_io::{
     Dataset, ResultFolder,
     calibrate::{calibrate_dataset, write_run},
@@ -15,7 +17,7 @@ use handeye_io::{
 };
 
 use crate::{
-    args::{CalibrateArgs, GlobalArgs},
+    args::{Acceptance, CalibrateArgs, GlobalArgs},
     export,
     failure::Failure,
     output,
@@ -26,10 +28,14 @@ use crate::{
 pub fn run(args: &CalibrateArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let config = config(args)?;
     let formats = export::formats(&args.format)?;
-    let dataset = open(args)?;
+    let mut dataset = open(args)?;
+    dataset.limits.max_error =
+        args.acceptance.max_error()?.map(|mm| mm * 1e-3).or(dataset.limits.max_error);
     let folder = args.out.as_deref().map(result_folder).transpose()?;
     let (calibration, session) = run_on(&dataset, &config, global)?;
-    if !global.json {
+    if args.acceptance.oneline && !global.json {
+        output::print(&output::line(&calibration, &args.dataset));
+    } else if !global.json {
         output::warnings(&calibration, global);
         output::summary(&calibration);
         let unseen = calibration.captures.iter().all(|c| c.camera_from_target.is_none());
@@ -47,8 +53,29 @@ pub fn run(args: &CalibrateArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     if global.json {
         output::json(&calibration); // last: what fails before is the one document
     }
-    Ok(calibration.exit_code())
+    Ok(args.acceptance.exit_code(&calibration))
 }
+
+impl Acceptance {
+    /// The largest predicted error to accept, mm.
+    pub fn max_error(&self) -> Result<Option<f64>, Failure> {
+        match self.max_error_mm {
+            Some(mm) if !(mm > 0.0) => Err(Failure::Usage("--max-error-mm must be positive".into())),
+            given => Ok(given),
+        }
+    }
+
+    /// The exit code of a result.
+    pub fn exit_code(&self, calibration: &Calibration) -> u8 {
+        match findings::reservation(calibration) {
+            Some(_) if self.strict => WITH_FINDINGS,
+            _ => calibration.exit_code(),
+        }
+    }
+}
+
+/// Exit code of a result that is accepted with findings that changed the answer, where that is asked.
+const WITH_FINDINGS: u8 = 4;
 
 /// The folder for the results, made where it is missing.
 pub fn result_folder(out: &Path) -> Result<ResultFolder, Failure> {

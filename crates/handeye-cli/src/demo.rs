@@ -13,7 +13,7 @@ use handeye::{Calibration, Camera, Config, Mount, Pose};
 use handeye_io::{Dataset, report::dataset_html, write_atomically};
 use serde::{Deserialize, Serialize};
 
-use crate::{args::GlobalArgs, calibrate, failure::Failure, output};
+use crate::{args::GlobalArgs, browser, calibrate, failure::Failure, output};
 
 /// Arguments of `demo`.
 #[derive(Args)]
@@ -23,6 +23,9 @@ pub struct DemoArgs {
     /// Folder for dataset, result and report [default: a folder for temporary files].
     #[arg(long, short)]
     pub out: Option<PathBuf>,
+    /// Open the report in a browser.
+    #[arg(long)]
+    pub open: bool,
 }
 
 /// Name and content of embedded files.
@@ -76,9 +79,17 @@ pub fn run(args: &DemoArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let report =
         calibrate::write((&out, &results), &dataset, (&calibration, &page), vec![], &still)?;
     tell(
-        &Told { calibration: &calibration, off: off(&calibration)?, dataset: folder, report },
+        &Told {
+            calibration: &calibration,
+            off: off(&calibration)?,
+            dataset: folder,
+            report: report.clone(),
+        },
         global,
     );
+    if args.open {
+        browser::open(&report);
+    }
     Ok(calibration.exit_code())
 }
 

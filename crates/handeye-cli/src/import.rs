@@ -1,6 +1,9 @@
 //! `handeye import`: what other programs recorded or found, described by a file of ours.
 
-use std::path::PathBuf;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 use handeye_io::{Declared, Direction, import, write_atomically};
@@ -57,7 +60,7 @@ pub struct ImportArgs {
     /// Unit of positions, where neither the file nor its program says it.
     #[arg(long)]
     pub length_unit: Option<Length>,
-    /// Where to write, if not beside the source.
+    /// File or folder to write, if not beside the source.
     #[arg(long, short)]
     pub out: Option<PathBuf>,
     /// Overwrite an existing file.
@@ -67,12 +70,18 @@ pub struct ImportArgs {
 
 pub fn run(args: &ImportArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let imported = import(&args.source, &declared(args)?)?;
-    let path = args.out.clone().unwrap_or_else(|| imported.folder.join(&imported.name));
+    let folder = args.out.as_deref().unwrap_or(&imported.folder);
+    let is_file = args.out.is_some() && !folder.is_dir() && folder.extension().is_some();
+    let path = if is_file { folder.to_path_buf() } else { folder.join(&imported.name) };
     if path.exists() && !args.force {
         let what = "is there already; to write over it: --force";
         return Err(Failure::in_the_way(path, what));
     }
-    write_atomically(&path, imported.text.as_bytes())?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    if !folder.as_os_str().is_empty() {
+        fs::create_dir_all(folder).map_err(|e| Failure::no_folder(folder, e))?;
+    }
+    write_atomically(&path, imported.text_in(folder)?.as_bytes())?;
     let next = imported.next.replace("{}", &output::word(&path));
     if global.json {
         let key = if imported.name == handeye_io::MANIFEST { "manifest" } else { "file" };

@@ -1,6 +1,8 @@
 //! What the terminal shows.
 
 use std::{
+    cell::RefCell,
+    fmt::Write as _,
     io::{self, ErrorKind, IsTerminal, Write},
     path::Path,
     sync::atomic::{AtomicBool, Ordering},
@@ -21,9 +23,32 @@ use crate::args::{GlobalArgs, Program};
 /// Whether something could not be written to standard output.
 static LOST: AtomicBool = AtomicBool::new(false);
 
+thread_local! {
+    /// What this thread prints, on standard output and standard error, where a caller wants to have it.
+    static KEPT: RefCell<Option<[String; 2]>> = const { RefCell::new(None) };
+}
+
+/// Keeps what `run` prints in this thread: its value, standard output and standard error.
+pub fn captured<T>(run: impl FnOnce() -> T) -> (T, String, String) {
+    KEPT.set(Some(Default::default()));
+    let value = run();
+    let [out, err] = KEPT.take().unwrap_or_default();
+    (value, out, err)
+}
+
+/// Whether it is kept for a caller: standard output (0) or standard error (1).
+fn is_kept(stream: usize, text: std::fmt::Arguments) -> bool {
+    KEPT.with_borrow_mut(|kept| match kept {
+        Some(kept) => kept[stream].write_fmt(text).is_ok(),
+        None => false,
+    })
+}
+
 /// Writes to standard error; a reader that went away (`2>&1 | head`) is no error.
 pub fn to_stderr(text: std::fmt::Arguments) {
-    io::stderr().lock().write_fmt(text).ok();
+    if !is_kept(1, text) {
+        io::stderr().lock().write_fmt(text).ok();
+    }
 }
 
 /// Writes a line to standard error.
@@ -36,6 +61,9 @@ pub(crate) use note;
 
 /// Writes to standard output; a reader that went away (`| head`) is no error.
 pub fn print(text: &str) {
+    if is_kept(0, format_args!("{text}")) {
+        return;
+    }
     let mut stdout = io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -114,7 +142,8 @@ pub fn warn(warnings: &[Warning], global: &GlobalArgs) {
 
 /// Colour, only where a person reads.
 fn paint(text: &str, code: &str) -> String {
-    if io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
+    let is_kept = KEPT.with_borrow(Option::is_some);
+    if !is_kept && io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
         format!("\x1b[{code}m{text}\x1b[0m")
     } else {
         text.to_owned()
@@ -123,12 +152,15 @@ fn paint(text: &str, code: &str) -> String {
 
 /// The verdict's word.
 pub fn verdict(v: Verdict) -> String {
-    let word = match v {
+    verdict_as(v, name(v))
+}
+
+fn name(v: Verdict) -> &'static str {
+    match v {
         Verdict::Accepted => "ACCEPTED",
         Verdict::Rejected => "REJECTED",
         Verdict::Undetermined => "UNDETERMINED",
-    };
-    verdict_as(v, word)
+    }
 }
 
 /// The colour between green and red.
@@ -163,6 +195,20 @@ pub fn summary(c: &Calibration) {
     }
     text += &captures(c);
     print(&text);
+}
+
+/// The result in one line, for logs: the verdict, the predicted error or the first reason, captures, and what it is of.
+pub fn line(c: &Calibration, of: &Path) -> String {
+    let error = c.predicted_tre_mm.as_ref().map(|tre| format!("{:.3} mm (95 %)", tre.p95));
+    let said = match c.verdict {
+        Verdict::Accepted => findings::reservation(c).map(|s| s.replacen("Accepted, but", "but", 1)),
+        _ => c.reasons.first().cloned(),
+    };
+    let used = c.captures.iter().filter(|k| k.used).count();
+    let captures = (!c.captures.is_empty()).then(|| format!("{used} of {} captures", c.captures.len()));
+    let parts = [Some(name(c.verdict).to_owned()), error, captures, Some(self::word(of)), c.run_id.clone(), said];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    parts.join("  ").replace('\n', " ") + "\n"
 }
 
 /// How many captures the answer rests on, and the names of all others.

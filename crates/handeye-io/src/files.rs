@@ -43,6 +43,39 @@ fn bytes_up_to(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
+/// The way from one folder to another, with slashes; both are complete paths.
+pub(crate) fn relative(from: &Path, to: &Path) -> String {
+    let (from, to): (Vec<_>, Vec<_>) = (from.components().collect(), to.components().collect());
+    let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    if shared == 0 {
+        return to.iter().collect::<PathBuf>().display().to_string(); // another drive
+    }
+    let up = from[shared..].iter().map(|_| "..".into());
+    let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<String>>().join("/")
+}
+
+/// The text of a table: as [`text`], or as spreadsheets save it, UTF-16 with its mark, or one byte for a letter.
+pub(crate) fn table_text(path: &Path) -> Result<String, Error> {
+    let bytes = bytes_up_to(path, LARGEST_TEXT)?;
+    let words = |word: fn([u8; 2]) -> u16| -> Vec<u16> {
+        bytes[2..].chunks_exact(2).map(|two| word([two[0], two[1]])).collect()
+    };
+    match &bytes[..] {
+        [0xff, 0xfe, ..] => Ok(String::from_utf16_lossy(&words(u16::from_le_bytes))),
+        [0xfe, 0xff, ..] => Ok(String::from_utf16_lossy(&words(u16::from_be_bytes))),
+        _ if str::from_utf8(&bytes).is_err() && !bytes.iter().any(|b| is_control(*b)) => {
+            Ok(bytes.iter().map(|b| char::from(*b)).collect())
+        }
+        _ => text(path),
+    }
+}
+
+/// Whether no text has it.
+fn is_control(byte: u8) -> bool {
+    byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r')
+}
+
 /// The text of a file, without a byte order mark.
 pub(crate) fn text(path: &Path) -> Result<String, Error> {
     let text = String::from_utf8(bytes_up_to(path, LARGEST_TEXT)?).map_err(|_| {

@@ -8,6 +8,7 @@ mod arrays;
 mod bags;
 mod calibration;
 mod closed_form;
+mod commands;
 mod errors;
 mod images;
 mod opencv;
@@ -26,6 +27,7 @@ mod _core {
         bags::{bag_contents, extract_bag},
         calibration::{Calibrated, calibrate, solve, solve_streams},
         closed_form::closed_form,
+        commands::{command, main, target_toml},
         errors::{HandEyeError, InputError, NotDetermined, Rejected},
         images::detect,
         opencv::{hand_eye, robot_world_hand_eye},

@@ -28,6 +28,8 @@ use crate::{
 pub(crate) struct Manifest {
     /// Whether the robot carries the camera or the target.
     pub(crate) setup: Setup,
+    /// Folder that all names of files are relative to, where it is not that of the manifest; relative to that.
+    pub(crate) root: Option<String>,
     /// What the camera looks at; lengths in millimetres. Several, each with a name, where images show more than one;
     /// captures.target says which of them the calibration uses. Without a board: "scene", a still scene (eye-in-hand),
     /// or "object", an object of known shape, in scans.

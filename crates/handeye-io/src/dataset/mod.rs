@@ -234,7 +234,9 @@ impl Dataset {
 
     /// Opens the text of a manifest, wherever it stands.
     pub(crate) fn of_source(source: Source, root: &Path) -> Result<Dataset, Error> {
-        Opening { manifest: Manifest::parse(&source)?, source, root: root.to_path_buf() }.dataset()
+        let manifest = Manifest::parse(&source)?;
+        let root = root.join(manifest.root.as_deref().unwrap_or_default());
+        Opening { manifest, source, root }.dataset()
     }
 
     /// Reads a capture's or a placement's image.

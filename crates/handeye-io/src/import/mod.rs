@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 
 use handeye::Setup;
 
-use crate::{Error, MANIFEST, bag, dataset::Draft, error::unusable};
+use crate::{Error, MANIFEST, bag, dataset::Draft, error::unusable, files};
 pub(crate) use declared::WHO_CARRIES;
 pub use declared::{Declared, Direction};
 
@@ -45,6 +45,25 @@ pub struct Imported {
     pub notes: Vec<String>,
     /// What to run on it, `{}` in place of its path.
     pub next: &'static str,
+}
+
+impl Imported {
+    /// Its text, for a file in this folder: a manifest that lies elsewhere than what it names says where that is.
+    ///
+    /// # Errors
+    /// A folder that is not there.
+    pub fn text_in(&self, folder: &Path) -> Result<String, Error> {
+        let real = |path: &Path| {
+            let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+            path.canonicalize().map_err(|source| Error::Read { path: path.into(), source })
+        };
+        let (here, there) = (real(folder)?, real(&self.folder)?);
+        if self.name != MANIFEST || here == there {
+            return Ok(self.text.clone());
+        }
+        let root = toml::Value::from(files::relative(&here, &there));
+        Ok(format!("root = {root} # what names of files are relative to\n{}", self.text))
+    }
 }
 
 /// What a layout says of a data set.

@@ -1,5 +1,8 @@
 //! Tables in text: one record per line, values apart by semicolons, commas, tabs or spaces, with or
 //! without a header, `#` before comments; and matrices that stretch over four lines.
+//!
+//! Spreadsheets of much of Europe write `1,5;2,25`: where semicolons or tabs separate the values of a file and a comma
+//! stands within one of its numbers, commas are decimal points in all of it.
 
 use std::path::Path;
 
@@ -15,10 +18,12 @@ struct Line {
 }
 
 pub(super) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error> {
-    let text = files::text(path)?;
+    let text = files::table_text(path)?;
+    let below = || text.lines().enumerate().skip(layout.skip_lines);
+    let commas = Commas::of(below().map(|(_, line)| line));
     let mut lines = Vec::new();
-    for (i, line) in text.lines().enumerate().skip(layout.skip_lines) {
-        let cells = cells(line, &Place::line(path, i + 1))?;
+    for (i, line) in below() {
+        let cells = cells(line, commas);
         if !cells.is_empty() {
             lines.push(Line { number: i + 1, cells });
         }
@@ -32,29 +37,64 @@ pub(super) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error
     if layout.matrices { matrices(records, path) } else { Ok(records) }
 }
 
-/// The values of one line, each with the name before it if there is one (`X: 1.5`, `X 1.5`).
-fn cells(line: &str, place: &Place) -> Result<Vec<(Option<String>, Cell)>, Error> {
-    let line = line.split('#').next().unwrap_or_default().trim();
-    let line = line.strip_prefix("p[").unwrap_or(line);
-    let bare: String = line.chars().map(|c| if "[]{}()".contains(c) { ' ' } else { c }).collect();
-    let separator = [';', ','].into_iter().find(|s| bare.contains(*s));
-    let Some(separator) = separator else { return Ok(words(&bare)) };
-    if separator == ';' && bare.split(';').any(is_decimal_comma) {
-        return Err(malformed(
-            place.clone(),
-            "numbers with a decimal comma",
-            "write them with a decimal point",
-        ));
+/// What a comma means in a file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Commas {
+    BetweenValues,
+    InNumbers,
+}
+
+impl Commas {
+    fn of<'a>(mut lines: impl Iterator<Item = &'a str>) -> Self {
+        let in_numbers = |line: &str| {
+            let line = without_comment(line);
+            let separator = [';', '\t'].into_iter().find(|s| line.contains(*s));
+            separator.is_some_and(|s| line.split(s).any(is_decimal_comma))
+        };
+        if lines.any(in_numbers) { Self::InNumbers } else { Self::BetweenValues }
     }
+}
+
+fn without_comment(line: &str) -> &str {
+    line.split('#').next().unwrap_or_default().trim()
+}
+
+/// The values of one line, each with the name before it if there is one (`X: 1.5`, `X 1.5`).
+fn cells(line: &str, commas: Commas) -> Vec<(Option<String>, Cell)> {
+    let line = without_comment(line);
+    let line = line.strip_prefix("p[").unwrap_or(line);
+    let mut bare: String =
+        line.chars().map(|c| if "[]{}()".contains(c) { ' ' } else { c }).collect();
+    if commas == Commas::InNumbers {
+        bare = with_points(&bare);
+    }
+    // tabs that only align the columns leave some empty
+    let apart_by_tabs = bare.contains('\t') && !bare.contains("\t\t");
+    let separator = match commas {
+        _ if bare.contains(';') => ';',
+        Commas::BetweenValues if bare.contains(',') => ',',
+        _ if apart_by_tabs => '\t',
+        _ => return words(&bare),
+    };
     let parts = bare.trim().trim_end_matches(separator).split(separator);
-    Ok(parts.flat_map(part).collect())
+    parts.flat_map(part).collect()
 }
 
 fn is_decimal_comma(cell: &str) -> bool {
     let digits = |s: &str| !s.is_empty() && s.bytes().all(|c| c.is_ascii_digit());
-    cell.trim().trim_start_matches(['-', '+']).split_once(',').is_some_and(|(whole, rest)| {
+    let bare = cell.trim().trim_matches('"').trim_start_matches(['-', '+']);
+    bare.split_once(',').is_some_and(|(whole, rest)| {
         digits(whole) && digits(rest.split(['e', 'E']).next().unwrap_or_default())
     })
+}
+
+/// Every comma between two digits as a decimal point.
+fn with_points(text: &str) -> String {
+    let bytes = text.as_bytes();
+    let is_digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
+    let point =
+        |(at, c)| if c == ',' && at > 0 && is_digit(at - 1) && is_digit(at + 1) { '.' } else { c };
+    text.char_indices().map(point).collect()
 }
 
 /// What stands between two separators: numbers, a named number, or one text.
@@ -102,8 +142,25 @@ fn take_header(lines: &mut Vec<Line>) -> Vec<String> {
 }
 
 /// Usual names of the column that names a record.
-pub(super) const ID_NAMES: [&str; 9] =
-    ["id", "name", "capture", "capture_id", "image", "file", "pose_id", "record_id", "pose"];
+pub(super) const ID_NAMES: [&str; 17] = [
+    "id",
+    "name",
+    "capture",
+    "capture_id",
+    "image",
+    "file",
+    "pose_id",
+    "record_id",
+    "pose",
+    "nr",
+    "no",
+    "number",
+    "nummer",
+    "bild",
+    "aufnahme",
+    "numero",
+    "punkt",
+];
 
 fn record(line: Line, header: &[String], path: &Path) -> Result<Record, Error> {
     let place = Place::line(path, line.number);
@@ -157,7 +214,7 @@ mod tests {
     use super::*;
 
     fn numbers(line: &str) -> Vec<f64> {
-        let cells = cells(line, &Place::default()).unwrap();
+        let cells = cells(line, Commas::of([line].into_iter()));
         cells.iter().map(|(_, c)| c.number().unwrap()).collect()
     }
 
@@ -167,29 +224,40 @@ mod tests {
             "1,2,-3e1",
             "1; 2; -3e1",
             "1\t2\t-3e1",
+            "1,\t2,\t-3e1",
             " 1  2 -3e1 # note",
             "p[1, 2, -30]",
             "[1, 2], [-30]",
+            "1;2,0;-3,0e1",
+            "1\t2,0\t-30,000",
+            "\"1,0\";\"2\";-30",
         ] {
             assert_eq!(numbers(line), [1.0, 2.0, -30.0], "{line}");
         }
     }
 
     #[test]
-    fn names_beside_values_are_kept() {
-        for line in ["{X 1.5,Y 2,Z 3}", "X: 1.5 Y: 2 Z: 3", "X=1.5, Y=2, Z=3"] {
-            let cells = cells(line, &Place::default()).unwrap();
-            let names: Vec<_> = cells.iter().map(|(n, _)| n.as_deref().unwrap_or("")).collect();
-            assert_eq!(names, ["X", "Y", "Z"], "{line}");
-        }
+    fn a_comma_is_a_decimal_point_in_a_whole_file_or_nowhere() {
+        let of = |lines: &[&str]| Commas::of(lines.iter().copied());
+        assert_eq!(of(&["x;y", "1;2", "1,5;2"]), Commas::InNumbers);
+        assert_eq!(of(&["x\ty", "1\t2,5"]), Commas::InNumbers);
+        assert_eq!(of(&["1,5,2", "1,2"]), Commas::BetweenValues);
+        assert_eq!(of(&["[1, 2]; [3, 4]", "1;2 # 3,5;4"]), Commas::BetweenValues);
     }
 
     #[test]
-    fn a_decimal_comma_is_refused() {
-        let error = cells("1,5;2,25;3", &Place::line(Path::new("a.csv"), 2)).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "a.csv:2: numbers with a decimal comma; write them with a decimal point"
-        );
+    fn names_apart_by_tabs_may_have_blanks() {
+        let names: Vec<Cell> =
+            cells("Pose Nr\tX", Commas::BetweenValues).into_iter().map(|c| c.1).collect();
+        assert_eq!(names, ["Pose Nr", "X"].map(|n| Cell::Text(n.into())));
+    }
+
+    #[test]
+    fn names_beside_values_are_kept() {
+        for line in ["{X 1.5,Y 2,Z 3}", "X: 1.5 Y: 2 Z: 3", "X=1.5, Y=2, Z=3"] {
+            let cells = cells(line, Commas::BetweenValues);
+            let names: Vec<_> = cells.iter().map(|(n, _)| n.as_deref().unwrap_or("")).collect();
+            assert_eq!(names, ["X", "Y", "Z"], "{line}");
+        }
     }
 }

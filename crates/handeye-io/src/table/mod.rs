@@ -21,6 +21,13 @@ pub(crate) enum Cell {
 }
 
 impl Cell {
+    fn text(&self) -> String {
+        match self {
+            Cell::Number(x) => x.to_string(),
+            Cell::Text(text) => text.clone(),
+        }
+    }
+
     fn number(&self) -> Option<f64> {
         match self {
             Cell::Number(x) => Some(*x),
@@ -178,6 +185,11 @@ impl Record {
         self.cells.get(self.names.iter().position(wanted)?)
     }
 
+    /// The first cell, as a name.
+    pub(crate) fn first_as_text(&self) -> Option<String> {
+        self.cells.first().map(Cell::text)
+    }
+
     /// The number under one of these names.
     pub(crate) fn number_named(&self, names: &[&str]) -> Option<f64> {
         self.named(names).and_then(Cell::number)
@@ -185,16 +197,15 @@ impl Record {
 
     /// The text or whole number under one of these names.
     pub(crate) fn text_named(&self, names: &[&str]) -> Option<String> {
-        self.named(names).map(|cell| match cell {
-            Cell::Number(x) => x.to_string(),
-            Cell::Text(text) => text.clone(),
-        })
+        self.named(names).map(Cell::text)
     }
 
-    /// The values of `columns` (each with its usual names), by name where the file names them,
-    /// otherwise in order. All are finite.
+    /// The values of `columns` (each with its usual names), by name where the file names them, in order where it does
+    /// not, or calls all of them something else (in another language). All are finite.
     pub(crate) fn numbers(&self, columns: &[&[&str]], what: &str) -> Result<Vec<f64>, Error> {
-        let cells = if self.names.is_empty() {
+        let is_known = |names: &&[&str]| self.named(names).is_some();
+        let unknown = || !columns.iter().any(is_known) && self.values().len() == columns.len();
+        let cells = if self.names.is_empty() || unknown() {
             self.in_order(columns, what)?
         } else {
             self.by_name(columns, what)?
@@ -226,9 +237,22 @@ impl Record {
         columns.iter().map(name).collect()
     }
 
+    /// All cells but those that name the record, and where a header names them, but texts.
+    fn values(&self) -> Vec<&Cell> {
+        if self.names.is_empty() {
+            let leading_name = matches!(self.cells.first(), Some(Cell::Text(_)));
+            return self.cells.iter().skip(usize::from(leading_name)).collect();
+        }
+        let names_it = |name: &str| lines::ID_NAMES.iter().any(|n| plain(n) == plain(name));
+        let named = self.cells.iter().zip(&self.names);
+        named
+            .filter(|(cell, name)| cell.number().is_some() && !names_it(name))
+            .map(|(cell, _)| cell)
+            .collect()
+    }
+
     fn in_order(&self, columns: &[&[&str]], what: &str) -> Result<Vec<&Cell>, Error> {
-        let leading_name = matches!(self.cells.first(), Some(Cell::Text(_)));
-        let cells: Vec<&Cell> = self.cells.iter().skip(usize::from(leading_name)).collect();
+        let cells = self.values();
         if cells.len() != columns.len() {
             return Err(self.refuse(
                 format!("has {} values, but {what} takes {}", cells.len(), columns.len()),
@@ -275,6 +299,26 @@ mod tests {
             assert_eq!(plain(name), "qx");
         }
         assert_eq!(plain("x_mm"), "x");
+    }
+
+    #[test]
+    fn columns_in_another_language_are_taken_in_order() {
+        const COLUMNS: [&[&str]; 3] = [&["x"], &["y"], &["z"]];
+        let record = |names: &[&str], cells: &[f64]| Record {
+            cells: cells.iter().map(|x| Cell::Number(*x)).collect(),
+            names: names.iter().map(|n| (*n).into()).collect(),
+            id: None,
+            place: Place::default(),
+        };
+        let read =
+            |names: &[&str], cells: &[f64]| record(names, cells).numbers(&COLUMNS, "it").ok();
+        let in_order = Some(vec![1.0, 2.0, 3.0]);
+        assert_eq!(read(&["rechts", "vorn", "oben"], &[1.0, 2.0, 3.0]), in_order);
+        assert_eq!(read(&["Nr", "rechts", "vorn", "oben"], &[9.0, 1.0, 2.0, 3.0]), in_order);
+        assert_eq!(read(&["z", "y", "x"], &[3.0, 2.0, 1.0]), in_order);
+        // one that is known, and others that are not: which is which?
+        assert_eq!(read(&["x", "vorn", "oben"], &[1.0, 2.0, 3.0]), None);
+        assert_eq!(read(&["was", "rechts", "vorn", "oben"], &[9.0, 1.0, 2.0, 3.0]), None);
     }
 
     #[test]

@@ -344,8 +344,8 @@ fn broken_poses_are_refused_by_line() {
         ("too few", "0.1,0.2,0.3,0.1,0.2,0.3\n".into(), "1 robot poses but 3 images"),
         (
             "unknown header",
-            format!("p,q,r,s,t,u\n{POSES}"),
-            "poses.csv:2: ur needs a value named x, but the names are p, q, r, s, t, u; say which columns = [..] are meant, in the notation's order",
+            format!("x,q,r,s,t,u\n{POSES}"),
+            "poses.csv:2: ur needs a value named y, but the names are x, q, r, s, t, u; say which columns = [..] are meant, in the notation's order",
         ),
         (
             "header of another width",

@@ -9,6 +9,7 @@ Lengths are metres and angles radians, but where a name ends in ``_mm`` or ``_de
 """
 
 from ._calibration import Calibration, Candidate, Corrected
+from ._commands import Target, check, compare, export, import_dataset, init, target, tool_tip, verify, view
 from ._core import (
     METHODS,
     HandEyeError,
@@ -40,27 +41,37 @@ for _name in ("code", "file", "line", "capture"):
 del _name
 
 __all__ = [
-    "METHODS",
     "BagContents",
     "BagTopic",
     "Calibration",
     "Candidate",
-    "Corrected",
     "Corners",
+    "Corrected",
     "Extracted",
     "HandEyeError",
     "InputError",
+    "METHODS",
     "NotDetermined",
     "Pose",
     "Registration",
     "Rejected",
+    "Target",
     "__version__",
     "bag_contents",
     "calibrate",
+    "check",
     "closed_form",
+    "compare",
     "detect",
+    "export",
     "extract_bag",
+    "import_dataset",
+    "init",
     "register",
     "simulate",
     "solve",
+    "target",
+    "tool_tip",
+    "verify",
+    "view",
 ]

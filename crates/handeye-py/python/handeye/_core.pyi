@@ -21,14 +21,17 @@ __all__ = [
     "bag_contents",
     "calibrate",
     "closed_form",
+    "command",
     "detect",
     "extract_bag",
     "hand_eye",
+    "main",
     "register",
     "robot_world_hand_eye",
     "simulate",
     "solve",
     "solve_streams",
+    "target_toml",
 ]
 
 __version__: str
@@ -62,6 +65,9 @@ class Calibrated:
     ) -> List[Tuple[List[float], List[float], bool]]: ...
     def export(self, format: str, child: str) -> Tuple[str, bytes]: ...
 
+def command(words: Sequence[str]) -> Tuple[int, str, str]: ...
+def main(words: Sequence[str]) -> int: ...
+def target_toml(json: str) -> str: ...
 def bag_contents(bag: _Path) -> str: ...
 def extract_bag(
     bag: _Path,

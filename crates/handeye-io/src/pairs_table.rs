@@ -1,0 +1,153 @@
+//! Pairs of poses in tables and arrays: what a spreadsheet, NumPy or MATLAB saves.
+//!
+//! A record holds `base_from_flange` and `camera_from_target`, each as a position (m) and a quaternion x y z w, or as a
+//! matrix of 4 x 4, row by row. An archive holds two arrays with these names.
+
+use std::path::Path;
+
+use handeye::{Base, Camera, Flange, Observation, Pose, Session, Setup, Target, estimate::KnownNoise};
+
+use crate::{
+    error::{Error, Place, malformed, unusable},
+    files,
+    pairs_file::{MeasuredPoses, PosesFile},
+    robot::Notation,
+    table::{self, Layout, Record},
+};
+
+/// What the two poses of a record are called.
+const NAMES: [&str; 2] = ["base_from_flange", "camera_from_target"];
+
+/// Whether a file holds pairs as [`read_pairs_table`] reads them, by its name.
+pub fn is_pairs_table(path: &Path) -> bool {
+    ["csv", "txt", "npy", "npz"].contains(&files::extension(path).as_str())
+}
+
+/// Reads pairs from a CSV, TXT, NPY or NPZ file; `setup` is what it cannot say.
+///
+/// # Errors
+/// Files that cannot be read, numbers that are no poses, ids that are there twice; with the line or row.
+pub fn read_pairs_table(path: &Path, setup: Setup) -> Result<PosesFile, Error> {
+    let [robot, camera] = match files::extension(path).as_str() {
+        "npz" => apart(path)?,
+        _ => halves(table::records(path, &Layout::default())?)?,
+    };
+    let mut seen = std::collections::HashSet::new();
+    let mut observations = vec![];
+    for (k, (robot, camera)) in robot.iter().zip(&camera).enumerate() {
+        let capture = robot.id.clone().unwrap_or_else(|| (k + 1).to_string());
+        if !seen.insert(capture.clone()) {
+            return Err(robot.refuse(format!("the id {capture:?} is there twice"), "give each pair an id of its own"));
+        }
+        let base_from_flange: Pose<Base, Flange> = pose(robot, NAMES[0])?;
+        let camera_from_target: Pose<Camera, Target> = pose(camera, NAMES[1])?;
+        observations.push(Observation::bare(capture, base_from_flange, camera_from_target));
+    }
+    let session = Session { in_sequence: true, ..Session::of_captures(setup, observations) };
+    Ok(PosesFile { measured: MeasuredPoses::Pairs(Box::new(session)), noise: KnownNoise::default() })
+}
+
+/// The two arrays of an archive.
+fn apart(path: &Path) -> Result<[Vec<Record>; 2], Error> {
+    let read = |name: &str| table::records(path, &Layout { fields: vec![name.into()], ..Layout::default() });
+    let [robot, camera] = [read(NAMES[0])?, read(NAMES[1])?];
+    if robot.len() == camera.len() {
+        return Ok([robot, camera]);
+    }
+    let what = format!("holds {} poses of the robot but {} of the target", robot.len(), camera.len());
+    Err(unusable(path, format!("{what}: each pair needs both")))
+}
+
+/// Records of two poses each, in two.
+fn halves(records: Vec<Record>) -> Result<[Vec<Record>; 2], Error> {
+    let mut both = [vec![], vec![]];
+    for record in records {
+        // an index before them is a name, too
+        let is_named = record.id.is_some() || [15, 33].contains(&record.cells.len());
+        let id = record.id.clone().or_else(|| record.first_as_text().filter(|_| is_named));
+        let numbers = &record.cells[usize::from(is_named)..];
+        if numbers.len() != 14 && numbers.len() != 32 {
+            let what = format!("has {} numbers, but a pair has 14 or 32", numbers.len());
+            let advice = "base_from_flange and camera_from_target, each as x y z (m) and quaternion x y z w, or as \
+                          the 16 numbers of a matrix";
+            return Err(record.refuse(what, advice));
+        }
+        for (half, cells) in both.iter_mut().zip(numbers.chunks(numbers.len() / 2)) {
+            let (id, place) = (id.clone(), record.place.clone());
+            half.push(Record { cells: cells.to_vec(), names: vec![], id, place });
+        }
+    }
+    Ok(both)
+}
+
+fn pose<A: handeye::Frame, B: handeye::Frame>(record: &Record, name: &str) -> Result<Pose<A, B>, Error> {
+    let notation = if record.cells.len() == 7 { "quaternion-xyzw" } else { "matrix4x4" };
+    let refuse = |what: String| {
+        malformed(record.place.clone(), format!("{name}: {what}"), "correct the numbers, or leave the pair out")
+    };
+    let notation = Notation::named(notation).map_err(refuse)?;
+    let pose = notation.pose(&notation.numbers(record)?, notation.own_units()).map_err(refuse)?;
+    Ok(Pose::claim(pose))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    fn read(name: &str, content: impl AsRef<[u8]>) -> Result<PosesFile, String> {
+        let path = std::env::temp_dir().join(format!("handeye-pairs-{}-{name}", std::process::id()));
+        fs::write(&path, content).unwrap();
+        let found = read_pairs_table(&path, Setup::EyeInHand);
+        fs::remove_file(&path).unwrap();
+        found.map_err(|e| e.to_string().replace(&path.display().to_string(), name))
+    }
+
+    fn session(file: PosesFile) -> Session {
+        match file.measured {
+            MeasuredPoses::Pairs(session) => *session,
+            MeasuredPoses::Streams(_) => panic!("pairs were read"),
+        }
+    }
+
+    #[test]
+    fn a_line_holds_two_poses_with_or_without_an_id() {
+        let line = "0.1,0.2,0.3,0,0,0,1,0.4,0.5,0.6,0,0,1,0";
+        let bare = session(read("bare.csv", format!("{line}\n{line}\n")).unwrap());
+        assert_eq!(bare.observations.iter().map(|o| &o.capture).collect::<Vec<_>>(), ["1", "2"]);
+        let counted = session(read("counted.csv", format!("7,{line}\n8,{line}\n")).unwrap());
+        assert_eq!(counted.observations[1].capture, "8");
+        let named = session(read("named.csv", format!("a,{line}\nb,{line}\n")).unwrap());
+        assert_eq!(named.observations[1].capture, "b");
+        let found = &named.observations[0];
+        assert_eq!(found.base_from_flange.translation().as_slice(), [0.1, 0.2, 0.3]);
+        let camera_from_target = &found.candidates[0].camera_from_target;
+        assert_eq!(camera_from_target.translation().as_slice(), [0.4, 0.5, 0.6]);
+        assert!((camera_from_target.rotation().angle() - std::f64::consts::PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn arrays_hold_matrices() {
+        let matrix = |x: f64| [1.0, 0.0, 0.0, x, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+        let both: Vec<f64> = [1.0, 2.0, 3.0, 4.0].into_iter().flat_map(matrix).collect();
+        let found = session(read("both.npy", crate::npy::encode(&[2, 2, 4, 4], &both)).unwrap());
+        let x = |k: usize| {
+            let o = &found.observations[k];
+            [o.base_from_flange.translation().x, o.candidates[0].camera_from_target.translation().x]
+        };
+        assert_eq!([x(0), x(1)], [[1.0, 2.0], [3.0, 4.0]]);
+    }
+
+    #[test]
+    fn what_is_no_pair_is_refused_with_its_line() {
+        let line = "0.1,0.2,0.3,0,0,0,1,0.4,0.5,0.6,0,0,1,0";
+        let of = |content: String| read("bad.csv", content).unwrap_err();
+        let short = of("1,2,3\n".into());
+        assert!(short.starts_with("bad.csv:1: has 3 numbers, but a pair has 14 or 32"), "{short}");
+        let twice = of(format!("a,{line}\na,{line}\n"));
+        assert!(twice.starts_with("bad.csv:2: the id \"a\" is there twice"), "{twice}");
+        let none = of(format!("{line}\n{}\n", line.replace("0,0,0,1", "0,0,0,0")));
+        assert!(none.starts_with("bad.csv:2: base_from_flange: "), "{none}");
+    }
+}

@@ -1,0 +1,5 @@
+"""``python -m handeye``: the program."""
+
+from ._commands import main
+
+main()

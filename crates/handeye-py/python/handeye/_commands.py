@@ -1,0 +1,302 @@
+"""The commands of the program as functions: the same words, units and answers as on a terminal."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from os import PathLike, fspath
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+from . import _core
+from ._calibration import Calibration
+from ._core import InputError
+from ._functions import _poses
+from ._pose import Pose
+
+_Path = Union[str, "PathLike[str]"]
+_Result = Union[Calibration, _Path]
+
+
+def check(dataset: _Path, *, root: Optional[_Path] = None, apply: Union[bool, int] = False) -> Dict[str, Any]:
+    """Finds mistakes in a dataset: notation, units, direction, order, size of the target, outliers.
+
+    :param dataset: the folder, or its manifest ``handeye.toml``.
+    :param root: where the captures lie, if not beside the manifest.
+    :param apply: write the manifest that explains the captures best, and keep the old one as ``handeye.toml.bak``; a
+        number (from 1) chooses one of several that fit equally well.
+    :returns: what ``handeye check --json`` prints; ``ok`` says whether nothing is wrong.
+    :raises InputError: files that cannot be used.
+    """
+    words = ["check", fspath(dataset), *_option("root", root)]
+    if apply is not False:
+        words.append("--apply" if apply is True else f"--apply={apply}")
+    return _document(words)
+
+
+def init(folder: _Path, *, force: bool = False) -> Dict[str, Any]:
+    """Writes a first ``handeye.toml`` for a folder, with the questions that its files leave open.
+
+    :param folder: with pictures, scans and robot poses.
+    :param force: write over a manifest that is there.
+    :returns: ``manifest``, its path, and ``questions``, each with its ``line`` and ``text``.
+    :raises InputError: a folder without captures, or with a manifest.
+    """
+    return _document(["init", fspath(folder), *_flag("force", force)])
+
+
+def import_dataset(
+    source: _Path,
+    camera: Optional[_Path] = None,
+    *,
+    setup: Optional[str] = None,
+    direction: Union[str, Sequence[str], None] = None,
+    sequence: Optional[str] = None,
+    length_unit: Optional[str] = None,
+    out: Optional[_Path] = None,
+    force: bool = False,
+) -> Dict[str, Any]:
+    """Takes what other programs recorded or found: easy_handeye2, MoveIt, Zivid, HALCON, KinHEC and others.
+
+    :param source: file or folder; of two trajectories, that of the robot.
+    :param camera: the camera's trajectory.
+    :param setup: ``"eye-in-hand"`` or ``"eye-to-hand"``, where the files do not say it.
+    :param direction: as ``"base_from_flange"`` and ``"camera_from_target"``, where the files do not say it.
+    :param sequence: which one of a KinHEC folder.
+    :param length_unit: ``"m"``, ``"mm"``, ``"cm"`` or ``"inch"``, where neither the file nor its program says it.
+    :param out: where to write, if not beside the source.
+    :param force: write over what is there.
+    :returns: what ``handeye import --json`` prints: ``layout``, what was written, ``questions``, ``notes``.
+    :raises InputError: what is of no program that is known, or lacks something.
+    """
+    directions = [direction] if isinstance(direction, str) else direction or []
+    words = ["import", fspath(source)]
+    words += [] if camera is None else [fspath(camera)]
+    words += _option("setup", setup) + _option("direction", ",".join(directions) or None)
+    words += _option("sequence", sequence) + _option("length-unit", length_unit) + _option("out", out)
+    return _document(words + _flag("force", force))
+
+
+def compare(*results: _Result, out: Optional[_Path] = None, root: Optional[_Path] = None) -> Dict[str, Any]:
+    """Do several calibrations of one cell agree?
+
+    :param results: two and more calibrations: each a :class:`Calibration`, a ``calibration.json``, or the folder of a
+        result. Or one dataset: its captures are calibrated in halves.
+    :param out: where the combined transform is written, with its covariance.
+    :param root: of a dataset: where its captures lie, if not beside the manifest.
+    :returns: what ``handeye compare --json`` prints.
+    :raises InputError: results that cannot be compared.
+    """
+    with _Files() as files:
+        words = ["compare", *(files.result(r) for r in results)]
+        return _document(words + _option("out", out) + _option("root", root))
+
+
+def verify(
+    calibration: _Result,
+    touches: _Path,
+    *,
+    tolerance_mm: Optional[float] = None,
+    touch_noise_mm: float = 0.2,
+    camera_noise_mm: float = 0.2,
+    out: Optional[_Path] = None,
+) -> Dict[str, Any]:
+    """Verifies a calibration with touched points that it has not seen.
+
+    :param touches: a CSV or JSON file of points seen and touched, or a dataset with new touches.
+    :param tolerance_mm: largest distance between tip and prediction that the job allows.
+    :param touch_noise_mm: standard deviation of touching a point, per axis.
+    :param camera_noise_mm: that of the camera's points in the file, per axis.
+    :param out: folder for ``verify.html``.
+    :returns: what ``handeye verify --json`` prints; ``verdict`` is ``accepted`` where it passed.
+    :raises InputError: files that cannot be used.
+    """
+    with _Files() as files:
+        words = ["verify", files.result(calibration), fspath(touches)]
+        words += _option("tolerance-mm", tolerance_mm) + _option("touch-noise-mm", touch_noise_mm)
+        return _document(words + _option("camera-noise-mm", camera_noise_mm) + _option("out", out))
+
+
+def export(
+    calibration: _Result,
+    format: Union[str, Sequence[str]],
+    out: _Path,
+    *,
+    parent: Optional[str] = None,
+    child: str = "camera",
+    force: bool = False,
+) -> List[Path]:
+    """Writes the transform in other programs' formats.
+
+    :param format: one or several: ``urdf``, ``ros2-launch``, ``kuka``, ``zivid-yaml``, ``halcon`` ...
+    :param out: the folder, or a file for a single format.
+    :param parent: name of the parent frame, else ``base`` or ``flange``.
+    :param child: name of the camera's frame.
+    :param force: a result that was not accepted, too.
+    :returns: the files.
+    :raises InputError: a format that is not there, a result that was not accepted.
+    """
+    formats = format if isinstance(format, str) else ",".join(format)
+    with _Files() as files:
+        words = ["export", files.result(calibration), "--format", formats, "--out", fspath(out)]
+        words += _option("parent", parent) + _option("child", child) + _flag("force", force)
+        return [Path(file) for file in _document(words)["files"]]
+
+
+def tool_tip(
+    base_from_flange: Any,
+    *,
+    notation: Optional[str] = None,
+    direction: Optional[str] = None,
+    length_unit: Optional[str] = None,
+    angle_unit: Optional[str] = None,
+    limit_mm: float = 2.0,
+) -> Dict[str, Any]:
+    """Where the tip of a tool sits, from flange poses with the tip on one fixed point (pivot calibration).
+
+    :param base_from_flange: N x 4 x 4 (m), a list of :class:`Pose`, or a file of robot poses.
+    :param notation: of a file: ``ur``, ``kuka``, ``matrix4x4`` and so on; likewise ``direction``, ``length_unit`` and
+        ``angle_unit``.
+    :param limit_mm: largest RMS distance of the tip from the point; above it the result is rejected.
+    :returns: what ``handeye tcp --json`` prints: ``verdict``, ``tip_in_flange_m``, ``covariance`` and more.
+    :raises InputError: poses that cannot be used.
+    """
+    with _Files() as files:
+        if isinstance(base_from_flange, (str, PathLike)):
+            file = fspath(base_from_flange)
+        else:
+            file = files.poses(_poses(base_from_flange, "base", "flange"))
+            notation, direction, length_unit = "matrix4x4", "base_from_flange", "m"
+        words = ["tcp", file, *_option("notation", notation), *_option("direction", direction)]
+        words += _option("length-unit", length_unit) + _option("angle-unit", angle_unit)
+        return _document(words + _option("limit-mm", limit_mm))
+
+
+def view(
+    *files: _Result,
+    out: _Path = "view.html",
+    length_unit: Optional[str] = None,
+    depth_scale: Optional[float] = None,
+    camera: Optional[_Path] = None,
+) -> Path:
+    """Writes a page that shows scans, meshes, calibrations and registrations in 3D.
+
+    :param files: scans, meshes, a calibration, what ``handeye register --json`` printed.
+    :param out: the page.
+    :param length_unit: ``"m"``, ``"mm"``, ``"cm"`` or ``"inch"``, where files do not say it.
+    :param depth_scale: metres per unit of a depth image.
+    :param camera: intrinsics of depth images, in any file that a manifest may name.
+    :returns: the page.
+    :raises InputError: files that cannot be shown.
+    """
+    with _Files() as kept:
+        words = ["view", *(kept.result(file) for file in files), "--out", fspath(out)]
+        words += _option("length-unit", length_unit) + _option("depth-scale", depth_scale)
+        _document(words + _option("camera", camera))
+    return Path(out)
+
+
+class Target(Dict[str, Any]):
+    """A calibration target, as under ``[target]`` of a manifest: ``kind`` and its dimensions."""
+
+    def toml(self) -> str:
+        """Its ``[target]``."""
+        return _core.target_toml(_json(self))
+
+    def draw(self, out: _Path, *, paper: str = "a4") -> Path:
+        """Draws it in true scale, and writes its ``[target]`` beside it.
+
+        :param out: ``.pdf`` or ``.svg``.
+        :param paper: ``a4`` to ``a0``, ``letter``, or a size in mm such as ``300x400``.
+        :returns: the drawing.
+        :raises InputError: a target that does not fit on the paper, or cannot be printed.
+        """
+        with _Files() as files:
+            _document(["target", files.text("target.toml", self.toml()), "--out", fspath(out), "--paper", paper])
+        return Path(out)
+
+
+def target(kind: str, **dimensions: Any) -> Target:
+    """A calibration target; its dimensions are the keys of ``[target]`` in a manifest.
+
+    :param kind: ``checkerboard``, ``charuco``, ``aprilgrid``, ``tag-grid``, ``tag``, ``circle-grid``,
+        ``asymmetric-circle-grid``, ``modified-circle-grid`` or ``sphere``.
+    :param dimensions: lengths in mm.
+    :raises InputError: a kind that is not there, a dimension that is missing or impossible.
+
+    >>> import handeye
+    >>> board = handeye.target("checkerboard", columns=11, rows=8, square_mm=20.0)
+    >>> print(board.toml())
+    [target]
+    kind = "checkerboard"
+    columns = 11
+    rows = 8
+    square_mm = 20.0
+    <BLANKLINE>
+    """
+    made = Target(kind=kind, **dimensions)
+    made.toml()  # refuses what is none
+    return made
+
+
+def main() -> None:
+    """The program ``handeye``, as the package installs it."""
+    import signal
+
+    # a Ctrl-C ends the program at once, as it ends any other
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    sys.exit(_core.main(["handeye", *sys.argv[1:]]))
+
+
+class _Files(TemporaryDirectory):  # type: ignore[type-arg]
+    """Files for a command, of what stands in memory."""
+
+    def __enter__(self) -> _Files:  # type: ignore[override]
+        super().__enter__()
+        return self
+
+    def result(self, given: _Result) -> str:
+        """A path as it is; the file of a calibration."""
+        if not isinstance(given, Calibration):
+            return fspath(given)
+        number = len(os.listdir(self.name))
+        return self.text(f"calibration-{number}.json", given.to_json())
+
+    def poses(self, matrices: Any) -> str:
+        """A table of N x 4 x 4."""
+        rows = [",".join(repr(float(x)) for x in matrix.reshape(16)) for matrix in matrices]
+        return self.text("poses.csv", "\n".join(rows) + "\n")
+
+    def text(self, name: str, content: str) -> str:
+        path = Path(self.name) / name
+        path.write_text(content, encoding="utf-8")
+        return str(path)
+
+
+def _option(name: str, value: Any) -> List[str]:
+    return [] if value is None else [f"--{name}", fspath(value) if isinstance(value, PathLike) else str(value)]
+
+
+def _flag(name: str, on: bool) -> List[str]:
+    return [f"--{name}"] if on else []
+
+
+def _json(target: Mapping[str, Any]) -> str:
+    return json.dumps(dict(target), default=lambda value: value.tolist())
+
+
+def _document(words: List[str]) -> Dict[str, Any]:
+    """What a command prints with ``--json``; its error as an exception."""
+    code, out, err = _core.command(["handeye", *words, "--json", "--quiet"])
+    document: Dict[str, Any] = json.loads(out) if out.strip() else {}
+    error = document.get("error")
+    if code in (1, 2) or error is not None:
+        told = error or {"message": err.strip()}
+        refused = InputError(told.get("message", ""))
+        refused.code = told.get("code")
+        refused.file = None if told.get("file") is None else Path(told["file"])
+        refused.line, refused.capture = told.get("line"), told.get("capture")
+        raise refused
+    return document
