@@ -212,12 +212,13 @@ pub struct ExportArgs {
     /// Folder, or file for a single format; without it the text goes to standard output.
     #[arg(long, short)]
     pub out: Option<PathBuf>,
-    /// Name of the parent frame [default: base or flange].
+    /// Name of the parent frame [default: that of the result, or base or flange].
     #[arg(long)]
     pub parent: Option<String>,
-    /// Name of the camera's frame.
-    #[arg(long, default_value = "camera")]
-    pub child: String,
+    /// Name of the camera's optical frame, or of a frame fixed to the camera that the result knows, as
+    /// camera_link [default: that of the result, or camera].
+    #[arg(long)]
+    pub child: Option<String>,
     /// Export a result that was not accepted, too.
     #[arg(long)]
     pub force: bool,

@@ -23,6 +23,10 @@ pub fn open(page: &Path) {
     };
     let page = page.canonicalize().unwrap_or_else(|_| page.into());
     if let Err(error) = quiet(Command::new(OPENER[0]).args(&OPENER[1..]).arg(&page)) {
-        note!("the page cannot be opened ({}: {error}); open it by hand: {}", OPENER[0], page.display());
+        note!(
+            "the page cannot be opened ({}: {error}); open it by hand: {}",
+            OPENER[0],
+            page.display()
+        );
     }
 }

@@ -5,9 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::{
-    Calibration, Config, Session, Verdict, calibrate::findings, register::IcpConfig,
-};
+use handeye::{Calibration, Config, Session, Verdict, calibrate::findings, register::IcpConfig};
 use handeye_io::{
     Dataset, ResultFolder,
     calibrate::{calibrate_dataset, write_run},
@@ -60,7 +58,9 @@ impl Acceptance {
     /// The largest predicted error to accept, mm.
     pub fn max_error(&self) -> Result<Option<f64>, Failure> {
         match self.max_error_mm {
-            Some(mm) if !(mm > 0.0) => Err(Failure::Usage("--max-error-mm must be positive".into())),
+            Some(mm) if !(mm > 0.0) => {
+                Err(Failure::Usage("--max-error-mm must be positive".into()))
+            }
             given => Ok(given),
         }
     }

@@ -30,7 +30,7 @@ pub fn run(args: &ExportArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     })?;
     let calibration = read_result(path)?;
     check_verdict(path, &calibration, args.force, global)?;
-    let frames = Frames { parent: args.parent.as_deref(), child: &args.child };
+    let frames = Frames { parent: args.parent.as_deref(), child: args.child.as_deref() };
     match &args.out {
         None => show(path, &calibration, &formats, frames, global)?,
         Some(out) => {
@@ -50,19 +50,16 @@ pub fn exports(
     formats: &[Format],
     out: &Path,
 ) -> Result<Vec<(String, Vec<u8>)>, Failure> {
-    let pose = pose(out, calibration, Frames { parent: None, child: CAMERA })?;
+    let pose = pose(out, calibration, Frames::default())?;
     let file = |format: &Format| (format.file_name(pose.name), render(&pose, format));
     Ok(formats.iter().map(file).collect())
 }
 
-/// The camera's frame, where nobody says another name.
-const CAMERA: &str = "camera";
-
 /// Names of frames in the exported file.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Frames<'a> {
     parent: Option<&'a str>,
-    child: &'a str,
+    child: Option<&'a str>,
 }
 
 /// The formats of their names.
@@ -136,7 +133,8 @@ fn pose<'a>(
     calibration: &'a Calibration,
     frames: Frames<'a>,
 ) -> Result<CameraPose<'a>, Failure> {
-    let found = calibration.hand_eye.mount_from_camera.ok_or_else(|| {
+    let pose = CameraPose::of(calibration, frames.parent, frames.child).map_err(Failure::Usage)?;
+    pose.ok_or_else(|| {
         let free = match &calibration.undetermined[..] {
             [] => "the data do not determine it".into(),
             free => format!("not determined: {}", free.join(", ")),
@@ -145,13 +143,6 @@ fn pose<'a>(
             "there is no transform to export; {free}; record more poses and calibrate again"
         );
         Failure::input(place, what)
-    })?;
-    Ok(CameraPose {
-        name: &calibration.name,
-        parent_from_child: *found.iso(),
-        parent: frames.parent.unwrap_or(calibration.setup.mount()),
-        child: frames.child,
-        setup: calibration.setup,
     })
 }
 

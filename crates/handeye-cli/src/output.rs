@@ -201,12 +201,22 @@ pub fn summary(c: &Calibration) {
 pub fn line(c: &Calibration, of: &Path) -> String {
     let error = c.predicted_tre_mm.as_ref().map(|tre| format!("{:.3} mm (95 %)", tre.p95));
     let said = match c.verdict {
-        Verdict::Accepted => findings::reservation(c).map(|s| s.replacen("Accepted, but", "but", 1)),
+        Verdict::Accepted => {
+            findings::reservation(c).map(|s| s.replacen("Accepted, but", "but", 1))
+        }
         _ => c.reasons.first().cloned(),
     };
     let used = c.captures.iter().filter(|k| k.used).count();
-    let captures = (!c.captures.is_empty()).then(|| format!("{used} of {} captures", c.captures.len()));
-    let parts = [Some(name(c.verdict).to_owned()), error, captures, Some(self::word(of)), c.run_id.clone(), said];
+    let captures =
+        (!c.captures.is_empty()).then(|| format!("{used} of {} captures", c.captures.len()));
+    let parts = [
+        Some(name(c.verdict).to_owned()),
+        error,
+        captures,
+        Some(self::word(of)),
+        c.run_id.clone(),
+        said,
+    ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     parts.join("  ").replace('\n', " ") + "\n"
 }

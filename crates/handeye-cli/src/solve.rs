@@ -4,7 +4,9 @@ use std::path::Path;
 
 use handeye::{Calibration, Config, Method};
 use handeye_io::{
-    PosesFile, calibrate::write_run, is_pairs_table, read_pairs_table, read_poses,
+    PosesFile,
+    calibrate::{made_from_file, write_run},
+    is_pairs_table, read_pairs_table, read_poses,
     report::calibration_html,
 };
 
@@ -21,6 +23,7 @@ pub fn run(args: &SolveArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let config = Config { max_error_mm: args.acceptance.max_error()?, ..Config::default() };
     if chosen.len() > 1 {
         let table = methods::compare(&input, &chosen, &config)?;
+        let table = methods::Table { answer: made_from_file(table.answer, &args.pairs)?, ..table };
         let answer = finished(&table.answer, args, global)?;
         match global.json {
             true => output::json(&table),
@@ -30,6 +33,7 @@ pub fn run(args: &SolveArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     }
     let calibration = input.calibrate(&Config { method: chosen.first().copied(), ..config })?;
     let calibration = if args.certify { calibration.certified() } else { calibration };
+    let calibration = made_from_file(calibration, &args.pairs)?;
     let code = finished(&calibration, args, global)?;
     if global.json {
         output::json(&calibration);
@@ -42,7 +46,8 @@ fn read(args: &SolveArgs) -> Result<PosesFile, Failure> {
     match (is_pairs_table(&args.pairs), args.setup) {
         (true, Some(setup)) => Ok(read_pairs_table(&args.pairs, setup.into())?),
         (true, None) => {
-            let what = "--setup is missing: eye-in-hand (the camera is on the flange) or eye-to-hand";
+            let what =
+                "--setup is missing: eye-in-hand (the camera is on the flange) or eye-to-hand";
             Err(Failure::Usage(what.into()))
         }
         (false, Some(_)) => {

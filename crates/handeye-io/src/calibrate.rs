@@ -14,6 +14,7 @@ use crate::{
     files,
     hash::Hash,
     measure::{self, Measured},
+    origin,
     result_folder::{RESULT, ResultFolder, RunFiles},
     robot,
 };
@@ -38,7 +39,16 @@ pub fn calibrate_dataset(
     let manifest = files::text(&dataset.manifest)?;
     let inputs = format!("{manifest}{:?}", measured.session);
     let id = run_id(&inputs, &calibration);
-    Ok((calibration.of_run(id), measured.session))
+    let calibration = calibration.of_run(id).made_from(origin::of_dataset(dataset)?);
+    Ok((calibration.with_frames(dataset.frames.clone()), measured.session))
+}
+
+/// A calibration of the poses in a file, with the version, the time and the file's sum.
+///
+/// # Errors
+/// A file that cannot be read any more.
+pub fn made_from_file(calibration: Calibration, file: &Path) -> Result<Calibration, Error> {
+    Ok(calibration.made_from(origin::of_file(file)?))
 }
 
 /// Measures a dataset and calibrates the halves of its captures; as [`calibrate_dataset`].

@@ -21,6 +21,7 @@ mod init;
 pub mod measure;
 mod mesh;
 mod npy;
+mod origin;
 mod packed;
 mod pairs_file;
 mod pairs_table;

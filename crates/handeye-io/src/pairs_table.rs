@@ -5,7 +5,9 @@
 
 use std::path::Path;
 
-use handeye::{Base, Camera, Flange, Observation, Pose, Session, Setup, Target, estimate::KnownNoise};
+use handeye::{
+    Base, Camera, Flange, Observation, Pose, Session, Setup, Target, estimate::KnownNoise,
+};
 
 use crate::{
     error::{Error, Place, malformed, unusable},
@@ -37,24 +39,33 @@ pub fn read_pairs_table(path: &Path, setup: Setup) -> Result<PosesFile, Error> {
     for (k, (robot, camera)) in robot.iter().zip(&camera).enumerate() {
         let capture = robot.id.clone().unwrap_or_else(|| (k + 1).to_string());
         if !seen.insert(capture.clone()) {
-            return Err(robot.refuse(format!("the id {capture:?} is there twice"), "give each pair an id of its own"));
+            return Err(robot.refuse(
+                format!("the id {capture:?} is there twice"),
+                "give each pair an id of its own",
+            ));
         }
         let base_from_flange: Pose<Base, Flange> = pose(robot, NAMES[0])?;
         let camera_from_target: Pose<Camera, Target> = pose(camera, NAMES[1])?;
         observations.push(Observation::bare(capture, base_from_flange, camera_from_target));
     }
     let session = Session { in_sequence: true, ..Session::of_captures(setup, observations) };
-    Ok(PosesFile { measured: MeasuredPoses::Pairs(Box::new(session)), noise: KnownNoise::default() })
+    Ok(PosesFile {
+        measured: MeasuredPoses::Pairs(Box::new(session)),
+        noise: KnownNoise::default(),
+    })
 }
 
 /// The two arrays of an archive.
 fn apart(path: &Path) -> Result<[Vec<Record>; 2], Error> {
-    let read = |name: &str| table::records(path, &Layout { fields: vec![name.into()], ..Layout::default() });
+    let read = |name: &str| {
+        table::records(path, &Layout { fields: vec![name.into()], ..Layout::default() })
+    };
     let [robot, camera] = [read(NAMES[0])?, read(NAMES[1])?];
     if robot.len() == camera.len() {
         return Ok([robot, camera]);
     }
-    let what = format!("holds {} poses of the robot but {} of the target", robot.len(), camera.len());
+    let what =
+        format!("holds {} poses of the robot but {} of the target", robot.len(), camera.len());
     Err(unusable(path, format!("{what}: each pair needs both")))
 }
 
@@ -80,10 +91,17 @@ fn halves(records: Vec<Record>) -> Result<[Vec<Record>; 2], Error> {
     Ok(both)
 }
 
-fn pose<A: handeye::Frame, B: handeye::Frame>(record: &Record, name: &str) -> Result<Pose<A, B>, Error> {
+fn pose<A: handeye::Frame, B: handeye::Frame>(
+    record: &Record,
+    name: &str,
+) -> Result<Pose<A, B>, Error> {
     let notation = if record.cells.len() == 7 { "quaternion-xyzw" } else { "matrix4x4" };
     let refuse = |what: String| {
-        malformed(record.place.clone(), format!("{name}: {what}"), "correct the numbers, or leave the pair out")
+        malformed(
+            record.place.clone(),
+            format!("{name}: {what}"),
+            "correct the numbers, or leave the pair out",
+        )
     };
     let notation = Notation::named(notation).map_err(refuse)?;
     let pose = notation.pose(&notation.numbers(record)?, notation.own_units()).map_err(refuse)?;
@@ -97,7 +115,8 @@ mod tests {
     use super::*;
 
     fn read(name: &str, content: impl AsRef<[u8]>) -> Result<PosesFile, String> {
-        let path = std::env::temp_dir().join(format!("handeye-pairs-{}-{name}", std::process::id()));
+        let path =
+            std::env::temp_dir().join(format!("handeye-pairs-{}-{name}", std::process::id()));
         fs::write(&path, content).unwrap();
         let found = read_pairs_table(&path, Setup::EyeInHand);
         fs::remove_file(&path).unwrap();
@@ -129,7 +148,8 @@ mod tests {
 
     #[test]
     fn arrays_hold_matrices() {
-        let matrix = |x: f64| [1.0, 0.0, 0.0, x, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+        let matrix =
+            |x: f64| [1.0, 0.0, 0.0, x, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
         let both: Vec<f64> = [1.0, 2.0, 3.0, 4.0].into_iter().flat_map(matrix).collect();
         let found = session(read("both.npy", crate::npy::encode(&[2, 2, 4, 4], &both)).unwrap());
         let x = |k: usize| {

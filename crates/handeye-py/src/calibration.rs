@@ -83,20 +83,13 @@ impl Calibrated {
         &self,
         py: Python<'py>,
         format: &str,
-        child: &str,
+        child: Option<&str>,
     ) -> PyResult<(String, Bound<'py, PyBytes>)> {
         let named = Format::named(format)
             .map_err(|there| errors::input(format!("no format {format:?}: {there}")))?;
-        let Some(pose) = &self.calibration.hand_eye.mount_from_camera else {
+        let camera = CameraPose::of(&self.calibration, None, child).map_err(errors::input)?;
+        let Some(camera) = camera else {
             return Err(errors::NotDetermined::new_err(self.calibration.reasons.join("; ")));
-        };
-        let setup = self.calibration.setup;
-        let camera = CameraPose {
-            name: &self.calibration.name,
-            parent_from_child: *pose.iso(),
-            parent: setup.mount(),
-            child,
-            setup,
         };
         let content = export::render(&camera, &named);
         Ok((named.file_name(&self.calibration.name), PyBytes::new(py, &content)))

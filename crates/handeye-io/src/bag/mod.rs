@@ -3,6 +3,7 @@
 //! A bag is read from its beginning, never by its index: one that was not closed is read as far as it goes.
 
 mod extract;
+mod frames;
 mod mcap;
 mod messages;
 mod moments;

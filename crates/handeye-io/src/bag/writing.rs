@@ -6,9 +6,12 @@ use std::{
     path::Path,
 };
 
+use handeye::calibrate::result::FrameNames;
+
 use super::{
     Message, Tick,
     extract::{Capture, Extracted, Plan},
+    frames,
     messages::{self, CameraInfo},
     pictures::{self, File},
     read,
@@ -295,6 +298,8 @@ fn manifest(plan: &Plan, cameras: &Cameras, written: &Written) -> (String, Vec<S
         questions.push(WHO_CARRIES.into());
     }
     questions.extend(target(plan, &mut draft));
+    draft.note("frames", "as the bag calls them: for exports");
+    draft.manifest.frames = Some(frame_names(plan));
     draft.manifest.camera = cameras.image.then(|| CameraSpec::of_file(CAMERA));
     draft.manifest.robot = Some(robot(plan));
     draft.manifest.images = plan
@@ -308,6 +313,12 @@ fn manifest(plan: &Plan, cameras: &Cameras, written: &Written) -> (String, Vec<S
         draft.manifest.motion = Some(MotionSpec { times: TIMES.into() });
     }
     (draft.written().0, questions)
+}
+
+fn frame_names(plan: &Plan) -> FrameNames {
+    let topic = plan.chosen.image.as_ref().or(plan.chosen.scan.as_ref());
+    let optical = topic.and_then(|t| plan.survey.topics.get(t)?.frame.as_deref());
+    frames::names(plan.survey, &plan.options.robot, plan.options.setup, optical)
 }
 
 /// Describes the target, or returns what must be asked of it.

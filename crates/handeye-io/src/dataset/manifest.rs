@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use handeye::Setup;
+use handeye::{Setup, calibrate::result::FrameNames};
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -75,6 +75,8 @@ pub(crate) struct Manifest {
     /// What the answer is for.
     #[serde(default, skip_serializing_if = "is_default")]
     pub(crate) answer: AnswerSpec,
+    /// What the frames are called in ROS and the like: for exports.
+    pub(crate) frames: Option<FrameNames>,
 }
 
 /// Whether a key has its default value.
@@ -553,6 +555,7 @@ impl Manifest {
     pub(crate) fn new(setup: Setup) -> Manifest {
         Manifest {
             setup,
+            root: None,
             target: None,
             scene: None,
             object: None,
@@ -572,6 +575,7 @@ impl Manifest {
             noise: NoiseSpec::default(),
             limits: LimitsSpec::default(),
             answer: AnswerSpec::default(),
+            frames: None,
         }
     }
 

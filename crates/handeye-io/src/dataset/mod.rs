@@ -2,6 +2,7 @@
 
 mod corners;
 mod draft;
+mod inputs;
 pub(crate) mod manifest;
 mod motion;
 mod opening;
@@ -18,6 +19,7 @@ use handeye::{
     AnswerFrame, Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics,
     LensSigma, Motion, Observation, Pose, Scan, Session, Setup, Target, TargetModel, TargetSize,
     Touch, Warning, Workspace,
+    calibrate::result::FrameNames,
     intrinsics::LensModel,
     model::{kinematics::Arm, session::KnownPosition},
 };
@@ -59,6 +61,10 @@ pub struct Dataset {
     pub target_size: TargetSize,
     /// In which frame the answer is wanted, where images and scans do not agree.
     pub answer_frame: Option<AnswerFrame>,
+    /// What its frames are called elsewhere.
+    pub frames: Option<FrameNames>,
+    /// All files that it names, and the manifest.
+    pub inputs: Vec<PathBuf>,
     /// What takes a board's place, where scans are brought together by their shape.
     pub shape: Option<Shape>,
     /// What else the images may show, and is not used.
@@ -237,6 +243,14 @@ impl Dataset {
         let manifest = Manifest::parse(&source)?;
         let root = root.join(manifest.root.as_deref().unwrap_or_default());
         Opening { manifest, source, root }.dataset()
+    }
+
+    /// What it is called: its folder's name, or that of a manifest with a name of its own.
+    pub fn title(&self) -> String {
+        let folder = self.manifest.parent().and_then(|p| p.file_name());
+        let file = self.manifest.file_stem();
+        let name = if file.is_some_and(|f| f == "handeye") { folder.or(file) } else { file };
+        name.map_or("dataset".into(), |n| n.to_string_lossy().into_owned())
     }
 
     /// Reads a capture's or a placement's image.

@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 use super::{
     CaptureSource, Dataset, Limits, Noise, PlacementSource, WorkspaceBox,
     corners::{CornerReading, Corners},
+    inputs,
     manifest::{
         FrameSpec, KnownPositionSpec, Manifest, NoiseSpec, PlacementSpec, Source, WorkspaceSpec,
     },
@@ -101,6 +102,8 @@ impl Opening {
                 FrameSpec::Image => AnswerFrame::Image,
                 FrameSpec::Scan => AnswerFrame::Scan,
             }),
+            frames: m.frames.clone(),
+            inputs: inputs::files(&self.source, &self.root),
             notation: m.robot.as_ref().and_then(|r| r.table().notation),
             warnings,
             root: self.root.clone(),

@@ -24,6 +24,47 @@ pub struct CameraPose<'a> {
     pub setup: Setup,
 }
 
+/// Ends of names that ROS gives the bodies of cameras: x forward, not z as in the optical frame.
+const BODY_ENDS: [&str; 2] = ["camera_link", "camera_base_link"];
+
+impl<'a> CameraPose<'a> {
+    /// Of a result; `None` where it determines none. Frames are called as asked, or as the result has them, or by what they
+    /// are. A child that is fixed to the camera, such as `camera_link`, gets its own pose.
+    ///
+    /// # Errors
+    /// A child that is called like the body of a camera, and nothing tells how the optical frame lies in it.
+    pub fn of(
+        calibration: &'a Calibration,
+        parent: Option<&'a str>,
+        child: Option<&'a str>,
+    ) -> Result<Option<Self>, String> {
+        let Some(found) = calibration.hand_eye.mount_from_camera else { return Ok(None) };
+        let frames = calibration.frames.as_ref();
+        let optical = frames.and_then(|f| f.camera.as_deref());
+        let mount = frames.and_then(|f| f.mount.as_deref());
+        let bodies = frames.map_or(&[][..], |f| &f.bodies);
+        let body = bodies.iter().find(|body| child == Some(&body.name));
+        let child = child.or(optical).unwrap_or("camera");
+        if body.is_none() && optical != Some(child) && BODY_ENDS.iter().any(|e| child.ends_with(e))
+        {
+            return Err(format!(
+                "{child} is the name of a camera's body (x forward), and the result is the pose of its optical frame (z \
+                 forward, x right): export it as {}, or say in handeye.toml how the one lies in the other \
+                 ([[frames.bodies]]) and calibrate again",
+                optical.unwrap_or("camera_optical_frame")
+            ));
+        }
+        let from_body = body.map(|b| b.body_from_camera.iso().inverse());
+        Ok(Some(Self {
+            name: &calibration.name,
+            parent_from_child: from_body.map_or(*found.iso(), |inverse| found.iso() * inverse),
+            parent: parent.or(mount).unwrap_or(calibration.setup.mount()),
+            child,
+            setup: calibration.setup,
+        }))
+    }
+}
+
 /// What a result is written as.
 #[derive(Debug, Clone)]
 pub struct Format(Written);

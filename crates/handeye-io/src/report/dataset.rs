@@ -18,7 +18,7 @@ const MOST_PICTURES: usize = 36;
 /// The whole page of a calibrated dataset.
 pub fn dataset_html(dataset: &Dataset, calibration: &Calibration, session: &Session) -> String {
     html(&Report {
-        title: title(dataset),
+        title: dataset.title(),
         calibration,
         target: session.target.as_ref(),
         camera: session.camera.as_ref(),
@@ -43,14 +43,7 @@ pub fn calibration_html(title: &str, calibration: &Calibration) -> String {
 
 /// The transform in the dataset's own notation and in those most programs read.
 fn notations(own: Option<&str>, calibration: &Calibration) -> Vec<(String, String)> {
-    let Some(pose) = &calibration.hand_eye.mount_from_camera else { return vec![] };
-    let camera = CameraPose {
-        name: &calibration.name,
-        parent_from_child: *pose.iso(),
-        parent: calibration.setup.mount(),
-        child: "camera",
-        setup: calibration.setup,
-    };
+    let Ok(Some(camera)) = CameraPose::of(calibration, None, None) else { return vec![] };
     let own = own.filter(|n| !["joints", "matrix4x4"].contains(n));
     let mut names: Vec<&str> = own.into_iter().chain(["quaternion-xyzw", "urdf"]).collect();
     names.dedup();
@@ -61,13 +54,6 @@ fn notations(own: Option<&str>, calibration: &Calibration) -> Vec<(String, Strin
             Some((name.to_owned(), String::from_utf8(text).ok()?.trim_end().to_owned()))
         })
         .collect()
-}
-
-fn title(dataset: &Dataset) -> String {
-    let folder = dataset.manifest.parent().and_then(|p| p.file_name());
-    let file = dataset.manifest.file_stem();
-    let name = if file.is_some_and(|f| f == "handeye") { folder.or(file) } else { file };
-    name.map_or("dataset".into(), |n| n.to_string_lossy().into_owned())
 }
 
 fn pictures(dataset: &Dataset, calibration: &Calibration, session: &Session) -> Vec<Picture> {

@@ -227,15 +227,19 @@ class Calibration:
         ]
 
     @overload
-    def export(self, format: str, folder: None = None, child: str = "camera") -> bytes: ...
+    def export(self, format: str, folder: None = None, child: Optional[str] = None) -> bytes: ...
     @overload
-    def export(self, format: str, folder: Union[str, PathLike[str]], child: str = "camera") -> Path: ...
+    def export(self, format: str, folder: Union[str, PathLike[str]], child: Optional[str] = None) -> Path: ...
     def export(
-        self, format: str, folder: Optional[Union[str, PathLike[str]]] = None, child: str = "camera"
+        self, format: str, folder: Optional[Union[str, PathLike[str]]] = None, child: Optional[str] = None
     ) -> Union[bytes, Path]:
         """The transform in another program's format (``urdf``, ``ros2-launch``, ``zivid-yaml``, ``halcon`` ...).
 
         Into a folder, under its usual name, where one is given; else its content is returned.
+
+        :param child: name of the camera's optical frame, or of a frame fixed to the camera that the result knows, such as
+            ``camera_link``; else that of the result, or ``camera``.
+        :raises InputError: the name of a camera's body that the result does not know.
         """
         name, content = self._calibrated.export(format, child)
         if folder is None:
@@ -250,12 +254,16 @@ class Calibration:
         pose = self.pose
         return pose.rotation.copy(), pose.translation.reshape(3, 1).copy()
 
-    def to_ros(self, parent: Optional[str] = None, child: str = "camera") -> Dict[str, Any]:
-        """As ``geometry_msgs/TransformStamped``, without a stamp: nested dicts of its fields."""
+    def to_ros(self, parent: Optional[str] = None, child: Optional[str] = None) -> Dict[str, Any]:
+        """As ``geometry_msgs/TransformStamped``, without a stamp: nested dicts of its fields.
+
+        Frames are called as asked, or as the result has them from a bag or manifest, or ``base``, ``flange``, ``camera``.
+        """
         pose = self.pose
+        names = self._known.get("frames") or {}
         return {
-            "header": {"frame_id": parent or pose.to},
-            "child_frame_id": child,
+            "header": {"frame_id": parent or names.get("mount") or pose.to},
+            "child_frame_id": child or names.get("camera") or "camera",
             "transform": {
                 "translation": dict(zip("xyz", pose.translation.tolist())),
                 "rotation": dict(zip("xyzw", pose.quaternion_xyzw.tolist())),

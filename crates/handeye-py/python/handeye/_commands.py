@@ -125,15 +125,15 @@ def export(
     out: _Path,
     *,
     parent: Optional[str] = None,
-    child: str = "camera",
+    child: Optional[str] = None,
     force: bool = False,
 ) -> List[Path]:
     """Writes the transform in other programs' formats.
 
     :param format: one or several: ``urdf``, ``ros2-launch``, ``kuka``, ``zivid-yaml``, ``halcon`` ...
     :param out: the folder, or a file for a single format.
-    :param parent: name of the parent frame, else ``base`` or ``flange``.
-    :param child: name of the camera's frame.
+    :param parent: name of the parent frame, else that of the result, or ``base`` or ``flange``.
+    :param child: name of the camera's optical frame, or of a frame fixed to the camera that the result knows.
     :param force: a result that was not accepted, too.
     :returns: the files.
     :raises InputError: a format that is not there, a result that was not accepted.

@@ -187,6 +187,11 @@ impl Evidence {
             warnings,
             findings: vec![],
             run_id: None,
+            frames: None,
+            version: None,
+            created: None,
+            dataset: None,
+            inputs: vec![],
         }
         .recorded()
     }

@@ -4,6 +4,7 @@ pub mod beside;
 mod causes;
 pub mod certificate;
 pub mod findings;
+mod origin;
 mod robot;
 mod scans;
 
@@ -26,6 +27,7 @@ use crate::{
     model::residual::Residual,
 };
 
+pub use origin::{Body, BodyFrame, FrameNames, InputFile, Origin};
 pub use robot::{
     ArmDeviation, ArmHeldOut, ArmResult, BlockGain, CompensationResult, RobotErrorKind,
 };
@@ -362,6 +364,21 @@ pub struct Calibration {
     /// Name of the run, from what went in and what came out: also in the page.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub run_id: Option<String>,
+    /// What its frames are called in ROS and the like, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frames: Option<FrameNames>,
+    /// Version of the program that made it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub version: Option<String>,
+    /// When it was made: UTC, as `2026-03-14T09:26:53Z`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub created: Option<String>,
+    /// What the data are called.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dataset: Option<String>,
+    /// The files that it was made from.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inputs: Vec<InputFile>,
 }
 
 /// Method of a pose that comes from elsewhere.
