@@ -31,7 +31,7 @@ const KINDS: &str = "what can be viewed is scans (PLY, PCD, E57, ZDF, XYZ, TXT, 
                      PNG and TIFF), meshes (STL, OBJ, PLY with faces), the calibration.json of `handeye \
                      calibrate`, and an answer of `handeye register --json`";
 
-/// What a file holds.
+/// What a file, or the folder of a result, holds.
 enum Content {
     Scan(Scan),
     Mesh(TriangleMesh),
@@ -128,6 +128,10 @@ fn tell(told: &Told, global: &GlobalArgs) {
 }
 
 fn read(path: &Path, reading: &Reading, warnings: &mut Vec<Warning>) -> Result<Content, Failure> {
+    let result = path.join("calibration.json");
+    if result.is_file() {
+        return read_json(&result);
+    }
     let kind = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if kind == "json" {
         return read_json(path);

@@ -12,6 +12,7 @@ mod mistakes;
 mod real_data;
 mod register;
 mod scene;
+mod scripts;
 mod simulate_and_demo;
 mod solve;
 mod view;
