@@ -38,7 +38,7 @@ pub struct Row {
 /// All methods that are asked for, beside the likeliest answer.
 #[derive(Serialize)]
 pub struct Table {
-    methods: Vec<Row>,
+    pub methods: Vec<Row>,
     /// The answer of `solve` without a method.
     pub answer: Calibration,
 }

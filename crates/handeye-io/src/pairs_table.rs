@@ -10,7 +10,7 @@ use handeye::{
 };
 
 use crate::{
-    error::{Error, Place, malformed, unusable},
+    error::{Error, malformed, unusable},
     files,
     pairs_file::{MeasuredPoses, PosesFile},
     robot::Notation,
@@ -143,7 +143,7 @@ mod tests {
         assert_eq!(found.base_from_flange.translation().as_slice(), [0.1, 0.2, 0.3]);
         let camera_from_target = &found.candidates[0].camera_from_target;
         assert_eq!(camera_from_target.translation().as_slice(), [0.4, 0.5, 0.6]);
-        assert!((camera_from_target.rotation().angle() - std::f64::consts::PI).abs() < 1e-12);
+        assert!((camera_from_target.iso().rotation.angle() - std::f64::consts::PI).abs() < 1e-12);
     }
 
     #[test]

@@ -4,7 +4,7 @@ mod middleware;
 mod text;
 mod vision;
 
-use handeye::Setup;
+use handeye::{Calibration, Setup};
 use nalgebra::Isometry3;
 
 use crate::robot::{self, Notation};

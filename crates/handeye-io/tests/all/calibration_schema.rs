@@ -8,11 +8,11 @@ use std::{
 use handeye::{
     Calibration, Distortion, HandEye, Intrinsics, Pose, Setup, Verdict, Warning,
     calibrate::result::{
-        Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BlockGain, BoardDeviation,
+        Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BlockGain, BoardDeviation, BodyFrame,
         BudgetEntry, CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep,
-        ColourStepResult, CompensationResult, DepthResult, Determined, FlatnessResult,
-        FramesResult, JudgedFinding, PoseCovariance, Scale, ScanResult, SceneKind, ScenePair,
-        SceneResult, TipResult, TouchResult,
+        ColourStepResult, CompensationResult, DepthResult, Determined, FlatnessResult, FrameNames,
+        FramesResult, InputFile, JudgedFinding, PoseCovariance, Scale, ScanResult, SceneKind,
+        ScenePair, SceneResult, TipResult, TouchResult,
     },
     estimate::{
         certify::Certificate,
@@ -259,6 +259,15 @@ fn full(errors: RobotErrors) -> Calibration {
             data: BTreeMap::new(),
         }],
         run_id: Some("cbf29ce484222325".into()),
+        frames: Some(FrameNames {
+            mount: Some("tool0".into()),
+            camera: Some("optical".into()),
+            bodies: vec![BodyFrame { name: "body".into(), body_from_camera: Pose::identity() }],
+        }),
+        version: Some("0.1.0".into()),
+        created: Some("2026-03-14T09:26:53Z".into()),
+        dataset: Some("cell".into()),
+        inputs: vec![InputFile { path: "handeye.toml".into(), sha256: "00".into() }],
     }
 }
 
