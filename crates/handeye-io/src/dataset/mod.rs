@@ -241,7 +241,7 @@ impl Dataset {
     /// Opens the text of a manifest, wherever it stands.
     pub(crate) fn of_source(source: Source, root: &Path) -> Result<Dataset, Error> {
         let manifest = Manifest::parse(&source)?;
-        let root = root.join(manifest.root.as_deref().unwrap_or_default());
+        let root = manifest.root.as_ref().map_or_else(|| root.into(), |below| root.join(below));
         Opening { manifest, source, root }.dataset()
     }
 

@@ -23,6 +23,11 @@ pub(super) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error
     let commas = Commas::of(below().map(|(_, line)| line));
     let mut lines = Vec::new();
     for (i, line) in below() {
+        if commas == Commas::InNumbers && is_apart_by_commas(line) {
+            let what =
+                "has commas between its values, but numbers of other lines have decimal commas";
+            return Err(malformed(Place::line(path, i + 1), what, "write all lines alike"));
+        }
         let cells = cells(line, commas);
         if !cells.is_empty() {
             lines.push(Line { number: i + 1, cells });
@@ -53,6 +58,11 @@ impl Commas {
         };
         if lines.any(in_numbers) { Self::InNumbers } else { Self::BetweenValues }
     }
+}
+
+fn is_apart_by_commas(line: &str) -> bool {
+    let line = without_comment(line);
+    line.contains(',') && !line.contains([';', '\t'])
 }
 
 fn without_comment(line: &str) -> &str {

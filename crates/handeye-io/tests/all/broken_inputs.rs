@@ -339,7 +339,7 @@ fn broken_poses_are_refused_by_line() {
         (
             "decimal comma",
             last("0,1;0,2;0,3;0,1;0,2;0,3"),
-            "poses.csv:3: numbers with a decimal comma; write them with a decimal point",
+            "poses.csv:1: has commas between its values, but numbers of other lines have decimal commas; write all lines alike",
         ),
         ("too few", "0.1,0.2,0.3,0.1,0.2,0.3\n".into(), "1 robot poses but 3 images"),
         (
