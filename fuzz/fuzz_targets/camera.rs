@@ -1,15 +1,7 @@
 //! Calibrations of cameras.
 #![no_main]
 
-use handeye_fuzz::{file, told};
-use handeye_io::read_intrinsics;
+use handeye_fuzz::targets::camera;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|data: &[u8]| {
-    let extensions = ["yaml", "json", "xml", "npz", "calib", "txt", "toml"];
-    let Some(path) = file(data, &extensions) else { return };
-    told(read_intrinsics(&path, None, None));
-    if let Some(camera) = told(read_intrinsics(&path, Some("left"), Some((640, 480)))) {
-        assert!(camera.check().is_ok());
-    }
-});
+fuzz_target!(|data: &[u8]| camera::run(data));

@@ -1,24 +1,7 @@
 //! Poses of robots, in many notations.
 #![no_main]
 
-use handeye_fuzz::{file, told};
-use handeye_io::{RobotFile, read_robot_poses};
+use handeye_fuzz::targets::poses;
 use libfuzzer_sys::fuzz_target;
 
-const NOTATIONS: [&str; 8] =
-    ["ur", "kuka", "fanuc", "abb", "matrix", "quaternion-xyzw", "kawasaki", "nonsense"];
-
-fuzz_target!(|data: &[u8]| {
-    let Some((notation, rest)) = data.split_first() else { return };
-    let extensions = ["csv", "txt", "json", "yaml", "xml", "npy", "toml", "calib"];
-    let Some(poses) = file(rest, &extensions) else { return };
-    told(read_robot_poses(&RobotFile { poses: poses.clone(), keys: vec![] }));
-    let notation = NOTATIONS[usize::from(*notation) % NOTATIONS.len()];
-    let keys = vec![
-        ("notation", notation.into()),
-        ("direction", "base_from_flange".into()),
-        ("length_unit", "mm".into()),
-        ("angle_unit", "deg".into()),
-    ];
-    told(read_robot_poses(&RobotFile { poses, keys }));
-});
+fuzz_target!(|data: &[u8]| poses::run(data));

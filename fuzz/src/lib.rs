@@ -1,4 +1,6 @@
-//! What the fuzz targets share.
+//! What is fed with broken input, and what these targets share.
+
+pub mod targets;
 
 use std::{env, fs, path::PathBuf, process};
 
@@ -25,7 +27,7 @@ pub fn told<T>(result: Result<T, handeye_io::Error>) -> Option<T> {
 }
 
 /// A small one of every kind of target.
-pub fn targets() -> Vec<handeye::TargetModel> {
+pub fn boards() -> Vec<handeye::TargetModel> {
     [
         r#"{"kind":"checkerboard","columns":4,"rows":3,"square_mm":10.0}"#,
         r#"{"kind":"charuco","squares_x":5,"squares_y":4,"square_mm":10.0,"marker_mm":7.0,"dictionary":"DICT_4X4_50"}"#,

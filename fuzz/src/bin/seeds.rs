@@ -8,20 +8,19 @@ use handeye::{
     simulate::{DepthSensor, Optics, Scene},
 };
 use image::{GrayImage as Pixels, ImageBuffer, ImageFormat, Luma};
-use libfuzzer_sys as _; // counts the branches: this program is built as the targets are
 use nalgebra::{Matrix3, Vector3};
 
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/corpus");
 const SIZE: (u32, u32) = (120, 96);
 
 fn main() {
-    for (k, target) in handeye_fuzz::targets().iter().enumerate() {
+    for (k, target) in handeye_fuzz::boards().iter().enumerate() {
         let picture = picture(target);
         let mut bytes = vec![k as u8, SIZE.0 as u8];
         bytes.extend(picture.to_u8());
         put("detect", &format!("target{k}"), &bytes);
     }
-    let target = &handeye_fuzz::targets()[0];
+    let target = &handeye_fuzz::boards()[0];
     let pixels = Pixels::from_raw(SIZE.0, SIZE.1, picture(target).to_u8()).expect("all pixels");
     let kinds = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tiff, ImageFormat::Bmp];
     for (k, format) in kinds.into_iter().enumerate() {

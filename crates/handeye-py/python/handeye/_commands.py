@@ -250,18 +250,23 @@ def main() -> None:
     sys.exit(_core.main(["handeye", *sys.argv[1:]]))
 
 
-class _Files(TemporaryDirectory):  # type: ignore[type-arg]
+class _Files:
     """Files for a command, of what stands in memory."""
 
-    def __enter__(self) -> _Files:  # type: ignore[override]
-        super().__enter__()
+    def __init__(self) -> None:
+        self._folder = TemporaryDirectory()
+
+    def __enter__(self) -> _Files:
         return self
+
+    def __exit__(self, *_: object) -> None:
+        self._folder.cleanup()
 
     def result(self, given: _Result) -> str:
         """A path as it is; the file of a calibration."""
         if not isinstance(given, Calibration):
             return fspath(given)
-        number = len(os.listdir(self.name))
+        number = len(os.listdir(self._folder.name))
         return self.text(f"calibration-{number}.json", given.to_json())
 
     def poses(self, matrices: Any) -> str:
@@ -270,7 +275,7 @@ class _Files(TemporaryDirectory):  # type: ignore[type-arg]
         return self.text("poses.csv", "\n".join(rows) + "\n")
 
     def text(self, name: str, content: str) -> str:
-        path = Path(self.name) / name
+        path = Path(self._folder.name) / name
         path.write_text(content, encoding="utf-8")
         return str(path)
 

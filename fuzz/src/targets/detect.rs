@@ -1,0 +1,22 @@
+//! Targets in arbitrary images.
+
+use std::sync::LazyLock;
+
+use crate::boards;
+use handeye::{GrayImage, TargetModel, detect};
+
+static TARGETS: LazyLock<Vec<TargetModel>> = LazyLock::new(boards);
+
+/// Reads some bytes.
+pub fn run(data: &[u8]) {
+    let [kind, width, pixels @ ..] = data else { return };
+    let width = usize::from(*width).max(1);
+    let height = pixels.len() / width;
+    let values = pixels[..width * height].iter().map(|v| f32::from(*v)).collect();
+    let Some(image) = GrayImage::new(width, height, values) else { return };
+    let target = &TARGETS[usize::from(*kind) % TARGETS.len()];
+    for corner in detect::detect(&image, target).iter().flatten() {
+        assert!((corner.id as usize) < target.len());
+        assert!(corner.pixel.iter().chain(corner.covariance.iter()).all(|x| x.is_finite()));
+    }
+}
