@@ -134,6 +134,7 @@ class Page:
                 LC_ALL="C.UTF-8",
                 COLUMNS="80",
                 NO_COLOR="1",
+                SOURCE_DATE_EPOCH="1773480413",  # results say when they were made
                 PYTHONDONTWRITEBYTECODE="1",
             )
             try:

@@ -104,7 +104,7 @@ fn time(pairs: &[PosePair], method: Method) -> Option<f64> {
 pub fn show(table: &Table) {
     let line = |cells: [&str; 6]| {
         let [name, held_out, degrees, tre, off, time] = cells;
-        format!("  {name:<19}{held_out:>10}{degrees:>10}{tre:>12}{off:>12}{time:>11}\n")
+        format!("  {name:<25}{held_out:>9}{degrees:>9}{tre:>11}{off:>12}{time:>9}\n")
     };
     let figure = |value: Option<f64>| value.map_or("-".into(), |v| format!("{v:.3}"));
     let mut text = "\n".to_owned()

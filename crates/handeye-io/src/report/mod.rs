@@ -11,6 +11,7 @@ mod colours;
 mod dataset;
 mod diversity;
 mod map;
+mod origin;
 mod picture;
 mod plot;
 mod predicted;
@@ -86,6 +87,7 @@ pub fn html(report: &Report) -> String {
     body += &scans::scans(c);
     body += &diversity::diversity(c);
     body += &picture::pictures(&report.pictures);
+    body += &origin::origin(c);
     page(
         ("Hand-eye calibration", &report.title),
         &body,
