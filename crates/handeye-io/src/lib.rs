@@ -50,15 +50,15 @@ mod xml;
 
 pub use camera::read_intrinsics;
 pub use dataset::{
-    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, PixelOrigin, PlacementSource,
-    Question, RobotFile, RobotPoses, Shape, WorkspaceBox, WorkspaceFrame, Writing, columns,
-    read_robot_poses,
+    CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, OpenKey, OpenQuestion,
+    PixelOrigin, PlacementSource, Question, RobotFile, RobotPoses, Shape, WorkspaceBox,
+    WorkspaceFrame, Writing, answered, columns, open_questions, read_robot_poses,
 };
 pub use error::{Error, Place};
 pub use files::write_atomically;
 pub use image::{image_size, read_image};
 pub use import::{Declared, Direction, Imported, import};
-pub use init::{FirstManifest, first_manifest};
+pub use init::{FirstManifest, Known, first_manifest};
 pub use mesh::{is_mesh, points_on, read_mesh, spacing_on};
 pub use pairs_file::{MeasuredPoses, PosesFile, poses_from_json, read_poses};
 pub use pairs_table::{is_pairs_table, read_pairs_table};

@@ -134,3 +134,43 @@ def test_a_reader_that_goes_away_is_no_error(cell):
     done = subprocess.run(f"'{PROGRAM}' --help 2>&1 | head -n 1; echo ${{PIPESTATUS[0]}}", shell=True,
                           capture_output=True, text=True, executable="/bin/bash")
     assert done.stdout.splitlines()[-1] == "0"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no pseudo terminal there")
+def test_init_asks_on_a_terminal_and_its_manifest_is_calibrated(tmp_path):
+    import os
+    import pty
+
+    cell = tmp_path / "cell"
+    handeye.simulate(cell, captures=10, width=960, height=600)
+    (cell / "handeye.toml").rename(tmp_path / "written.toml")
+    (cell / "truth.json").unlink()
+    for file in cell.glob("touches*"):
+        file.unlink()
+    for folder in ("images", "."):
+        for file in (cell / folder).glob("place*"):
+            file.unlink()
+    answers = {"setup": "1", "kind": "1", "columns": "9", "rows": "6", "square_mm": "30", "frame": "1",
+               "length_unit": "m", "direction": "base_from_flange", "notation": "quaternion-xyzw"}
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen([str(PROGRAM), "init", str(cell)], stdin=theirs, stdout=theirs, stderr=theirs)
+    os.close(theirs)
+    said, seen = "", 0
+    while True:
+        try:
+            part = os.read(ours, 4096).decode()
+        except OSError:  # the program has ended
+            break
+        if not part:
+            break
+        said += part
+        if said.endswith("> ") and len(said) > seen:
+            seen = len(said)
+            key = said.rsplit("\n", 1)[-1].split(" (such as", 1)[0].strip()
+            os.write(ours, (answers.get(key, "") + "\n").encode())
+    os.close(ours)
+    assert process.wait() == 0, said
+    assert "are these the poses of the \"flange\"" in said.replace("\r\n", "\n").replace("\n     ", " "), said
+    assert "next: handeye check" in said, said
+    assert handeye.check(cell)["ok"] is True
+    assert handeye.calibrate(cell).verdict == "accepted"

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use toml::de::{DeTable, DeValue};
 
 use super::{
-    WorkspaceFrame,
+    WorkspaceFrame, answers,
     draft::QUESTION,
     shapes::{ObjectSpec, SceneSpec, TargetSpec},
 };
@@ -155,9 +155,8 @@ pub(crate) struct RobotSpec {
     /// What the poses take to what.
     #[cfg_attr(test, schemars(required))]
     pub(crate) direction: Option<RobotDirection>,
-    /// Whether the poses are of the flange or of the tool.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub(crate) frame: PoseFrame,
+    /// Whether the poses are of the flange (unless said) or of the tool.
+    pub(crate) frame: Option<PoseFrame>,
     /// flange_from_tool
     pub(crate) tool: Option<ToolSpec>,
     /// The arm that joint values are of: Denavit-Hartenberg parameters, or a file of them.
@@ -655,6 +654,12 @@ impl Source {
             line: byte.map(|b| self.line_at(b)),
             field: Some(key.into()),
         }
+    }
+
+    /// Whether a key is commented out below a question that nobody has answered.
+    pub(super) fn waits_for(&self, key: &str) -> bool {
+        let open = answers::open_questions(&self.text);
+        open.iter().flat_map(|question| &question.keys).any(|open| open.name == key)
     }
 
     /// An error about a key that is missing.

@@ -1,5 +1,6 @@
 //! A folder of captures: its manifest `handeye.toml`, checked and put together.
 
+mod answers;
 mod corners;
 mod draft;
 mod inputs;
@@ -32,6 +33,7 @@ use crate::{
     robot::Urdf,
     scan::{self, ScanOptions},
 };
+pub use answers::{OpenKey, OpenQuestion, answered, open_questions};
 pub use draft::Question;
 pub(crate) use draft::{Draft, EXAMPLE_TARGET};
 pub use manifest::PixelOrigin;
@@ -222,6 +224,14 @@ impl Dataset {
     /// Whatever cannot be read, contradicts itself or leaves a convention open: see [`Error`].
     pub fn open(path: &Path) -> Result<Dataset, Error> {
         let manifest = if path.is_dir() { path.join(MANIFEST) } else { path.to_path_buf() };
+        if path.is_dir() && !manifest.exists() {
+            if bag::is_bag(path) {
+                return Err(unusable(path, bag::ADVICE));
+            }
+            let what =
+                format!("has no {MANIFEST} yet: `handeye init {}` writes one", path.display());
+            return Err(unusable(path, what));
+        }
         let root = manifest.parent().unwrap_or(Path::new("")).to_path_buf();
         Self::open_with_root(&manifest, &root)
     }

@@ -347,13 +347,17 @@ pub(super) fn urdf(spec: &RobotSpec, root: &Path) -> Result<Option<Urdf>, Error>
 
 fn by_joints(spec: &RobotSpec) -> bool {
     spec.direction == Some(RobotDirection::BaseFromFlange)
-        && matches!(spec.frame, PoseFrame::Flange)
+        && spec.frame != Some(PoseFrame::Tool)
         && spec.table().notation.as_deref() == Some("joints")
 }
 
 /// The tool whose poses are recorded; the flange itself unless the manifest says otherwise.
 pub(super) fn tool(spec: &RobotSpec, source: &Source) -> Result<Pose<Flange, Tool>, Error> {
-    match (spec.frame, &spec.tool) {
+    if spec.frame.is_none() && source.waits_for("frame") {
+        let question = "are these the poses of the \"flange\", or of the active \"tool\"?";
+        return Err(source.undeclared("robot.frame", question));
+    }
+    match (spec.frame.unwrap_or_default(), &spec.tool) {
         (PoseFrame::Flange, None) => Ok(Pose::identity()),
         (PoseFrame::Flange, Some(_)) => Err(source.undeclared(
             "robot.frame",

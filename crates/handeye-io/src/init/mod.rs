@@ -7,6 +7,8 @@ mod sections;
 
 use std::path::Path;
 
+use handeye::{Setup, TargetModel};
+
 use crate::{
     Question, bag,
     error::{Error, unusable},
@@ -23,12 +25,23 @@ pub struct FirstManifest {
     pub questions: Vec<Question>,
 }
 
+/// What somebody says of a folder before it is looked at.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Known {
+    /// Whether the robot carries the camera or the target.
+    pub setup: Option<Setup>,
+    /// The notation of the robot's poses, such as `kuka`.
+    pub robot: Option<String>,
+    /// The target.
+    pub target: Option<TargetModel>,
+}
+
 /// A first manifest for the files of a folder.
 ///
 /// # Errors
 /// [`Error::Read`] if the folder cannot be listed, [`Error::NothingFound`] if it holds no images,
 /// scans, corners or poses.
-pub fn first_manifest(folder: &Path) -> Result<FirstManifest, Error> {
+pub fn first_manifest(folder: &Path, known: &Known) -> Result<FirstManifest, Error> {
     let groups = groups::groups(folder)?;
     let kinds: Vec<(Group, Kind)> = groups
         .into_iter()
@@ -44,6 +57,6 @@ pub fn first_manifest(folder: &Path) -> Result<FirstManifest, Error> {
         }
         return Err(Error::NothingFound { folder: folder.into() });
     }
-    let (text, questions) = sections::draft(&kinds, folder).written();
+    let (text, questions) = sections::draft(&kinds, folder, known).written();
     Ok(FirstManifest { text, questions })
 }

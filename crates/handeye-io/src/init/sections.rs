@@ -5,6 +5,7 @@ use std::path::Path;
 use handeye::TargetModel;
 
 use super::{
+    Known,
     groups::Group,
     kind::{self, Kind, Notation, Poses, Touches},
 };
@@ -15,7 +16,8 @@ use crate::{
         Draft, EXAMPLE_TARGET,
         manifest::{
             BoardDirection, BoardPosesSpec, CornersSpec, Fields, FileOr, ImagesSpec, Pairing,
-            PlacementSpec, RobotDirection, RobotSpec, ScansSpec, TipSpec, TouchKind, TouchesSpec,
+            PlacementSpec, PoseFrame, RobotDirection, RobotSpec, ScansSpec, TipSpec, TouchKind,
+            TouchesSpec,
         },
     },
     robot, scan_unit,
@@ -30,11 +32,11 @@ const OF_BOARD: [&str; 6] = ["board", "target", "marker", "cpo", "cam_from", "ca
 /// Poses of the robot are called so.
 const OF_ROBOT: [&str; 8] = ["robot", "pose", "flange", "gripper", "rpe", "tcp", "arm", "joint"];
 
-pub(super) fn draft(kinds: &Kinds, folder: &Path) -> Draft {
+pub(super) fn draft(kinds: &Kinds, folder: &Path, known: &Known) -> Draft {
     let mut draft = Draft::new();
     draft.head("What the files prove is filled in. Answer every QUESTION: correct the lines below it and remove their #.");
     draft.set_setup(
-        None,
+        known.setup,
         "does the robot carry the camera (\"eye-in-hand\"), or the board (\"eye-to-hand\")?",
     );
     let seen = kinds
@@ -44,10 +46,10 @@ pub(super) fn draft(kinds: &Kinds, folder: &Path) -> Draft {
     let placements = touched.map_or(vec![], |(_, t)| t.placements.clone());
     let captures = captures(kinds, &placements);
     if seen {
-        target(kinds, &mut draft);
+        target(kinds, known, &mut draft);
         camera(kinds, &mut draft);
     }
-    robot(kinds, captures, &mut draft);
+    robot(kinds, captures, known, &mut draft);
     pictures(kinds, &placements, &mut draft);
     scans(kinds, folder, &placements, &mut draft);
     corners(kinds, &placements, &mut draft);
@@ -97,7 +99,10 @@ fn files(key: &str, groups: &[&Group], draft: &mut Draft) -> Option<String> {
 
 // ---------------------------------------------------------------- target, camera
 
-fn target(kinds: &Kinds, draft: &mut Draft) {
+fn target(kinds: &Kinds, known: &Known, draft: &mut Draft) {
+    if let Some(target) = &known.target {
+        return draft.set_target(target.clone());
+    }
     let known: Vec<(&Group, &TargetModel)> = kinds
         .iter()
         .filter_map(|(g, k)| if let Kind::Target(t) = k { Some((g, t)) } else { None })
@@ -153,10 +158,10 @@ fn poses_of(kinds: &Kinds, captures: Option<usize>) -> Vec<(&Group, &Poses)> {
     all
 }
 
-fn robot(kinds: &Kinds, captures: Option<usize>, draft: &mut Draft) {
+fn robot(kinds: &Kinds, captures: Option<usize>, known: &Known, draft: &mut Draft) {
     let all = poses_of(kinds, captures);
     let Some(((group, poses), others)) = all.split_first() else {
-        return unknown_poses(kinds, draft);
+        return unknown_poses(kinds, known, draft);
     };
     draft.note_behind("robot.poses", format!("{} poses in {}", poses.count, group.size()));
     for (other, poses) in others.iter().take(5) {
@@ -164,25 +169,34 @@ fn robot(kinds: &Kinds, captures: Option<usize>, draft: &mut Draft) {
         draft.note_below("robot.poses", line);
     }
     let mut spec = RobotSpec { poses: group.pattern.clone(), ..RobotSpec::default() };
-    notation(poses.notation, &mut spec, draft);
-    spec.length_unit = unit(poses, draft);
-    spec.direction = Some(direction(draft));
+    match &known.robot {
+        Some(maker) => spec.notation = Some(maker.clone()),
+        None => {
+            notation(poses.notation, &mut spec, draft);
+            spec.length_unit = unit(poses, draft);
+        }
+    }
+    spec.direction = Some(direction(known, draft));
+    if poses.notation != Notation::Joints {
+        spec.frame = Some(flange_or_tool(draft));
+    }
     draft.manifest.robot = Some(spec);
     if let Some(captures) = captures.filter(|c| *c != poses.count) {
         draft.manifest.captures.pairing = Pairing::Number;
         draft.ask(
             &["captures"],
             format!(
-                "{} poses, but {captures} captures of the camera: which belong together? Those of \
-                 one number in their names, or some rows of the poses (rows = \"1..{captures}\" in \
-                 [robot])?",
-                poses.count
+                "{} poses, but {captures} captures of the camera{}: which belong together? Those of \
+                 one number in their names (\"number\"), or some rows of the poses (rows = \
+                 \"1..{captures}\" in [robot])?",
+                poses.count,
+                gaps(kinds, poses.count)
             ),
         );
     }
 }
 
-fn unknown_poses(kinds: &Kinds, draft: &mut Draft) {
+fn unknown_poses(kinds: &Kinds, known: &Known, draft: &mut Draft) {
     let all = possible_poses(kinds);
     let (keys, question) = if all.is_empty() {
         (vec!["robot.poses"], "where are the robot's poses?")
@@ -207,13 +221,18 @@ fn unknown_poses(kinds: &Kinds, draft: &mut Draft) {
             draft.note_below(last, format!("or poses = {poses}{field}  # {}", other.size));
         }
     }
-    notation(Notation::SomeAngles { degrees: false }, &mut spec, draft);
-    spec.length_unit = Some(LengthUnit::Millimetre);
-    draft.ask(
-        &["robot.length_unit"],
-        "are the positions in \"m\" or in \"mm\"? (generic notations only)",
-    );
-    spec.direction = Some(direction(draft));
+    if let Some(maker) = &known.robot {
+        spec.notation = Some(maker.clone());
+    } else {
+        notation(Notation::SomeAngles { degrees: false }, &mut spec, draft);
+        spec.length_unit = Some(LengthUnit::Millimetre);
+        draft.ask(
+            &["robot.length_unit"],
+            "are the positions in \"m\" or in \"mm\"? (generic notations only)",
+        );
+    }
+    spec.direction = Some(direction(known, draft));
+    spec.frame = Some(flange_or_tool(draft));
     draft.manifest.robot = Some(spec);
 }
 
@@ -315,7 +334,48 @@ fn proven_unit(
     *unit
 }
 
-fn direction(draft: &mut Draft) -> RobotDirection {
+/// Which captures have no pose, where their names are numbered and some are missing in between.
+fn gaps(kinds: &Kinds, poses: usize) -> String {
+    let pictures =
+        kinds.iter().find(|(_, k)| matches!(k, Kind::Pictures | Kind::Clouds | Kind::Depth));
+    let Some((group, _)) = pictures else { return String::new() };
+    let number = |m: &std::path::PathBuf| {
+        let stem = crate::files::stem(m);
+        let digits: String = stem.chars().rev().take_while(char::is_ascii_digit).collect();
+        digits.chars().rev().collect::<String>().parse::<usize>().ok()
+    };
+    let Some(numbers) = group.members.iter().map(number).collect::<Option<Vec<usize>>>() else {
+        return String::new();
+    };
+    let first = numbers.iter().copied().min().unwrap_or(0);
+    let missing: Vec<String> = (first..first + poses.max(numbers.len()))
+        .filter(|n| !numbers.contains(n))
+        .map(|n| n.to_string())
+        .collect();
+    match missing.len() {
+        1..=5 if missing.len() + numbers.len() == poses => {
+            format!(" (no image of number {})", missing.join(", "))
+        }
+        _ => String::new(),
+    }
+}
+
+/// Controllers show the active tool: nothing in the numbers tells it.
+fn flange_or_tool(draft: &mut Draft) -> PoseFrame {
+    draft.ask(
+        &["robot.frame"],
+        "are these the poses of the \"flange\", or of the active \"tool\"? Controllers show the active tool (TCP): it is \
+         the flange only where tool 0 or no tool was active. For the tool, say in [robot.tool] where it is on the flange \
+         (translation_mm, rotation_xyzw)",
+    );
+    PoseFrame::Flange
+}
+
+fn direction(known: &Known, draft: &mut Draft) -> RobotDirection {
+    if known.robot.is_some() {
+        draft.note_behind("robot.direction", "what controllers show");
+        return RobotDirection::BaseFromFlange;
+    }
     draft.ask(
         &["robot.direction"],
         "which pose does the file contain: the flange in the base (\"base_from_flange\", what controllers show), or the base in the flange (\"flange_from_base\")?",

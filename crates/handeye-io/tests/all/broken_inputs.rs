@@ -760,7 +760,7 @@ fn init_asks_what_the_files_do_not_prove() {
     }
     folder.write("poses.csv", POSES);
     let handeye_io::FirstManifest { text, questions } =
-        handeye_io::first_manifest(&folder.0).unwrap();
+        handeye_io::first_manifest(&folder.0, &handeye_io::Known::default()).unwrap();
     assert!(text.contains("files = \"images/img_*.png\"  # 3 files"), "{text}");
     assert!(text.contains("poses = \"poses.csv\""), "{text}");
     assert!(text.contains("# direction = \"base_from_flange\"\n"), "{text}");

@@ -7,7 +7,7 @@ use std::{
 
 use e57::{E57Writer, Record, RecordDataType, RecordName, RecordValue, Transform, Translation};
 use handeye::Intrinsics;
-use handeye_io::{ScanOptions, first_manifest, read_scan, scan_unit, units::LengthUnit};
+use handeye_io::{Known, ScanOptions, first_manifest, read_scan, scan_unit, units::LengthUnit};
 
 /// Two rows of three points, mm; one missing.
 const POINTS: [[f32; 3]; 6] = [
@@ -471,7 +471,7 @@ fn a_first_manifest_names_scans_of_every_kind_and_asks_for_a_unit_only_where_non
         for k in 1..4 {
             fs::write(folder.join(format!("scan_{k}.{kind}")), content).unwrap();
         }
-        let manifest = first_manifest(&folder).unwrap().text;
+        let manifest = first_manifest(&folder, &Known::default()).unwrap().text;
         assert!(manifest.contains(&format!("[scans]\nfiles = \"scan_*.{kind}\"")), "{manifest}");
         assert_eq!(manifest.contains("are the points in"), is_asked, "{manifest}");
     }

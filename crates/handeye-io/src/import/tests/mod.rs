@@ -183,6 +183,6 @@ fn bags_have_a_command_of_their_own() {
         let error = import(source, &Declared::default()).unwrap_err().to_string();
         assert!(error.contains("`handeye bag`"), "{error}");
     }
-    let error = crate::first_manifest(&folder).unwrap_err().to_string();
+    let error = crate::first_manifest(&folder, &crate::Known::default()).unwrap_err().to_string();
     assert!(error.contains("`handeye bag`"), "{error}");
 }
