@@ -62,6 +62,10 @@ def test_init_writes_a_manifest_with_questions(tmp_path):
     with pytest.raises(handeye.InputError):
         handeye.init(tmp_path / "cell")
     assert handeye.init(tmp_path / "cell", force=True) == found
+    board = handeye.target("checkerboard", columns=9, rows=6, square_mm=30.0)
+    less = handeye.init(tmp_path / "cell", setup="eye-in-hand", robot="quaternion-xyzw", target=board, force=True)
+    assert len(less["questions"]) < len(found["questions"])
+    assert 'kind = "checkerboard"\ncolumns = 9' in (tmp_path / "cell" / "handeye.toml").read_text()
 
 
 def test_results_in_memory_and_in_folders_are_compared(cell, tmp_path):

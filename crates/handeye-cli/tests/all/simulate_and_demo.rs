@@ -95,6 +95,7 @@ fn init_finds_everything_that_a_simulation_wrote() {
         "kind = \"checkerboard\"",
         "square_mm",
         "direction",
+        "frame",
         "pixel_origin",
         "[touches.tip]",
         "in_flange_mm",

@@ -36,15 +36,29 @@ def check(dataset: _Path, *, root: Optional[_Path] = None, apply: Union[bool, in
     return _document(words)
 
 
-def init(folder: _Path, *, force: bool = False) -> Dict[str, Any]:
+def init(
+    folder: _Path,
+    *,
+    setup: Optional[str] = None,
+    robot: Optional[str] = None,
+    target: Union[Mapping[str, Any], _Path, None] = None,
+    force: bool = False,
+) -> Dict[str, Any]:
     """Writes a first ``handeye.toml`` for a folder, with the questions that its files leave open.
 
     :param folder: with pictures, scans and robot poses.
+    :param setup: ``"eye-in-hand"`` or ``"eye-to-hand"``.
+    :param robot: its maker, or the notation of its poses: ``kuka``, ``ur``, ``quaternion-xyzw`` ...
+    :param target: as for :func:`detect`.
     :param force: write over a manifest that is there.
     :returns: ``manifest``, its path, and ``questions``, each with its ``line`` and ``text``.
     :raises InputError: a folder without captures, or with a manifest.
     """
-    return _document(["init", fspath(folder), *_flag("force", force)])
+    words = ["init", fspath(folder), *_option("setup", setup), *_option("robot", robot), *_flag("force", force)]
+    with _Files() as files:
+        if isinstance(target, Mapping):
+            target = files.text("target.toml", _core.target_toml(_json(target)))
+        return _document(words + _option("target", target))
 
 
 def import_dataset(
