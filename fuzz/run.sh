@@ -2,7 +2,7 @@
 # Feeds every reader and detector with broken input: fuzz/run.sh [SECONDS OF EACH TARGET] [FOLDER]
 # With the folder of the programs `seeds` and `shake`, good input is changed at random.
 # Without, libFuzzer sees which input reaches new code: for longer runs. It needs a C++ compiler and a build of its own.
-# Fails where one crashes, takes 20 s or 1.5 GB; that input is then in fuzz/artifacts.
+# Fails where one crashes, takes 20 s or 1.5 GB (2 GB without libFuzzer); that input is then in fuzz/artifacts.
 set -euo pipefail
 cd "$(dirname "$0")"
 seconds=${1:-15}

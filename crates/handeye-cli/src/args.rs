@@ -101,7 +101,7 @@ fn published_methods() -> String {
 /// What a script wants of a result.
 #[derive(Args)]
 pub struct Acceptance {
-    /// Accept only if the predicted error (95 %) is below this [default: what the manifest says, or 10].
+    /// Accept only if the predicted error (95 %) is below this [default: what a manifest says, or 10].
     #[arg(long, value_name = "MM")]
     pub max_error_mm: Option<f64>,
     /// Exit code 4 if the result is accepted with findings that changed the answer.

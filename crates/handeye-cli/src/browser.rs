@@ -9,19 +9,19 @@ use crate::output::note;
 
 /// What opens a page, by the system: a program, and its arguments before the page.
 const OPENER: &[&str] = if cfg!(target_os = "windows") {
-    &["cmd", "/c", "start", ""]
+    &["explorer"]
 } else if cfg!(target_os = "macos") {
     &["open"]
 } else {
     &["xdg-open"]
 };
 
-/// Opens a page; where that is not possible, says so and goes on.
+/// Opens a page; where nothing here opens pages, says so and goes on.
 pub fn open(page: &Path) {
     let quiet = |command: &mut Command| {
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().map(drop)
     };
-    let page = page.canonicalize().unwrap_or_else(|_| page.into());
+    let page = std::path::absolute(page).unwrap_or_else(|_| page.into());
     if let Err(error) = quiet(Command::new(OPENER[0]).args(&OPENER[1..]).arg(&page)) {
         note!(
             "the page cannot be opened ({}: {error}); open it by hand: {}",

@@ -50,7 +50,7 @@ pub fn exports(
     formats: &[Format],
     out: &Path,
 ) -> Result<Vec<(String, Vec<u8>)>, Failure> {
-    let pose = pose(out, calibration, Frames::default())?;
+    let pose = pose(out, calibration, formats, Frames::default())?;
     let file = |format: &Format| (format.file_name(pose.name), render(&pose, format));
     Ok(formats.iter().map(file).collect())
 }
@@ -131,9 +131,11 @@ fn check_verdict(
 fn pose<'a>(
     place: &Path,
     calibration: &'a Calibration,
+    formats: &[Format],
     frames: Frames<'a>,
 ) -> Result<CameraPose<'a>, Failure> {
-    let pose = CameraPose::of(calibration, frames.parent, frames.child).map_err(Failure::Usage)?;
+    let pose = CameraPose::of(calibration, frames.parent, frames.child, formats)
+        .map_err(Failure::Usage)?;
     pose.ok_or_else(|| {
         let free = match &calibration.undetermined[..] {
             [] => "the data do not determine it".into(),
@@ -158,7 +160,10 @@ fn write_one(
     frames: Frames,
     file: &Path,
 ) -> Result<PathBuf, Failure> {
-    write_atomically(file, &render(&pose(place, calibration, frames)?, format))?;
+    write_atomically(
+        file,
+        &render(&pose(place, calibration, std::slice::from_ref(format), frames)?, format),
+    )?;
     Ok(file.to_path_buf())
 }
 
@@ -169,7 +174,7 @@ fn write_all(
     frames: Frames,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let pose = pose(place, calibration, frames)?;
+    let pose = pose(place, calibration, formats, frames)?;
     fs::create_dir_all(folder).map_err(|e| Failure::no_folder(folder, e))?;
     let write = |format: &Format| {
         let file = folder.join(format.file_name(pose.name));
@@ -187,7 +192,7 @@ fn show(
     frames: Frames,
     global: &GlobalArgs,
 ) -> Result<(), Failure> {
-    let pose = pose(path, calibration, frames)?;
+    let pose = pose(path, calibration, formats, frames)?;
     let mut texts = vec![];
     for format in formats {
         let name = format.file_name(pose.name);

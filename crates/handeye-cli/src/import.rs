@@ -71,7 +71,8 @@ pub struct ImportArgs {
 pub fn run(args: &ImportArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let imported = import(&args.source, &declared(args)?)?;
     let folder = args.out.as_deref().unwrap_or(&imported.folder);
-    let is_file = args.out.is_some() && !folder.is_dir() && folder.extension().is_some();
+    let ending = Path::new(&imported.name).extension();
+    let is_file = args.out.is_some() && !folder.is_dir() && folder.extension() == ending;
     let path = if is_file { folder.to_path_buf() } else { folder.join(&imported.name) };
     if path.exists() && !args.force {
         let what = "is there already; to write over it: --force";

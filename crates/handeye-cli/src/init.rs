@@ -5,9 +5,10 @@ use std::{
     path::Path,
 };
 
+use handeye::model::target::KINDS;
 use handeye_io::{
-    Known, MANIFEST, OpenKey, OpenQuestion, Question, answered, first_manifest, open_questions,
-    read_target, robot::Notation, write_atomically,
+    Dataset, Known, MANIFEST, OpenKey, OpenQuestion, Question, answered_with, first_manifest,
+    open_questions, read_target, robot::Notation, write_atomically,
 };
 use serde_json::json;
 
@@ -68,7 +69,13 @@ fn finished(args: &InitArgs, path: &Path, open: &[OpenQuestion]) -> String {
     let path = path.display();
     if open.is_empty() {
         let folder = output::word(&args.folder);
-        return format!("\n{path} is written\n\nnext: handeye check {folder}\n");
+        return match Dataset::open(&args.folder) {
+            Ok(_) => format!("\n{path} is written\n\nnext: handeye check {folder}\n"),
+            Err(error) => {
+                let what = output::wrapped("  ", &error.to_string());
+                format!("\n{path} is written, but it cannot be used yet:\n\n{what}")
+            }
+        };
     }
     let left: String = open.iter().map(|q| output::wrapped("  ", &q.text)).collect();
     format!("\n{path} is written; these are open, answer in it:\n\n{left}")
@@ -84,29 +91,60 @@ fn dialogue(mut text: String, input: &mut impl BufRead) -> String {
             "\n{}",
             output::wrapped(&format!("{number}/{count}  "), &question.text).trim_end()
         );
-        match answers(&question, input) {
-            Some(values) => text = answered(&text, &question, &values),
+        let found = match question.keys.first().map(|key| key.name.as_str()) {
+            None => {
+                output::note!("  (answer this one in the file)");
+                None
+            }
+            Some("kind") => board(input),
+            Some(_) => lines(&question.keys, &question.choices(), input),
+        };
+        match found {
+            Some(lines) => text = answered_with(&text, &question, &lines),
             None => left_open += 1,
         }
     }
     text
 }
 
-/// A value for every key of a question; `None` where it stays open.
-fn answers(question: &OpenQuestion, input: &mut impl BufRead) -> Option<Vec<String>> {
-    let choices = question.choices();
-    for (k, choice) in choices.iter().enumerate() {
-        output::note!("  {}  {choice}", k + 1);
+/// A line for every key; `None` where one stays open.
+fn lines(keys: &[OpenKey], choices: &[&str], input: &mut impl BufRead) -> Option<Vec<String>> {
+    let mut lines = vec![];
+    for (k, key) in keys.iter().enumerate() {
+        match answer(key, if k == 0 { choices } else { &[] }, input) {
+            Some(value) => lines.push(format!("{} = {value}", key.name)),
+            None if k == 0 => return None,
+            None => {
+                output::note!("  this question stays open; the answers to it are not kept");
+                return None;
+            }
+        }
     }
-    let mut values = vec![];
-    for (k, key) in question.keys.iter().enumerate() {
-        values.push(answer(key, if k == 0 { &choices } else { &[] }, input)?);
-    }
-    (!values.is_empty()).then_some(values)
+    Some(lines)
+}
+
+/// A target: its kind, and the keys that it has.
+fn board(input: &mut impl BufRead) -> Option<Vec<String>> {
+    let names: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
+    let kind = answer(&OpenKey::new("kind", "\"checkerboard\""), &names, input)?;
+    let chosen = KINDS.iter().find(|known| kind.trim_matches('"') == known.name)?;
+    let example = serde_json::to_value((chosen.example)()).ok()?;
+    let keys =
+        example.as_object()?.iter().filter(|(key, value)| *key != "kind" && !value.is_null());
+    let keys: Vec<OpenKey> =
+        keys.map(|(key, value)| OpenKey::new(key, value.to_string())).collect();
+    let lines = lines(&keys, &[], input)?;
+    Some([vec![format!("kind = {kind}")], lines].concat())
 }
 
 /// What a person types for a key, until it is a value; `None` for an empty line, and at the end of the input.
 fn answer(key: &OpenKey, choices: &[&str], input: &mut impl BufRead) -> Option<String> {
+    for (k, choice) in choices.iter().enumerate() {
+        output::note!("  {}  {choice}", k + 1);
+    }
+    // a notation may be any
+    let is_choice =
+        choices.iter().any(|c| key.example.trim_matches('"') == *c) && key.name != "notation";
     loop {
         output::to_stderr(format_args!(
             "  {} (such as {}; empty: later) > ",
@@ -121,7 +159,12 @@ fn answer(key: &OpenKey, choices: &[&str], input: &mut impl BufRead) -> Option<S
             return None;
         }
         let by_number = typed.parse::<usize>().ok().and_then(|n| choices.get(n.wrapping_sub(1)));
-        match key.value(by_number.unwrap_or(&typed)) {
+        let said = by_number.copied().unwrap_or(typed);
+        if is_choice && !choices.contains(&said.trim_matches('"')) {
+            output::note!("  {typed} is none of these: 1 to {}, or the word", choices.len());
+            continue;
+        }
+        match key.value(said) {
             Ok(value) => return Some(value),
             Err(what) => output::note!("  {what}"),
         }
@@ -141,9 +184,22 @@ mod tests {
     }
 
     #[test]
+    fn a_board_has_the_keys_of_its_kind() {
+        let manifest = "[target]\n# QUESTION: which board?\n# kind = \"checkerboard\"\n# columns = 11\n\n[robot]\n";
+        let with = |typed: &str| dialogue(manifest.into(), &mut typed.as_bytes());
+        let tag = with("tag\nDICT_4X4_50\n7\n40,5\n");
+        assert!(
+            tag.starts_with("[target]\nkind = \"tag\"\ndictionary = \"DICT_4X4_50\"\n"),
+            "{tag}"
+        );
+        assert!(tag.contains("\nid = 7\nsize_mm = 40.5\n\n[robot]\n"), "{tag}");
+        assert_eq!(with("chessboard\n99\n"), manifest);
+    }
+
+    #[test]
     fn questions_are_answered_by_number_by_word_and_again_after_a_mistake() {
         let whole = "setup = \"eye-to-hand\"\n\n[target]\ncolumns = 9\nsquare_mm = 24.5\n";
-        assert_eq!(after("2\n9\nwide\n24,5\n"), whole);
+        assert_eq!(after("3\n2\n9\nwide\n24,5\n"), whole);
         assert_eq!(after("eye-to-hand\n9\n24.5\n"), whole);
     }
 

@@ -56,7 +56,8 @@ pub fn main<W: Into<OsString> + Clone>(words: impl IntoIterator<Item = W>) -> u8
 
 /// What a command has printed, and its exit code.
 pub struct Captured {
-    /// 0 accepted, 1 the input cannot be used, 2 wrong command line, 3 rejected or undetermined.
+    /// 0 accepted, 1 the input cannot be used, 2 wrong command line, 3 rejected or undetermined, 4 with
+    /// `--strict` accepted with findings that changed the answer.
     pub code: u8,
     /// Standard output: with `--json` one document.
     pub out: String,

@@ -23,11 +23,13 @@ pub fn run(args: &SolveArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let config = Config { max_error_mm: args.acceptance.max_error()?, ..Config::default() };
     if chosen.len() > 1 {
         let table = methods::compare(&input, &chosen, &config)?;
-        let table = methods::Table { answer: made_from_file(table.answer, &args.pairs)?, ..table };
+        let answer = if args.certify { table.answer.certified() } else { table.answer };
+        let table = methods::Table { answer: made_from_file(answer, &args.pairs)?, ..table };
         let answer = finished(&table.answer, args, global)?;
-        match global.json {
-            true => output::json(&table),
-            false => methods::show(&table),
+        if global.json {
+            output::json(&table);
+        } else if !args.acceptance.oneline {
+            methods::show(&table);
         }
         return Ok(answer);
     }
@@ -51,7 +53,7 @@ fn read(args: &SolveArgs) -> Result<PosesFile, Failure> {
             Err(Failure::Usage(what.into()))
         }
         (false, Some(_)) => {
-            let what = "--setup is for CSV, NPY and NPZ; a JSON file says it in `setup`";
+            let what = "--setup is for CSV, TXT, NPY and NPZ; a JSON file says it in `setup`";
             Err(Failure::Usage(what.into()))
         }
         (false, None) => Ok(read_poses(&args.pairs)?),

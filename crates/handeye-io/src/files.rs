@@ -67,7 +67,7 @@ pub(crate) fn table_text(path: &Path) -> Result<String, Error> {
         _ if str::from_utf8(&bytes).is_err() && !bytes.iter().any(|b| is_control(*b)) => {
             Ok(bytes.iter().map(|b| char::from(*b)).collect())
         }
-        _ => text(path),
+        _ => in_utf8(bytes, path),
     }
 }
 
@@ -78,7 +78,11 @@ fn is_control(byte: u8) -> bool {
 
 /// The text of a file, without a byte order mark.
 pub(crate) fn text(path: &Path) -> Result<String, Error> {
-    let text = String::from_utf8(bytes_up_to(path, LARGEST_TEXT)?).map_err(|_| {
+    in_utf8(bytes_up_to(path, LARGEST_TEXT)?, path)
+}
+
+fn in_utf8(bytes: Vec<u8>, path: &Path) -> Result<String, Error> {
+    let text = String::from_utf8(bytes).map_err(|_| {
         malformed(Place::file(path), "is not UTF-8 text", "save it as UTF-8 (or is it binary?)")
     })?;
     Ok(match text.strip_prefix('\u{feff}') {

@@ -21,22 +21,22 @@ use crate::{
 /// Of a dataset.
 pub(crate) fn of_dataset(dataset: &Dataset) -> Result<Origin, Error> {
     let folder = dataset.manifest.parent().unwrap_or(Path::new(""));
-    of_files(&dataset.title(), folder, &dataset.inputs)
+    of_files(&dataset.title(), &[&dataset.root, folder], &dataset.inputs)
 }
 
 /// Of a file of poses.
 pub(crate) fn of_file(file: &Path) -> Result<Origin, Error> {
     let folder = file.parent().unwrap_or(Path::new(""));
-    of_files(&files::stem(file), folder, &[file.into()])
+    of_files(&files::stem(file), &[folder], &[file.into()])
 }
 
-fn of_files(name: &str, folder: &Path, paths: &[PathBuf]) -> Result<Origin, Error> {
+fn of_files(name: &str, folders: &[&Path], paths: &[PathBuf]) -> Result<Origin, Error> {
     let threads = parallel::threads([]);
     let input = |path: &PathBuf| {
         let sha256 = sha256(path).map_err(|source| Error::Read { path: path.clone(), source })?;
-        let below = path.strip_prefix(folder).unwrap_or(path);
-        let parts = below.components().map(|part| part.as_os_str().to_string_lossy().into_owned());
-        Ok(InputFile { path: parts.collect::<Vec<_>>().join("/"), sha256 })
+        let below =
+            folders.iter().find_map(|folder| path.strip_prefix(folder).ok()).unwrap_or(path);
+        Ok(InputFile { path: below.display().to_string().replace('\\', "/"), sha256 })
     };
     let inputs = in_order(paths.len(), threads, |k| input(&paths[k]));
     Ok(Origin {
@@ -58,9 +58,13 @@ fn sha256(path: &Path) -> io::Result<String> {
     Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
+/// The first second of a year of five digits.
+const YEAR_10000: u64 = 253_402_300_800;
+
 /// The time, or that of `SOURCE_DATE_EPOCH`: then the same input gives the same bytes.
 fn now() -> Option<String> {
     let fixed = env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
+    let fixed = fixed.filter(|seconds| *seconds < YEAR_10000);
     let clock = || SystemTime::now().duration_since(UNIX_EPOCH).ok().map(|passed| passed.as_secs());
     fixed.or_else(clock).map(in_utc)
 }

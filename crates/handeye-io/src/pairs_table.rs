@@ -14,7 +14,8 @@ use crate::{
     files,
     pairs_file::{MeasuredPoses, PosesFile},
     robot::Notation,
-    table::{self, Layout, Record},
+    table::{self, Cell, Layout, Record, is_id_name, plain},
+    units::{farthest, too_far},
 };
 
 /// What the two poses of a record are called.
@@ -73,22 +74,74 @@ fn apart(path: &Path) -> Result<[Vec<Record>; 2], Error> {
 fn halves(records: Vec<Record>) -> Result<[Vec<Record>; 2], Error> {
     let mut both = [vec![], vec![]];
     for record in records {
-        // an index before them is a name, too
-        let is_named = record.id.is_some() || [15, 33].contains(&record.cells.len());
-        let id = record.id.clone().or_else(|| record.first_as_text().filter(|_| is_named));
-        let numbers = &record.cells[usize::from(is_named)..];
-        if numbers.len() != 14 && numbers.len() != 32 {
-            let what = format!("has {} numbers, but a pair has 14 or 32", numbers.len());
-            let advice = "base_from_flange and camera_from_target, each as x y z (m) and quaternion x y z w, or as \
-                          the 16 numbers of a matrix";
-            return Err(record.refuse(what, advice));
-        }
+        let (id, numbers) = id_and_numbers(&record)?;
         for (half, cells) in both.iter_mut().zip(numbers.chunks(numbers.len() / 2)) {
-            let (id, place) = (id.clone(), record.place.clone());
-            half.push(Record { cells: cells.to_vec(), names: vec![], id, place });
+            let (names, place) = (vec![], record.place.clone());
+            half.push(Record {
+                cells: cells.to_vec(),
+                names,
+                by_header: false,
+                id: id.clone(),
+                place,
+            });
         }
     }
     Ok(both)
+}
+
+/// How many numbers two poses have: as quaternions, or as matrices.
+const COUNTS: [usize; 2] = [14, 32];
+
+/// What a record is called, and the numbers of its two poses.
+fn id_and_numbers(record: &Record) -> Result<(Option<String>, Vec<Cell>), Error> {
+    // an index before the numbers is a name, too
+    let is_named = record.id.is_some() || COUNTS.contains(&(record.cells.len().max(1) - 1));
+    let at = record.names.iter().position(|name| is_id_name(name)).or(is_named.then_some(0));
+    let id = record.id.clone().or_else(|| record.first_as_text().filter(|_| is_named));
+    let is_number = |(k, _): &(usize, &Cell)| Some(*k) != at;
+    let numbers: Vec<Cell> =
+        record.cells.iter().enumerate().filter(is_number).map(|(_, c)| c.clone()).collect();
+    if !COUNTS.contains(&numbers.len()) {
+        let what = format!("has {} numbers, but a pair has 14 or 32", numbers.len());
+        return Err(record.refuse(what, ADVICE));
+    }
+    let names: Vec<&String> = record
+        .names
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| Some(*k) != at)
+        .map(|(_, name)| name)
+        .collect();
+    match contradiction(&names) {
+        Some(name) => {
+            Err(record
+                .refuse(format!("the column \"{name}\" is not what stands at its place"), ADVICE))
+        }
+        None => Ok((id, numbers)),
+    }
+}
+
+/// How a pair is written.
+const ADVICE: &str = "write base_from_flange and camera_from_target, in this order, each as x y z (m) and quaternion x y z \
+                      w, or as the 16 numbers of a matrix";
+
+/// A name that says that its column is of the other pose, in another unit, or another number of its pose.
+fn contradiction<'a>(names: &[&'a String]) -> Option<&'a String> {
+    let order = ["x", "y", "z", "x", "y", "z", "w"];
+    let begins = |name: &str, words: &[&str]| words.iter().any(|word| name.starts_with(word));
+    let is_wrong = |(k, name): &(usize, &&String)| {
+        let (bare, lower) = (plain(name), name.to_lowercase());
+        let of_other = match *k < names.len() / 2 {
+            true => begins(&lower, &["cam", "target", "board"]),
+            false => begins(&lower, &["base", "robot", "flange", "gripper", "tool"]),
+        };
+        let end = bare.chars().last().filter(|c| "xyzw".contains(*c));
+        let is_other = names.len() == 14 && end.is_some_and(|c| !order[k % 7].ends_with(c));
+        let in_other_unit =
+            ["_mm", "_cm", "[mm]", "[cm]", "(mm)"].iter().any(|unit| lower.ends_with(unit));
+        of_other || is_other || in_other_unit
+    };
+    names.iter().enumerate().find(is_wrong).map(|(_, name)| *name)
 }
 
 fn pose<A: handeye::Frame, B: handeye::Frame>(
@@ -105,7 +158,10 @@ fn pose<A: handeye::Frame, B: handeye::Frame>(
     };
     let notation = Notation::named(notation).map_err(refuse)?;
     let pose = notation.pose(&notation.numbers(record)?, notation.own_units()).map_err(refuse)?;
-    Ok(Pose::claim(pose))
+    match farthest(pose.translation.vector.as_slice()) {
+        Some(far) => Err(refuse(too_far(far))),
+        None => Ok(Pose::claim(pose)),
+    }
 }
 
 #[cfg(test)]
@@ -167,6 +223,13 @@ mod tests {
         assert!(short.starts_with("bad.csv:1: has 3 numbers, but a pair has 14 or 32"), "{short}");
         let twice = of(format!("a,{line}\na,{line}\n"));
         assert!(twice.starts_with("bad.csv:2: the id \"a\" is there twice"), "{twice}");
+        let header = |names: &str| of(format!("{names}\n{line}\n"));
+        let scalar_first = header("x,y,z,qw,qx,qy,qz,x,y,z,qx,qy,qz,qw");
+        assert!(scalar_first.contains("the column \"qw\" is not what stands"), "{scalar_first}");
+        let exchanged = header("cam_x,b,c,d,e,f,g,h,i,j,k,l,m,n");
+        assert!(exchanged.contains("the column \"cam_x\" is not what"), "{exchanged}");
+        let in_mm = header("x_mm,y_mm,z_mm,qx,qy,qz,qw,x_mm,y_mm,z_mm,qx,qy,qz,qw");
+        assert!(in_mm.contains("the column \"x_mm\" is not what"), "{in_mm}");
         let none = of(format!("{line}\n{}\n", line.replace("0,0,0,1", "0,0,0,0")));
         assert!(none.starts_with("bad.csv:2: base_from_flange: "), "{none}");
     }

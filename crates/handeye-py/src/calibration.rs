@@ -87,7 +87,8 @@ impl Calibrated {
     ) -> PyResult<(String, Bound<'py, PyBytes>)> {
         let named = Format::named(format)
             .map_err(|there| errors::input(format!("no format {format:?}: {there}")))?;
-        let camera = CameraPose::of(&self.calibration, None, child).map_err(errors::input)?;
+        let camera = CameraPose::of(&self.calibration, None, child, std::slice::from_ref(&named))
+            .map_err(errors::input)?;
         let Some(camera) = camera else {
             return Err(errors::NotDetermined::new_err(self.calibration.reasons.join("; ")));
         };

@@ -4,12 +4,14 @@
 //! seeds are those of `corpus/TARGET`; the changes are the same in every run.
 
 use std::{
-    cell::RefCell,
     env, fs,
     panic::{self, AssertUnwindSafe},
     path::{Path, PathBuf},
     process,
-    sync::atomic::{AtomicU64, Ordering},
+    sync::{
+        Mutex,
+        atomic::{AtomicU64, Ordering},
+    },
     thread,
     time::{Duration, Instant},
 };
@@ -29,9 +31,8 @@ const NUMBERS: [&str; 10] =
 /// When the current input began, in milliseconds since the start; zero between two.
 static BEGAN: AtomicU64 = AtomicU64::new(0);
 
-thread_local! {
-    static SAID: RefCell<String> = const { RefCell::new(String::new()) };
-}
+/// What the first panic of an input said, in whatever thread.
+static SAID: Mutex<String> = Mutex::new(String::new());
 
 fn main() {
     let words: Vec<String> = env::args().skip(1).collect();
@@ -43,7 +44,12 @@ fn main() {
     let kept = folder().join("current");
     let faults = here.join("artifacts").join(name);
     // panics of other crates that are caught and told are no faults
-    panic::set_hook(Box::new(|what| SAID.with_borrow_mut(|said| *said = what.to_string())));
+    panic::set_hook(Box::new(|what| {
+        let mut said = SAID.lock().expect("a message");
+        if said.is_empty() {
+            *said = what.to_string();
+        }
+    }));
     let start = Instant::now();
     let watched = (kept.clone(), faults.clone());
     thread::spawn(move || watch(start, &watched.0, &watched.1));
@@ -54,11 +60,12 @@ fn main() {
         let input =
             if count < seeds.len() { seeds[count].clone() } else { changed(&seeds, &mut random) };
         fs::write(&kept, &input).expect("a temporary file can be written");
+        SAID.lock().expect("a message").clear();
         BEGAN.store(1 + start.elapsed().as_millis() as u64, Ordering::Relaxed);
         let ended = panic::catch_unwind(AssertUnwindSafe(|| run(&input)));
         BEGAN.store(0, Ordering::Relaxed);
         if ended.is_err() {
-            let said = SAID.with_borrow(String::clone);
+            let said = SAID.lock().expect("a message").clone();
             fault(&kept, &faults, &format!("panicked: {said}"));
         }
         count += 1;

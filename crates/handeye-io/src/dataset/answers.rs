@@ -20,7 +20,6 @@ pub struct OpenKey {
     pub name: String,
     /// The value that stands there as an example, as TOML.
     pub example: String,
-    line: usize,
 }
 
 impl OpenQuestion {
@@ -38,6 +37,11 @@ impl OpenQuestion {
 }
 
 impl OpenKey {
+    /// A key of this name, with an example as TOML.
+    pub fn new(name: impl Into<String>, example: impl Into<String>) -> Self {
+        Self { name: name.into(), example: example.into() }
+    }
+
     /// What a person typed, as TOML: without quotation marks, and with a decimal comma.
     ///
     /// # Errors
@@ -86,7 +90,7 @@ pub fn open_questions(manifest: &str) -> Vec<OpenQuestion> {
             k += 1;
         }
         let mut keys = vec![];
-        while let Some(key) = lines.get(k).and_then(|line| open_key(line, k)) {
+        while let Some(key) = lines.get(k).and_then(|line| open_key(line)) {
             keys.push(key);
             k += 1;
         }
@@ -95,26 +99,26 @@ pub fn open_questions(manifest: &str) -> Vec<OpenQuestion> {
     all
 }
 
-fn open_key(line: &str, number: usize) -> Option<OpenKey> {
+fn open_key(line: &str) -> Option<OpenKey> {
     let (name, value) = line.strip_prefix("# ")?.split_once(" = ")?;
     let is_name = !name.is_empty() && name.bytes().all(|b| b.is_ascii_lowercase() || b == b'_');
     let example = value.split("  # ").next().unwrap_or(value).trim();
-    is_name.then(|| OpenKey { name: name.into(), example: example.into(), line: number })
+    is_name.then(|| OpenKey::new(name, example))
+}
+
+/// The manifest with these lines in place of a question and its keys.
+pub fn answered_with(manifest: &str, question: &OpenQuestion, lines: &[String]) -> String {
+    let (begin, end) = question.lines;
+    let mut all: Vec<&str> = manifest.lines().collect();
+    all.splice(begin..end, lines.iter().map(String::as_str));
+    all.join("\n") + "\n"
 }
 
 /// The manifest with an answer to each key of a question, as TOML; the question is gone.
 pub fn answered(manifest: &str, question: &OpenQuestion, values: &[String]) -> String {
-    let (begin, end) = question.lines;
-    let mut text = String::new();
-    for (k, line) in manifest.lines().enumerate() {
-        let key = question.keys.iter().zip(values).find(|(key, _)| key.line == k);
-        match key {
-            Some((key, value)) => text += &format!("{} = {value}\n", key.name),
-            None if (begin..end).contains(&k) => {}
-            None => text += &format!("{line}\n"),
-        }
-    }
-    text
+    let line = |(key, value): (&OpenKey, &String)| format!("{} = {value}", key.name);
+    let lines: Vec<String> = question.keys.iter().zip(values).map(line).collect();
+    answered_with(manifest, question, &lines)
 }
 
 #[cfg(test)]
@@ -156,7 +160,7 @@ mod tests {
 
     #[test]
     fn values_of_another_kind_are_refused() {
-        let key = |example: &str| OpenKey { name: "x".into(), example: example.into(), line: 0 };
+        let key = |example: &str| OpenKey::new("x", example);
         assert_eq!(key("30.0").value("25").unwrap(), "25");
         assert_eq!(key("\"mm\"").value("m").unwrap(), "\"m\"");
         assert_eq!(key("\"mm\"").value("\"m\"").unwrap(), "\"m\"");

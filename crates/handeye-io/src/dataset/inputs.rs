@@ -10,6 +10,10 @@ use toml::Value;
 use super::manifest::Source;
 use crate::{error::Place, files};
 
+/// Keys whose texts are not names of files.
+const NO_FILES: [&str; 8] =
+    ["field", "notation", "direction", "columns", "rows", "id", "name", "frames"];
+
 /// The manifest, and every file that a text in it names; in the order of their paths.
 pub(super) fn files(manifest: &Source, root: &Path) -> Vec<PathBuf> {
     let mut named = BTreeSet::new();
@@ -26,7 +30,10 @@ fn gather(value: &Value, root: &Path, named: &mut BTreeSet<PathBuf>) {
             named.extend(found.into_iter().filter(|path| path.is_file()));
         }
         Value::Array(all) => all.iter().for_each(|value| gather(value, root, named)),
-        Value::Table(table) => table.values().for_each(|value| gather(value, root, named)),
+        Value::Table(table) => {
+            let of_files = table.iter().filter(|(key, _)| !NO_FILES.contains(&key.as_str()));
+            of_files.for_each(|(_, value)| gather(value, root, named));
+        }
         _ => {}
     }
 }

@@ -33,7 +33,7 @@ use crate::{
     robot::Urdf,
     scan::{self, ScanOptions},
 };
-pub use answers::{OpenKey, OpenQuestion, answered, open_questions};
+pub use answers::{OpenKey, OpenQuestion, answered, answered_with, open_questions};
 pub use draft::Question;
 pub(crate) use draft::{Draft, EXAMPLE_TARGET};
 pub use manifest::PixelOrigin;
@@ -224,14 +224,6 @@ impl Dataset {
     /// Whatever cannot be read, contradicts itself or leaves a convention open: see [`Error`].
     pub fn open(path: &Path) -> Result<Dataset, Error> {
         let manifest = if path.is_dir() { path.join(MANIFEST) } else { path.to_path_buf() };
-        if path.is_dir() && !manifest.exists() {
-            if bag::is_bag(path) {
-                return Err(unusable(path, bag::ADVICE));
-            }
-            let what =
-                format!("has no {MANIFEST} yet: `handeye init {}` writes one", path.display());
-            return Err(unusable(path, what));
-        }
         let root = manifest.parent().unwrap_or(Path::new("")).to_path_buf();
         Self::open_with_root(&manifest, &root)
     }
@@ -244,6 +236,20 @@ impl Dataset {
         if manifest.is_file() && bag::is_bag(manifest) {
             return Err(unusable(manifest, bag::ADVICE));
         }
+        let folder = manifest.parent().unwrap_or(Path::new(""));
+        if manifest.file_name().is_some_and(|name| name == MANIFEST)
+            && folder.is_dir()
+            && !manifest.exists()
+        {
+            if bag::is_bag(folder) {
+                return Err(unusable(folder, bag::ADVICE));
+            }
+            let name = folder.display();
+            return Err(unusable(
+                folder,
+                format!("has no {MANIFEST} yet: `handeye init {name}` writes one"),
+            ));
+        }
         let source = Source { path: manifest.to_path_buf(), text: files::text(manifest)? };
         Self::of_source(source, root)
     }
@@ -251,13 +257,17 @@ impl Dataset {
     /// Opens the text of a manifest, wherever it stands.
     pub(crate) fn of_source(source: Source, root: &Path) -> Result<Dataset, Error> {
         let manifest = Manifest::parse(&source)?;
-        let root = manifest.root.as_ref().map_or_else(|| root.into(), |below| root.join(below));
+        // a folder that is given comes before that of the manifest
+        let own = source.path.parent().unwrap_or(Path::new(""));
+        let said = manifest.root.as_ref().filter(|_| root == own);
+        let root = said.map_or_else(|| root.into(), |below| own.join(below));
         Opening { manifest, source, root }.dataset()
     }
 
     /// What it is called: its folder's name, or that of a manifest with a name of its own.
     pub fn title(&self) -> String {
-        let folder = self.manifest.parent().and_then(|p| p.file_name());
+        let whole = self.manifest.canonicalize().unwrap_or_else(|_| self.manifest.clone());
+        let folder = whole.parent().and_then(|p| p.file_name());
         let file = self.manifest.file_stem();
         let name = if file.is_some_and(|f| f == "handeye") { folder.or(file) } else { file };
         name.map_or("dataset".into(), |n| n.to_string_lossy().into_owned())

@@ -382,6 +382,7 @@ mod tests {
         let record = |names: &[&str]| Record {
             names: names.iter().map(|n| (*n).to_owned()).collect(),
             cells: vec![],
+            by_header: true,
             id: None,
             place: Place::default(),
         };

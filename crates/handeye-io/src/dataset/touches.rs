@@ -115,7 +115,7 @@ fn inline(point: &TouchPoint, source: &Source) -> Record {
     ];
     let values = point.values.iter().map(|v| (String::new(), Cell::Number(*v)));
     let (names, cells) = labels.into_iter().flatten().chain(values).unzip();
-    Record { names, cells, id: None, place: source.place("touches.points") }
+    Record { names, cells, by_header: false, id: None, place: source.place("touches.points") }
 }
 
 const LABELS: [&str; 6] = ["placement", "corner", "corner_id", "row", "column", "id"];

@@ -24,6 +24,9 @@ pub struct CameraPose<'a> {
     pub setup: Setup,
 }
 
+/// Formats that name the frame of the child: of a body, the pose goes into no other.
+const NAMING_FRAMES: [&str; 4] = ["ros2-launch", "urdf", "easy-handeye2", "moveit"];
+
 /// Ends of names that ROS gives the bodies of cameras: x forward, not z as in the optical frame.
 const BODY_ENDS: [&str; 2] = ["camera_link", "camera_base_link"];
 
@@ -37,6 +40,7 @@ impl<'a> CameraPose<'a> {
         calibration: &'a Calibration,
         parent: Option<&'a str>,
         child: Option<&'a str>,
+        formats: &[Format],
     ) -> Result<Option<Self>, String> {
         let Some(found) = calibration.hand_eye.mount_from_camera else { return Ok(None) };
         let frames = calibration.frames.as_ref();
@@ -52,6 +56,12 @@ impl<'a> CameraPose<'a> {
                  forward, x right): export it as {}, or say in handeye.toml how the one lies in the other \
                  ([[frames.bodies]]) and calibrate again",
                 optical.unwrap_or("camera_optical_frame")
+            ));
+        }
+        if body.is_some() && !formats.iter().all(Format::names_frames) {
+            return Err(format!(
+                "{child} is a frame fixed to the camera, and only {} say whose pose they hold; leave out --child for the others",
+                NAMING_FRAMES.join(", ")
             ));
         }
         let from_body = body.map(|b| b.body_from_camera.iso().inverse());
@@ -126,9 +136,14 @@ impl Format {
         programs.chain(robots.iter().copied()).collect()
     }
 
+    /// Whether a file of it names the camera's frame, so that a body's pose is not taken for that of the optical frame.
+    pub fn names_frames(&self) -> bool {
+        matches!(&self.0, Written::Program(program) if NAMING_FRAMES.contains(&program.name))
+    }
+
     /// The format of a name; `Err` says which there are.
     pub fn named(name: &str) -> Result<Format, String> {
-        if let Some(program) = PROGRAMS.iter().find(|p| p.name == name) {
+        if let Some(program) = PROGRAMS.iter().find(|p| p.name.eq_ignore_ascii_case(name)) {
             return Ok(Format(Written::Program(program)));
         }
         let notation = Notation::named(name);

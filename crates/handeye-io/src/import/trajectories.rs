@@ -156,7 +156,7 @@ fn read(path: &Path) -> Result<Vec<Stamped<nalgebra::Isometry3<f64>>>, Error> {
 fn records(path: &Path) -> Result<Vec<Record>, Error> {
     let mut all = table::records(path, &Layout::default())?;
     let Some(first) = all.first().filter(|record| record.names.is_empty()) else { return Ok(all) };
-    let text = files::text(path)?;
+    let text = files::table_text(path)?;
     let comment = text.lines().take_while(|line| line.starts_with('#')).last().unwrap_or_default();
     let comment = comment.trim_start_matches('#');
     let names: Vec<String> = match comment.contains(',') {

@@ -12,6 +12,7 @@ use handeye::{Setup, TargetModel};
 use crate::{
     Question, bag,
     error::{Error, unusable},
+    robot::Notation,
 };
 use groups::Group;
 use kind::Kind;
@@ -34,6 +35,14 @@ pub struct Known {
     pub robot: Option<String>,
     /// The target.
     pub target: Option<TargetModel>,
+}
+
+impl Known {
+    /// Whether the notation is a maker's, which brings its unit; controllers show the flange in the base.
+    fn has_maker(&self) -> bool {
+        let notation = self.robot.as_deref().and_then(|name| Notation::named(name).ok());
+        notation.is_some_and(|notation| notation.length_unit.is_some())
+    }
 }
 
 /// A first manifest for the files of a folder.

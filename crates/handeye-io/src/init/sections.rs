@@ -170,11 +170,11 @@ fn robot(kinds: &Kinds, captures: Option<usize>, known: &Known, draft: &mut Draf
     }
     let mut spec = RobotSpec { poses: group.pattern.clone(), ..RobotSpec::default() };
     match &known.robot {
-        Some(maker) => spec.notation = Some(maker.clone()),
-        None => {
-            notation(poses.notation, &mut spec, draft);
-            spec.length_unit = unit(poses, draft);
-        }
+        Some(name) => spec.notation = Some(name.clone()),
+        None => notation(poses.notation, &mut spec, draft),
+    }
+    if !known.has_maker() {
+        spec.length_unit = unit(poses, draft);
     }
     spec.direction = Some(direction(known, draft));
     if poses.notation != Notation::Joints {
@@ -221,10 +221,11 @@ fn unknown_poses(kinds: &Kinds, known: &Known, draft: &mut Draft) {
             draft.note_below(last, format!("or poses = {poses}{field}  # {}", other.size));
         }
     }
-    if let Some(maker) = &known.robot {
-        spec.notation = Some(maker.clone());
-    } else {
-        notation(Notation::SomeAngles { degrees: false }, &mut spec, draft);
+    match &known.robot {
+        Some(name) => spec.notation = Some(name.clone()),
+        None => notation(Notation::SomeAngles { degrees: false }, &mut spec, draft),
+    }
+    if !known.has_maker() {
         spec.length_unit = Some(LengthUnit::Millimetre);
         draft.ask(
             &["robot.length_unit"],
@@ -288,8 +289,10 @@ fn notation(notation: Notation, spec: &mut RobotSpec, draft: &mut Draft) {
                 .into()
         }
         Notation::Joints => {
-            "joint values: in \"deg\" or in \"rad\", and with which Denavit-Hartenberg parameters?"
-                .into()
+            draft.ask(&["robot.angle_unit"], "joint values: in \"deg\" or in \"rad\"?");
+            let of_arm =
+                "which file holds the Denavit-Hartenberg parameters of the arm? (or urdf = {...})";
+            return draft.ask(&["robot.dh"], of_arm);
         }
         Notation::SomeAngles { degrees: true } => format!(
             "a position and three angles in degrees: whose robot, or in which order? {}, or \
@@ -334,7 +337,7 @@ fn proven_unit(
     *unit
 }
 
-/// Which captures have no pose, where their names are numbered and some are missing in between.
+/// Which poses have no image, where the names of images are numbered and some are missing in between.
 fn gaps(kinds: &Kinds, poses: usize) -> String {
     let pictures =
         kinds.iter().find(|(_, k)| matches!(k, Kind::Pictures | Kind::Clouds | Kind::Depth));
@@ -348,7 +351,7 @@ fn gaps(kinds: &Kinds, poses: usize) -> String {
         return String::new();
     };
     let first = numbers.iter().copied().min().unwrap_or(0);
-    let missing: Vec<String> = (first..first + poses.max(numbers.len()))
+    let missing: Vec<String> = (first..first.saturating_add(poses.max(numbers.len())))
         .filter(|n| !numbers.contains(n))
         .map(|n| n.to_string())
         .collect();
@@ -372,7 +375,7 @@ fn flange_or_tool(draft: &mut Draft) -> PoseFrame {
 }
 
 fn direction(known: &Known, draft: &mut Draft) -> RobotDirection {
-    if known.robot.is_some() {
+    if known.has_maker() {
         draft.note_behind("robot.direction", "what controllers show");
         return RobotDirection::BaseFromFlange;
     }

@@ -43,7 +43,7 @@ pub fn calibration_html(title: &str, calibration: &Calibration) -> String {
 
 /// The transform in the dataset's own notation and in those most programs read.
 fn notations(own: Option<&str>, calibration: &Calibration) -> Vec<(String, String)> {
-    let Ok(Some(camera)) = CameraPose::of(calibration, None, None) else { return vec![] };
+    let Ok(Some(camera)) = CameraPose::of(calibration, None, None, &[]) else { return vec![] };
     let own = own.filter(|n| !["joints", "matrix4x4"].contains(n));
     let mut names: Vec<&str> = own.into_iter().chain(["quaternion-xyzw", "urdf"]).collect();
     names.dedup();

@@ -103,8 +103,9 @@ pub(crate) fn names_in_degrees() -> String {
 }
 
 impl Notation {
-    /// The notation of a name, such as `kuka` or `euler-zyx-intrinsic`; `Err` says which there are.
+    /// The notation of a name, such as `kuka` or `euler-zyx-intrinsic`, in capitals or not; `Err` says which there are.
     pub fn named(name: &str) -> Result<Notation, String> {
+        let name = &name.to_ascii_lowercase();
         let found = generic::named(name).or_else(|| makers::named(name));
         found.or_else(|| generic::euler(name)).ok_or_else(|| unknown(name))
     }
@@ -144,12 +145,12 @@ impl Notation {
         // a matrix without its last row
         if matches!(self.rotation, Rotation::Matrix) && record.cells.len() == 12 {
             let names: Vec<_> = self.columns[..12].iter().map(|c| c.names).collect();
-            let mut numbers = record.numbers(&names, &self.name)?;
+            let mut numbers = record.numbers_in_any_language(&names, &self.name)?;
             numbers.extend([0.0, 0.0, 0.0, 1.0]);
             return Ok(numbers);
         }
         let names: Vec<_> = self.columns.iter().map(|c| c.names).collect();
-        record.numbers(&names, &self.name)
+        record.numbers_in_any_language(&names, &self.name)
     }
 
     /// What a file calls these numbers, in the notation's order; `None` where it does not name them.

@@ -30,6 +30,7 @@ pub(super) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error
     let record = |(i, row): (usize, &[f64])| Record {
         cells: row.iter().copied().map(Cell::Number).collect(),
         names: vec![],
+        by_header: false,
         id: None,
         place: if whole { place.clone() } else { row_place(&place, i) },
     };

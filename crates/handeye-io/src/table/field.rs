@@ -156,7 +156,13 @@ fn record(found: Found, path: &Path) -> Result<Record, Error> {
     }
     let all_named = named.iter().all(|(name, _)| !name.is_empty());
     let (names, cells): (Vec<String>, Vec<Cell>) = named.into_iter().unzip();
-    Ok(Record { cells, names: if all_named { names } else { vec![] }, id: found.id, place })
+    Ok(Record {
+        cells,
+        names: if all_named { names } else { vec![] },
+        by_header: false,
+        id: found.id,
+        place,
+    })
 }
 
 /// Leaves of nested maps, each under the dotted path of its keys.

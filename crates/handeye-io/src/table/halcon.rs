@@ -55,7 +55,7 @@ pub(super) fn record(text: &str, path: &Path) -> Result<Record, Error> {
     let q = rotation.coords;
     let cells = t.into_iter().chain(q.iter().copied()).map(Cell::Number).collect();
     let names = COLUMNS.iter().map(|names| names[0].to_string()).collect();
-    Ok(Record { cells, names, id: None, place: Place::file(path) })
+    Ok(Record { cells, names, by_header: false, id: None, place: Place::file(path) })
 }
 
 fn rotation(kind: f64, r: Vector3<f64>) -> Option<UnitQuaternion<f64>> {

@@ -28,6 +28,11 @@ pub(super) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error
                 "has commas between its values, but numbers of other lines have decimal commas";
             return Err(malformed(Place::line(path, i + 1), what, "write all lines alike"));
         }
+        if commas == Commas::InNumbers && has_point_in_number(line) {
+            let what = "has a point in a number, but the file has decimal commas";
+            let advice = "leave out what separates thousands, and write all numbers alike";
+            return Err(malformed(Place::line(path, i + 1), what, advice));
+        }
         let cells = cells(line, commas);
         if !cells.is_empty() {
             lines.push(Line { number: i + 1, cells });
@@ -63,6 +68,19 @@ impl Commas {
 fn is_apart_by_commas(line: &str) -> bool {
     let line = without_comment(line);
     line.contains(',') && !line.contains([';', '\t'])
+}
+
+fn has_point_in_number(line: &str) -> bool {
+    let is_digit = |c: Option<&u8>| c.is_some_and(u8::is_ascii_digit);
+    let is_one = |cell: &str| {
+        let bytes = cell.trim().trim_matches('"').as_bytes();
+        let is_number = bytes.iter().all(|b| b.is_ascii_digit() || b"+-.,eE".contains(b));
+        is_number
+            && (1..bytes.len()).any(|k| {
+                bytes[k] == b'.' && is_digit(bytes.get(k - 1)) && is_digit(bytes.get(k + 1))
+            })
+    };
+    without_comment(line).split([';', '\t']).any(is_one)
 }
 
 fn without_comment(line: &str) -> &str {
@@ -184,7 +202,7 @@ fn record(line: Line, header: &[String], path: &Path) -> Result<Record, Error> {
     let (own, cells): (Vec<_>, Vec<_>) = line.cells.into_iter().unzip();
     let own: Option<Vec<String>> = own.into_iter().collect();
     let names = if header.is_empty() { own.unwrap_or_default() } else { header.to_vec() };
-    let mut record = Record { cells, names, id: None, place };
+    let mut record = Record { cells, names, by_header: !header.is_empty(), id: None, place };
     record.id = record.text_named(&ID_NAMES).or_else(|| match record.cells.first() {
         Some(Cell::Text(text)) => Some(text.clone()),
         _ => None,

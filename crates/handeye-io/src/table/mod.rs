@@ -48,6 +48,8 @@ pub(crate) struct Record {
     pub(crate) cells: Vec<Cell>,
     /// Name of every cell, where a header or keys say them; otherwise empty.
     pub(crate) names: Vec<String>,
+    /// Whether the names are those of a header above the columns of a text: then their order is that of the columns.
+    pub(crate) by_header: bool,
     /// What the file calls the record.
     pub(crate) id: Option<String>,
     pub(crate) place: Place,
@@ -91,7 +93,7 @@ pub(crate) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error
 
 /// The text of a file, where it is a pose that HALCON wrote.
 fn pose_of_halcon(path: &Path) -> Result<Option<String>, Error> {
-    files::text(path).map(|text| Some(text).filter(|text| halcon::is_pose(text)))
+    files::table_text(path).map(|text| Some(text).filter(|text| halcon::is_pose(text)))
 }
 
 /// The single record of each of several files, named after its file.
@@ -125,7 +127,8 @@ fn joined(parts: Vec<Record>) -> Record {
     let place = parts.first().map(|r| r.place.clone()).unwrap_or_default();
     let named = parts.iter().all(|r| r.names.len() == r.cells.len());
     let names = if named { parts.iter().flat_map(|r| r.names.clone()).collect() } else { vec![] };
-    Record { cells: parts.into_iter().flat_map(|r| r.cells).collect(), names, id: None, place }
+    let cells = parts.into_iter().flat_map(|r| r.cells).collect();
+    Record { cells, names, by_header: false, id: None, place }
 }
 
 /// File names without extension, or their folders' names where all files are called the same.
@@ -200,17 +203,51 @@ impl Record {
         self.named(names).map(Cell::text)
     }
 
-    /// The values of `columns` (each with its usual names), by name where the file names them, in order where it does
-    /// not, or calls all of them something else (in another language). All are finite.
+    /// The values of `columns` (each with its usual names), by name where the file names them, otherwise in order. All are
+    /// finite.
     pub(crate) fn numbers(&self, columns: &[&[&str]], what: &str) -> Result<Vec<f64>, Error> {
-        let is_known = |names: &&[&str]| self.named(names).is_some();
-        let unknown = || !columns.iter().any(is_known) && self.values().len() == columns.len();
-        let cells = if self.names.is_empty() || unknown() {
+        let cells = if self.names.is_empty() {
             self.in_order(columns, what)?
         } else {
             self.by_name(columns, what)?
         };
         cells.into_iter().map(|cell| self.finite(cell)).collect()
+    }
+
+    /// The same of a table whose header calls all columns something else, in another language: in order, unless a name says
+    /// another one.
+    pub(crate) fn numbers_in_any_language(
+        &self,
+        columns: &[&[&str]],
+        what: &str,
+    ) -> Result<Vec<f64>, Error> {
+        let is_known = |names: &&[&str]| self.named(names).is_some();
+        let unnamed = Record { names: vec![], ..self.clone() };
+        let foreign = self.by_header && !columns.iter().any(is_known);
+        if foreign && let Some(cells) = self.foreign_values(columns) {
+            return Record { cells, id: None, ..unnamed }.numbers(columns, what);
+        }
+        self.numbers(columns, what)
+    }
+
+    /// The numbers under names that nobody here knows, as many as `columns`, where none of the names ends as that of
+    /// another column does: `rot_w` is no `x`, `A1` no `z`.
+    fn foreign_values(&self, columns: &[&[&str]]) -> Option<Vec<Cell>> {
+        let named: Vec<(&Cell, &String)> = self
+            .cells
+            .iter()
+            .zip(&self.names)
+            .filter(|(cell, name)| cell.number().is_some() && !is_id_name(name))
+            .collect();
+        let is_elsewhere = |name: &str, wanted: &[&str]| {
+            let end = plain(name).chars().last();
+            end.is_some_and(|c| "xyzw".contains(c) || c.is_ascii_digit())
+                && !wanted.iter().any(|w| plain(w).chars().last() == end)
+        };
+        let contradicts =
+            named.iter().zip(columns).any(|((_, name), wanted)| is_elsewhere(name, wanted));
+        let all = || named.iter().map(|(cell, _)| (*cell).clone()).collect();
+        (named.len() == columns.len() && !contradicts).then(all)
     }
 
     /// The finite number that a cell must be.
@@ -237,22 +274,9 @@ impl Record {
         columns.iter().map(name).collect()
     }
 
-    /// All cells but those that name the record, and where a header names them, but texts.
-    fn values(&self) -> Vec<&Cell> {
-        if self.names.is_empty() {
-            let leading_name = matches!(self.cells.first(), Some(Cell::Text(_)));
-            return self.cells.iter().skip(usize::from(leading_name)).collect();
-        }
-        let names_it = |name: &str| lines::ID_NAMES.iter().any(|n| plain(n) == plain(name));
-        let named = self.cells.iter().zip(&self.names);
-        named
-            .filter(|(cell, name)| cell.number().is_some() && !names_it(name))
-            .map(|(cell, _)| cell)
-            .collect()
-    }
-
     fn in_order(&self, columns: &[&[&str]], what: &str) -> Result<Vec<&Cell>, Error> {
-        let cells = self.values();
+        let leading_name = matches!(self.cells.first(), Some(Cell::Text(_)));
+        let cells: Vec<&Cell> = self.cells.iter().skip(usize::from(leading_name)).collect();
         if cells.len() != columns.len() {
             return Err(self.refuse(
                 format!("has {} values, but {what} takes {}", cells.len(), columns.len()),
@@ -282,8 +306,13 @@ impl Record {
     }
 }
 
+/// Whether a column of this name names the record.
+pub(crate) fn is_id_name(name: &str) -> bool {
+    lines::ID_NAMES.iter().any(|n| plain(n) == plain(name))
+}
+
 /// A column's name without its unit, marks and capitals: `q_x`, `Q.X` and `qx [-]` are one.
-fn plain(name: &str) -> String {
+pub(crate) fn plain(name: &str) -> String {
     let name = name.split(['[', '(']).next().unwrap_or_default().trim().to_lowercase();
     let bare = ["_mm", "_deg", "_rad", "_m"].iter().find_map(|unit| name.strip_suffix(unit));
     bare.unwrap_or(&name).chars().filter(|c| c.is_alphanumeric()).collect()
@@ -307,11 +336,13 @@ mod tests {
         let record = |names: &[&str], cells: &[f64]| Record {
             cells: cells.iter().map(|x| Cell::Number(*x)).collect(),
             names: names.iter().map(|n| (*n).into()).collect(),
+            by_header: true,
             id: None,
             place: Place::default(),
         };
-        let read =
-            |names: &[&str], cells: &[f64]| record(names, cells).numbers(&COLUMNS, "it").ok();
+        let read = |names: &[&str], cells: &[f64]| {
+            record(names, cells).numbers_in_any_language(&COLUMNS, "it").ok()
+        };
         let in_order = Some(vec![1.0, 2.0, 3.0]);
         assert_eq!(read(&["rechts", "vorn", "oben"], &[1.0, 2.0, 3.0]), in_order);
         assert_eq!(read(&["Nr", "rechts", "vorn", "oben"], &[9.0, 1.0, 2.0, 3.0]), in_order);
@@ -319,6 +350,11 @@ mod tests {
         // one that is known, and others that are not: which is which?
         assert_eq!(read(&["x", "vorn", "oben"], &[1.0, 2.0, 3.0]), None);
         assert_eq!(read(&["was", "rechts", "vorn", "oben"], &[9.0, 1.0, 2.0, 3.0]), None);
+        // names that say another order
+        assert_eq!(read(&["unten_z", "unten_y", "unten_x"], &[3.0, 2.0, 1.0]), None);
+        assert_eq!(read(&["A1", "A2", "A3"], &[1.0, 2.0, 3.0]), None);
+        let keys = Record { by_header: false, ..record(&["r", "s", "t"], &[1.0, 2.0, 3.0]) };
+        assert!(keys.numbers_in_any_language(&COLUMNS, "it").is_err());
     }
 
     #[test]

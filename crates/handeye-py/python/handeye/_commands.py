@@ -31,8 +31,10 @@ def check(dataset: _Path, *, root: Optional[_Path] = None, apply: Union[bool, in
     :raises InputError: files that cannot be used.
     """
     words = ["check", fspath(dataset), *_option("root", root)]
-    if apply is not False:
-        words.append("--apply" if apply is True else f"--apply={apply}")
+    if apply is True:
+        words.append("--apply")
+    elif apply:
+        words.append(f"--apply={int(apply)}")
     return _document(words)
 
 
@@ -51,7 +53,7 @@ def init(
     :param robot: its maker, or the notation of its poses: ``kuka``, ``ur``, ``quaternion-xyzw`` ...
     :param target: as for :func:`detect`.
     :param force: write over a manifest that is there.
-    :returns: ``manifest``, its path, and ``questions``, each with its ``line`` and ``text``.
+    :returns: ``manifest``, its path, and ``questions``, each with its ``line`` and ``question``.
     :raises InputError: a folder without captures, or with a manifest.
     """
     words = ["init", fspath(folder), *_option("setup", setup), *_option("robot", robot), *_flag("force", force)]

@@ -194,7 +194,7 @@ impl Method {
 
     /// The method of that name.
     pub fn from_name(name: &str) -> Option<Method> {
-        Method::ALL.into_iter().find(|m| m.name() == name)
+        Method::ALL.into_iter().find(|m| m.name().eq_ignore_ascii_case(name))
     }
 }
 
