@@ -89,9 +89,10 @@ pub fn handeye(folder: &Folder, args: &[&str]) -> Run {
     }
 }
 
-/// The program, ready to run in a folder.
+/// The program, ready to run in a folder, always at the same time.
 pub fn command(folder: &Folder, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_handeye"));
+    command.env("SOURCE_DATE_EPOCH", "1773480413");
     command.args(args).current_dir(&folder.0).stdin(Stdio::null());
     command
 }
