@@ -9,7 +9,7 @@ use std::{
 };
 
 use handeye::calibrate::result::{InputFile, Origin};
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 
 use crate::{
     Dataset,
@@ -48,7 +48,7 @@ fn of_files(name: &str, folders: &[&Path], paths: &[PathBuf]) -> Result<Origin, 
 }
 
 fn sha256(path: &Path) -> io::Result<String> {
-    let (mut file, mut hash, mut part) = (File::open(path)?, Sha256::new(), vec![0; 1 << 16]);
+    let (mut file, mut hash, mut part) = (File::open(path)?, Hash::new(), vec![0; 1 << 16]);
     loop {
         match file.read(&mut part)? {
             0 => break,
