@@ -38,7 +38,7 @@ pub fn run(args: &InitArgs, global: &GlobalArgs) -> Result<u8, Failure> {
         let questions: Vec<_> = first.questions.iter().map(entry).collect();
         output::json(&json!({ "manifest": path, "questions": questions }));
     } else {
-        output::print(&told(&path, &first.questions));
+        output::print(&written(&path, &first.questions));
     }
     Ok(0)
 }
@@ -56,7 +56,7 @@ fn known(args: &InitArgs) -> Result<Known, Failure> {
     })
 }
 
-fn told(path: &Path, questions: &[Question]) -> String {
+fn written(path: &Path, questions: &[Question]) -> String {
     let question = |q: &Question| output::wrapped(&format!("  line {:>3}  ", q.line), &q.text);
     let all: String = questions.iter().map(question).collect();
     if all.is_empty() {

@@ -117,7 +117,7 @@ pub fn show(table: &Table) {
         let [held_out, degrees, tre, off] = figures.each_ref().map(String::as_str);
         text += &line([row.method, held_out, degrees, tre, off, &time]);
     }
-    let about = "`held out`: error on captures that were left out, one by one. `from the answer`: distance of a point \
+    let about = "`held out`: error on captures that the method has not seen, one by one. `from the answer`: distance of a point \
                  half a metre before the camera from where the answer above puts it. `time`: the method alone.";
     output::print(&(text + "\n" + &output::wrapped("", about)));
     for row in &table.methods {

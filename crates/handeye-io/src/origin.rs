@@ -1,4 +1,4 @@
-//! What a result was made from, by which version, and when: so that years later somebody can tell.
+//! What a result was made from, by which version, and when: so that it can be traced years later.
 
 use std::{
     env,

@@ -16,7 +16,7 @@ use super::{
 /// Frames between a camera's optical frame and its body are no more than this.
 const MOST_BODIES: usize = 8;
 
-/// The names that a result has for a robot as `source` tells it and pictures in the frame `optical`.
+/// The names for a result, of a robot whose poses are read from `source` and of images in the frame `optical`.
 pub(super) fn names(
     survey: &Survey,
     source: &RobotSource,

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use handeye::{Setup, calibrate::result::FrameNames};
+use handeye::{AnswerFrame, Setup, calibrate::result::FrameNames};
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -547,6 +547,15 @@ pub(crate) struct AnswerSpec {
 pub(crate) enum FrameSpec {
     Scan,
     Image,
+}
+
+impl From<FrameSpec> for AnswerFrame {
+    fn from(spec: FrameSpec) -> Self {
+        match spec {
+            FrameSpec::Image => Self::Image,
+            FrameSpec::Scan => Self::Scan,
+        }
+    }
 }
 
 impl Manifest {

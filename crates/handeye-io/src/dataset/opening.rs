@@ -12,9 +12,7 @@ use super::{
     CaptureSource, Dataset, Limits, Noise, PlacementSource, WorkspaceBox,
     corners::{CornerReading, Corners},
     inputs,
-    manifest::{
-        FrameSpec, KnownPositionSpec, Manifest, NoiseSpec, PlacementSpec, Source, WorkspaceSpec,
-    },
+    manifest::{KnownPositionSpec, Manifest, NoiseSpec, PlacementSpec, Source, WorkspaceSpec},
     motion,
     pairing::{self, Series},
     poses::{self, Named},
@@ -98,10 +96,7 @@ impl Opening {
             },
             noise: self.noise(&m.noise)?,
             limits: self.limits(m)?,
-            answer_frame: m.answer.frame.map(|frame| match frame {
-                FrameSpec::Image => AnswerFrame::Image,
-                FrameSpec::Scan => AnswerFrame::Scan,
-            }),
+            answer_frame: m.answer.frame.map(AnswerFrame::from),
             frames: m.frames.clone(),
             inputs: inputs::files(&self.source, &self.root),
             notation: m.robot.as_ref().and_then(|r| r.table().notation),

@@ -35,7 +35,7 @@ impl<'a> CameraPose<'a> {
     /// are. A child that is fixed to the camera, such as `camera_link`, gets its own pose.
     ///
     /// # Errors
-    /// A child that is called like the body of a camera, and nothing tells how the optical frame lies in it.
+    /// A child that is called like the body of a camera, and it is not known how the optical frame lies in it.
     pub fn of(
         calibration: &'a Calibration,
         parent: Option<&'a str>,

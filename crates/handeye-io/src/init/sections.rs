@@ -363,7 +363,7 @@ fn gaps(kinds: &Kinds, poses: usize) -> String {
     }
 }
 
-/// Controllers show the active tool: nothing in the numbers tells it.
+/// Controllers show the pose of the active tool; the numbers do not prove which it is.
 fn flange_or_tool(draft: &mut Draft) -> PoseFrame {
     draft.ask(
         &["robot.frame"],

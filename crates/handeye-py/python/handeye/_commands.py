@@ -314,10 +314,10 @@ def _document(words: List[str]) -> Dict[str, Any]:
     document: Dict[str, Any] = json.loads(out) if out.strip() else {}
     error = document.get("error")
     if code in (1, 2) or error is not None:
-        told = error or {"message": err.strip()}
-        refused = InputError(told.get("message", ""))
-        refused.code = told.get("code")
-        refused.file = None if told.get("file") is None else Path(told["file"])
-        refused.line, refused.capture = told.get("line"), told.get("capture")
+        problem = error or {"message": err.strip()}
+        refused = InputError(problem.get("message", ""))
+        refused.code = problem.get("code")
+        refused.file = None if problem.get("file") is None else Path(problem["file"])
+        refused.line, refused.capture = problem.get("line"), problem.get("capture")
         raise refused
     return document
