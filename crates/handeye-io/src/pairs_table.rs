@@ -21,9 +21,13 @@ use crate::{
 /// What the two poses of a record are called.
 const NAMES: [&str; 2] = ["base_from_flange", "camera_from_target"];
 
-/// Whether a file holds pairs as [`read_pairs_table`] reads them, by its name.
+/// Whether a file holds pairs as [`read_pairs_table`] reads them, by its name; a text that begins as JSON does not.
 pub fn is_pairs_table(path: &Path) -> bool {
-    ["csv", "txt", "npy", "npz"].contains(&files::extension(path).as_str())
+    match files::extension(path).as_str() {
+        "csv" | "npy" | "npz" => true,
+        "txt" => !files::text(path).is_ok_and(|text| text.trim_start().starts_with('{')),
+        _ => false,
+    }
 }
 
 /// Reads pairs from a CSV, TXT, NPY or NPZ file; `setup` is what it cannot say.

@@ -71,8 +71,8 @@ pub(super) fn urdf(pose: &CameraPose) -> String {
 
 pub(super) fn easy_handeye(pose: &CameraPose) -> String {
     let (kind, base, effector) = match pose.setup {
-        Setup::EyeInHand => ("eye_in_hand", "base_link", pose.parent),
-        Setup::EyeToHand => ("eye_on_base", pose.parent, "tool0"),
+        Setup::EyeInHand => ("eye_in_hand", "base_link".into(), in_yaml(pose.parent)),
+        Setup::EyeToHand => ("eye_on_base", in_yaml(pose.parent), "tool0".into()),
     };
     let [x, y, z, qx, qy, qz, qw] = seven(pose);
     format!(
@@ -89,8 +89,19 @@ pub(super) fn easy_handeye(pose: &CameraPose) -> String {
          transform:\n  \
            translation:\n    x: {x}\n    y: {y}\n    z: {z}\n  \
            rotation:\n    x: {qx}\n    y: {qy}\n    z: {qz}\n    w: {qw}\n",
-        pose.name, pose.child
+        pose.name,
+        in_yaml(pose.child)
     )
+}
+
+/// A name as YAML: in quotation marks where it would be read as something else.
+fn in_yaml(name: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-/".contains(c);
+    let begins = name.starts_with(|c: char| c.is_ascii_alphabetic());
+    match begins && name.chars().all(is_plain) {
+        true => name.into(),
+        false => serde_json::Value::from(name).to_string(),
+    }
 }
 
 pub(super) fn moveit(pose: &CameraPose) -> String {
@@ -144,6 +155,13 @@ mod tests {
         let rotation = tree.get("transform").and_then(|t| t.get("rotation")).unwrap();
         let w = rotation.get("w").and_then(Tree::number).unwrap();
         assert!((w - example().parent_from_child.rotation.w).abs() < 1e-12);
+    }
+
+    #[test]
+    fn names_that_yaml_would_read_otherwise_are_quoted() {
+        assert_eq!(in_yaml("camera_color_optical_frame"), "camera_color_optical_frame");
+        assert_eq!(in_yaml("a: b # c\n"), "\"a: b # c\\n\"");
+        assert_eq!(in_yaml("7"), "\"7\"");
     }
 
     #[test]

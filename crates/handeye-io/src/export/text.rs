@@ -12,6 +12,11 @@ pub(super) fn matrix(pose: &CameraPose) -> String {
     rows.chunks(4).map(|row| matrix_row(row, METRES, " ") + "\n").collect()
 }
 
+/// A name for a comment.
+fn on_one_line(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
 /// One line in a robot's notation, below a comment that says what it is.
 pub(super) fn robot(pose: &CameraPose, notation: &Notation) -> String {
     let units = notation.own_units();
@@ -28,8 +33,8 @@ pub(super) fn robot(pose: &CameraPose, notation: &Notation) -> String {
     format!(
         "# {} ({} from {}), {}: {} in {}{}\n{}\n",
         pose.name,
-        pose.parent,
-        pose.child,
+        on_one_line(pose.parent),
+        on_one_line(pose.child),
         notation.name,
         names.join(" "),
         units.length.name(),
