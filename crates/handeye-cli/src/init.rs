@@ -46,6 +46,10 @@ pub fn run(args: &InitArgs, global: &GlobalArgs) -> Result<u8, Failure> {
 /// What the options say.
 fn known(args: &InitArgs) -> Result<Known, Failure> {
     if let Some(name) = &args.robot {
+        if name == "joints" {
+            let what = "for joint values leave --robot out: their unit and the arm are asked";
+            return Err(Failure::Usage(what.into()));
+        }
         Notation::named(name)
             .map_err(|e| Failure::Usage(format!("--robot {name} is not known; {e}")))?;
     }

@@ -31,7 +31,7 @@ mod view;
 
 use std::ffi::OsString;
 
-use clap::{CommandFactory, Parser};
+use clap::Parser;
 use serde_json::json;
 
 use args::{Command, Program};
@@ -69,11 +69,6 @@ pub struct Captured {
 pub fn captured<W: Into<OsString> + Clone>(words: impl IntoIterator<Item = W>) -> Captured {
     let (code, out, err) = output::captured(|| main(words));
     Captured { code, out, err }
-}
-
-/// The command line's description, for manual pages.
-pub fn command() -> clap::Command {
-    Program::command()
 }
 
 /// Help that was asked for, or a command line that is wrong.

@@ -52,7 +52,7 @@ pub use camera::read_intrinsics;
 pub use dataset::{
     CaptureSource, Dataset, FIXED_BOARD, Limits, MANIFEST, Noise, OpenKey, OpenQuestion,
     PixelOrigin, PlacementSource, Question, RobotFile, RobotPoses, Shape, WorkspaceBox,
-    WorkspaceFrame, Writing, answered, answered_with, columns, open_questions, read_robot_poses,
+    WorkspaceFrame, Writing, answered_with, columns, open_questions, read_robot_poses,
 };
 pub use error::{Error, Place};
 pub use files::write_atomically;

@@ -114,13 +114,6 @@ pub fn answered_with(manifest: &str, question: &OpenQuestion, lines: &[String]) 
     all.join("\n") + "\n"
 }
 
-/// The manifest with an answer to each key of a question, as TOML; the question is gone.
-pub fn answered(manifest: &str, question: &OpenQuestion, values: &[String]) -> String {
-    let line = |(key, value): (&OpenKey, &String)| format!("{} = {value}", key.name);
-    let lines: Vec<String> = question.keys.iter().zip(values).map(line).collect();
-    answered_with(manifest, question, &lines)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -147,10 +140,13 @@ mod tests {
     #[test]
     fn answers_take_the_place_of_their_question() {
         let first = &open_questions(MANIFEST)[0];
-        let text = answered(MANIFEST, first, &[first.keys[0].value("eye-to-hand").unwrap()]);
+        let setup = first.keys[0].value("eye-to-hand").unwrap();
+        let text = answered_with(MANIFEST, first, &[format!("setup = {setup}")]);
         assert!(text.starts_with("setup = \"eye-to-hand\"\n\n[target]\n"), "{text}");
         let second = &open_questions(&text)[0];
-        let text = answered(&text, second, &["9".into(), second.keys[1].value("24,5").unwrap()]);
+        let side = second.keys[1].value("24,5").unwrap();
+        let text =
+            answered_with(&text, second, &["columns = 9".into(), format!("square_mm = {side}")]);
         assert_eq!(
             text,
             "setup = \"eye-to-hand\"\n\n[target]\ncolumns = 9\nsquare_mm = 24.5\n# or this\n"

@@ -33,7 +33,7 @@ use crate::{
     robot::Urdf,
     scan::{self, ScanOptions},
 };
-pub use answers::{OpenKey, OpenQuestion, answered, answered_with, open_questions};
+pub use answers::{OpenKey, OpenQuestion, answered_with, open_questions};
 pub use draft::Question;
 pub(crate) use draft::{Draft, EXAMPLE_TARGET};
 pub use manifest::PixelOrigin;
