@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use handeye::{Method, solve::Form};
 use handeye_io::units::LengthUnit;
 
 use crate::boards::Board;
@@ -43,13 +42,13 @@ pub enum Command {
     /// Calibrate from a folder of captures with a manifest `handeye.toml`.
     Calibrate(CalibrateArgs),
     /// Solve for the transform from pairs of robot and target poses in a JSON file.
-    Solve(SolveArgs),
+    Solve(Box<crate::solve::SolveArgs>),
     /// Find mistakes in a dataset: notation, units, direction, order, target size, outliers.
     Check(CheckArgs),
     /// Export a result in the format of a robot controller, ROS, OpenCV or another program.
     Export(ExportArgs),
     /// Write a first `handeye.toml` for a folder, with the questions that its files leave open.
-    Init(InitArgs),
+    Init(crate::init::InitArgs),
     /// Import a dataset or result of another program (easy_handeye2, MoveIt, Zivid, HALCON, ...).
     Import(crate::import::ImportArgs),
     /// Show the contents of a ROS bag, or extract a folder of captures from it.
@@ -84,20 +83,6 @@ pub enum Command {
     },
 }
 
-/// The help of `--method`: the names of published methods, by the equation that they solve.
-fn published_methods() -> String {
-    let named = |form: &Form| {
-        let all = Method::ALL.into_iter().filter(|m| m.form() == *form).map(Method::name);
-        format!("{}: {}", form.equation(), all.collect::<Vec<_>>().join(", "))
-    };
-    let forms: Vec<String> = Form::ALL.iter().map(named).collect();
-    format!(
-        "Take the answer of one published method on the captures that agree, in place of the best candidate; \
-         several, or all, are compared in a table; {}",
-        forms.join("; ")
-    )
-}
-
 /// What a script wants of a result.
 #[derive(Args)]
 pub struct Acceptance {
@@ -110,55 +95,6 @@ pub struct Acceptance {
     /// Print one line, for a log, instead of the summary.
     #[arg(long)]
     pub oneline: bool,
-}
-
-/// Arguments of `solve`.
-#[derive(Args)]
-#[command(after_help = "Examples:\n\
-\x20 handeye solve pairs.json\n\
-\x20 handeye solve pairs.json --method park-martin --json\n\
-\x20 handeye solve pairs.csv --setup eye-to-hand --out result\n\
-\x20 handeye solve pairs.json --method all\n\
-\n\
-pairs.json:\n\
-\x20 {\"setup\": \"eye-in-hand\",\n\
-\x20  \"pairs\": [{\"id\": \"01\",\n\
-\x20    \"base_from_flange\":\n\
-\x20      {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]},\n\
-\x20    \"camera_from_target\":\n\
-\x20      {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}},\n\
-\x20   ...]}\n\
-\n\
-or, instead of `pairs`, two streams by two clocks (camera time = robot time + \
-time_offset_s):\n\
-\x20  \"robot\":  [{\"time_s\": 0.00, \"base_from_flange\": {...}}, ...],\n\
-\x20  \"camera\": [{\"time_s\": 0.01, \"camera_from_target\": {...}}, ...]\n\
-\n\
-Set `\"unknown_scale\": true` if the target distances have an unknown common scale (measured = \
-scale * metric). Set `\"noise\": {\"robot_rotation_deg\": ..., \"robot_position_mm\": ...}` if you \
-know the standard deviations of the robot, per axis.\n\
-\n\
-CSV, NPY and NPZ need --setup. A line of a CSV: base_from_flange and camera_from_target, each as \
-x y z (m) and quaternion x y z w, or as the 16 numbers of a matrix, row by row; an id may come \
-first. NPY: N x 2 x 4 x 4; NPZ: two arrays of N x 4 x 4 with these names.")]
-pub struct SolveArgs {
-    /// JSON file with `setup` and `pairs`, or `robot` and `camera`; or CSV, NPY or NPZ with pairs.
-    pub pairs: PathBuf,
-    /// Where the camera is mounted, for CSV, NPY and NPZ.
-    #[arg(long, value_enum)]
-    pub setup: Option<crate::simulate::SetupArg>,
-    /// Run published methods as published, by their names.
-    #[arg(long, value_delimiter = ',', help = published_methods())]
-    pub method: Vec<String>,
-    /// Folder for calibration.json and report.html; created if it does not exist.
-    #[arg(long, short)]
-    pub out: Option<PathBuf>,
-    /// What a script wants of the result.
-    #[command(flatten)]
-    pub acceptance: Acceptance,
-    /// Try to prove that the least-squares solution is the global optimum.
-    #[arg(long)]
-    pub certify: bool,
 }
 
 /// Arguments of `calibrate`.
@@ -220,34 +156,6 @@ pub struct ExportArgs {
     #[arg(long)]
     pub child: Option<String>,
     /// Export a result that was not accepted, too.
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// Arguments of `init`.
-#[derive(Args)]
-#[command(after_help = "Examples:\n\
-\x20 handeye init cell/\n\
-\x20 handeye init cell/ --setup eye-to-hand --robot kuka --target board.toml\n\
-\n\
-On a terminal the questions are asked one after the other; an empty answer leaves one open. Elsewhere, and with \
---no-dialogue, they stand in the file.")]
-pub struct InitArgs {
-    /// Folder with images, scans and robot poses.
-    pub folder: PathBuf,
-    /// Where the camera is mounted.
-    #[arg(long, value_enum)]
-    pub setup: Option<crate::simulate::SetupArg>,
-    /// The robot's maker, or the notation of its poses: kuka, ur, abb, fanuc, quaternion-xyzw, ...
-    #[arg(long, value_name = "NOTATION")]
-    pub robot: Option<String>,
-    /// A manifest or another TOML file with the `[target]`, such as `handeye target` writes.
-    #[arg(long, value_name = "FILE")]
-    pub target: Option<PathBuf>,
-    /// Ask nothing here: the questions stand in the file.
-    #[arg(long)]
-    pub no_dialogue: bool,
-    /// Overwrite an existing manifest.
     #[arg(long)]
     pub force: bool,
 }

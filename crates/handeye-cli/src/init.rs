@@ -2,8 +2,10 @@
 
 use std::{
     io::{self, BufRead, IsTerminal},
-    path::Path,
+    path::{Path, PathBuf},
 };
+
+use clap::Args;
 
 use handeye::model::target::KINDS;
 use handeye_io::{
@@ -12,11 +14,35 @@ use handeye_io::{
 };
 use serde_json::json;
 
-use crate::{
-    args::{GlobalArgs, InitArgs},
-    failure::Failure,
-    output,
-};
+use crate::{args::GlobalArgs, failure::Failure, output, simulate::SetupArg};
+
+/// Arguments of `init`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n\
+\x20 handeye init cell/\n\
+\x20 handeye init cell/ --setup eye-to-hand --robot kuka --target board.toml\n\
+\n\
+On a terminal the questions are asked one after the other; an empty answer leaves one open. Elsewhere, and with \
+--no-dialogue, they stand in the file.")]
+pub struct InitArgs {
+    /// Folder with images, scans and robot poses.
+    pub folder: PathBuf,
+    /// Where the camera is mounted.
+    #[arg(long, value_enum)]
+    pub setup: Option<SetupArg>,
+    /// The robot's maker, or the notation of its poses: kuka, ur, abb, fanuc, quaternion-xyzw, ...
+    #[arg(long, value_name = "NOTATION")]
+    pub robot: Option<String>,
+    /// A manifest or another TOML file with the `[target]`, such as `handeye target` writes.
+    #[arg(long, value_name = "FILE")]
+    pub target: Option<PathBuf>,
+    /// Ask nothing here: the questions stand in the file.
+    #[arg(long)]
+    pub no_dialogue: bool,
+    /// Overwrite an existing manifest.
+    #[arg(long)]
+    pub force: bool,
+}
 
 pub fn run(args: &InitArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let path = args.folder.join(MANIFEST);

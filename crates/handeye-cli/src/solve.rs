@@ -1,8 +1,9 @@
 //! `handeye solve`: poses in, answer out.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use handeye::{Calibration, Config, Method};
+use clap::Args;
+use handeye::{Calibration, Config, Method, solve::Form};
 use handeye_io::{
     PosesFile,
     calibrate::{made_from_file, write_run},
@@ -11,11 +12,75 @@ use handeye_io::{
 };
 
 use crate::{
-    args::{GlobalArgs, SolveArgs},
+    args::{Acceptance, GlobalArgs},
     calibrate::result_folder,
     failure::Failure,
     methods, output,
+    simulate::SetupArg,
 };
+
+/// The help of `--method`: the names of published methods, by the equation that they solve.
+fn published_methods() -> String {
+    let named = |form: &Form| {
+        let all = Method::ALL.into_iter().filter(|m| m.form() == *form).map(Method::name);
+        format!("{}: {}", form.equation(), all.collect::<Vec<_>>().join(", "))
+    };
+    let forms: Vec<String> = Form::ALL.iter().map(named).collect();
+    format!(
+        "Take the answer of one published method on the captures that agree, in place of the best candidate; \
+         several, or all, are compared in a table; {}",
+        forms.join("; ")
+    )
+}
+
+/// Arguments of `solve`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n\
+\x20 handeye solve pairs.json\n\
+\x20 handeye solve pairs.json --method park-martin --json\n\
+\x20 handeye solve pairs.csv --setup eye-to-hand --out result\n\
+\x20 handeye solve pairs.json --method all\n\
+\n\
+pairs.json:\n\
+\x20 {\"setup\": \"eye-in-hand\",\n\
+\x20  \"pairs\": [{\"id\": \"01\",\n\
+\x20    \"base_from_flange\":\n\
+\x20      {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]},\n\
+\x20    \"camera_from_target\":\n\
+\x20      {\"translation_m\": [x, y, z], \"rotation_xyzw\": [x, y, z, w]}},\n\
+\x20   ...]}\n\
+\n\
+or, instead of `pairs`, two streams by two clocks (camera time = robot time + \
+time_offset_s):\n\
+\x20  \"robot\":  [{\"time_s\": 0.00, \"base_from_flange\": {...}}, ...],\n\
+\x20  \"camera\": [{\"time_s\": 0.01, \"camera_from_target\": {...}}, ...]\n\
+\n\
+Set `\"unknown_scale\": true` if the target distances have an unknown common scale (measured = \
+scale * metric). Set `\"noise\": {\"robot_rotation_deg\": ..., \"robot_position_mm\": ...}` if you \
+know the standard deviations of the robot, per axis.\n\
+\n\
+CSV, NPY and NPZ need --setup. A line of a CSV: base_from_flange and camera_from_target, each as \
+x y z (m) and quaternion x y z w, or as the 16 numbers of a matrix, row by row; an id may come \
+first. NPY: N x 2 x 4 x 4; NPZ: two arrays of N x 4 x 4 with these names.")]
+pub struct SolveArgs {
+    /// JSON file with `setup` and `pairs`, or `robot` and `camera`; or CSV, NPY or NPZ with pairs.
+    pub pairs: PathBuf,
+    /// Where the camera is mounted, for CSV, NPY and NPZ.
+    #[arg(long, value_enum)]
+    pub setup: Option<SetupArg>,
+    /// Run published methods as published, by their names.
+    #[arg(long, value_delimiter = ',', help = published_methods())]
+    pub method: Vec<String>,
+    /// Folder for calibration.json and report.html; created if it does not exist.
+    #[arg(long, short)]
+    pub out: Option<PathBuf>,
+    /// What a script wants of the result.
+    #[command(flatten)]
+    pub acceptance: Acceptance,
+    /// Try to prove that the least-squares solution is the global optimum.
+    #[arg(long)]
+    pub certify: bool,
+}
 
 pub fn run(args: &SolveArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let chosen = methods::named(&args.method)?;

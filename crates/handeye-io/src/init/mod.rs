@@ -3,6 +3,7 @@
 mod fields;
 mod groups;
 mod kind;
+mod robot;
 mod sections;
 
 use std::path::Path;
