@@ -11,6 +11,11 @@
 //! for the three parts of a position, or of a rotation, of `n` captures at `m` places. Where both scatter alike, all
 //! captures count; where places differ by more than chance allows, of each place one counts.
 //!
+//! The model of errors by place ([`crate::calibrate::robot`]) cannot stand for this. Given a length of 20 mm and
+//! 0.03 rad, and all captures, it states variances on the cells below of which the squared error is 7.7 times (median;
+//! 1.2 times where one of each place counts): five places tell too little of two levels beside twelve unknowns, and
+//! what looks at single captures takes the error of a place for captures that were moved, exchanged or wrong.
+//!
 //! R. A. Fisher, *Statistical Methods for Research Workers*, 1925 (intraclass correlation).
 
 use nalgebra::{Vector3, Vector6};
