@@ -11,7 +11,6 @@ use handeye::{
 use crate::{
     Dataset, Error, Place, WorkspaceFrame, checkup,
     error::unusable,
-    files,
     hash::Hash,
     measure::{self, Measured},
     origin,
@@ -36,7 +35,7 @@ pub fn calibrate_dataset(
         .map_err(|source| Error::Values { place: Place::file(&dataset.manifest), source })?
         .with(&measured.noticed, &measured.session);
     let calibration = explained(calibration, dataset, &measured)?;
-    let manifest = files::text(&dataset.manifest)?;
+    let manifest = dataset.manifest_text()?;
     let inputs = format!("{manifest}{:?}", measured.session);
     let id = run_id(&inputs, &calibration);
     let calibration = calibration.of_run(id).made_from(origin::of_dataset(dataset)?);

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use handeye::{
-    Calibration, Config, Observation, Pose, Session, Stamped, Streams, estimate::noise::KnownNoise,
-    model::session::KnownPosition,
+    Base, Calibration, Config, Flange, Observation, Pose, Session, Stamped, Streams,
+    estimate::noise::KnownNoise, model::session::KnownPosition,
 };
 use handeye_io::{
     Dataset,
@@ -29,6 +29,13 @@ type Corrected = (Vec<f64>, Vec<f64>, bool);
 pub struct Calibrated {
     calibration: Calibration,
     measured: Option<(Dataset, Session)>,
+}
+
+impl Calibrated {
+    /// A result, with what its report shows beside it.
+    pub fn of(calibration: Calibration, measured: Option<(Dataset, Session)>) -> Self {
+        Self { calibration, measured }
+    }
 }
 
 #[pymethods]
@@ -98,7 +105,10 @@ impl Calibrated {
 }
 
 /// What a user says of the robot's noise.
-fn noise(robot_rotation_deg: Option<f64>, robot_position_mm: Option<f64>) -> PyResult<KnownNoise> {
+pub fn noise(
+    robot_rotation_deg: Option<f64>,
+    robot_position_mm: Option<f64>,
+) -> PyResult<KnownNoise> {
     for (name, value) in
         [("robot_rotation_deg", robot_rotation_deg), ("robot_position_mm", robot_position_mm)]
     {
@@ -148,14 +158,7 @@ pub fn solve(
     let robot = arrays::poses(base_from_flange, "base_from_flange")?;
     let camera = arrays::poses(camera_from_target, "camera_from_target")?;
     same_length(robot.len(), camera.len())?;
-    if ids.len() != robot.len() {
-        return Err(errors::input(format!("{} ids for {} poses", ids.len(), robot.len())));
-    }
-    let mut sorted: Vec<&String> = ids.iter().collect();
-    sorted.sort();
-    if let Some(twice) = sorted.windows(2).find(|two| two[0] == two[1]) {
-        return Err(errors::input(format!("the id {:?} is there twice", twice[0])));
-    }
+    check_ids(&ids, robot.len())?;
     let poses = ids.into_iter().zip(robot).zip(camera);
     let observation = |((id, (r, t)), (q, s)): ((String, (_, _)), (_, _))| {
         Observation::bare(id, Pose::from_parts(&r, t), Pose::from_parts(&q, s))
@@ -172,6 +175,28 @@ pub fn solve(
     let work = move || handeye::calibrate(&session, &config);
     let calibration = working::compute(py, work)?.map_err(|error| errors::of_core(&error))?;
     Ok(Calibrated { calibration, measured: None })
+}
+
+/// Refuses names that are too few or many, or not all different.
+pub fn check_ids(ids: &[String], poses: usize) -> PyResult<()> {
+    if ids.len() != poses {
+        return Err(errors::input(format!("{} ids for {poses} poses", ids.len())));
+    }
+    let mut sorted: Vec<&String> = ids.iter().collect();
+    sorted.sort();
+    match sorted.windows(2).find(|two| two[0] == two[1]) {
+        Some(twice) => Err(errors::input(format!("the id {:?} is there twice", twice[0]))),
+        None => Ok(()),
+    }
+}
+
+/// Refuses poses that no robot has.
+pub fn check_distances_of(robot: &[(Matrix3<f64>, Vector3<f64>)]) -> PyResult<()> {
+    let far = |(r, t): &(_, _)| Pose::<Base, Flange>::from_parts(r, *t).is_too_far();
+    match robot.iter().position(far) {
+        Some(k) => Err(errors::input(format!("base_from_flange[{k}] lies beyond any robot"))),
+        None => Ok(()),
+    }
 }
 
 fn check_distances(session: &Session) -> PyResult<()> {
@@ -208,6 +233,7 @@ pub fn solve_streams(
             return Err(errors::input(format!("{times} {name} times for {poses} {name} poses")));
         }
     }
+    check_distances_of(&robot)?;
     let robot = robot_times.into_iter().zip(robot);
     let camera = camera_times.into_iter().zip(camera);
     let streams = Streams {
@@ -220,9 +246,6 @@ pub fn solve_streams(
             .collect(),
         unknown_scale,
     };
-    if let Some(k) = streams.robot.iter().position(|s| s.pose.is_too_far()) {
-        return Err(errors::input(format!("base_from_flange[{k}] lies beyond any robot")));
-    }
     if let Some(k) = streams.camera.iter().position(|s| s.pose.is_too_far()) {
         return Err(errors::input(format!("camera_from_target[{k}] lies beyond any camera")));
     }

@@ -52,7 +52,7 @@ fn set(py: Python<'_>, answer: &Bound<'_, PyDict>, corners: &[ImageCorner]) -> P
     answer.set_item("covariances", covariances)
 }
 
-fn target(py: Python<'_>, json: Option<&str>, file: Option<PathBuf>) -> PyResult<TargetModel> {
+pub fn target(py: Python<'_>, json: Option<&str>, file: Option<PathBuf>) -> PyResult<TargetModel> {
     if let Some(file) = file {
         return read_target(&file).map_err(|error| errors::of_files(py, &error));
     }
@@ -69,7 +69,7 @@ pub fn target_from_json(text: &str) -> PyResult<TargetModel> {
 
 /// Grey values of H x W, or of H x W x 3 in the order of OpenCV or its reverse, or of H x W x 4 with what the fourth says
 /// left out; 8 or 16 bits, or floating.
-fn picture(image: &Bound<'_, PyAny>) -> PyResult<GrayImage> {
+pub fn picture(image: &Bound<'_, PyAny>) -> PyResult<GrayImage> {
     let wrong = |shape: &[usize]| {
         errors::input(format!(
             "the image has the shape {shape:?}: H x W, H x W x 3 or H x W x 4 is needed"

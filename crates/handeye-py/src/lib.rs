@@ -7,11 +7,13 @@
 mod arrays;
 mod bags;
 mod calibration;
+mod captures;
 mod closed_form;
 mod commands;
 mod errors;
 mod images;
 mod opencv;
+mod poses;
 mod scans;
 mod simulation;
 mod working;
@@ -26,11 +28,13 @@ mod _core {
     use super::{
         bags::{bag_contents, extract_bag},
         calibration::{Calibrated, calibrate, solve, solve_streams},
+        captures::calibrate_captures,
         closed_form::closed_form,
         commands::{command, main, target_toml},
         errors::{HandEyeError, InputError, NotDetermined, Rejected},
         images::detect,
         opencv::{hand_eye, robot_world_hand_eye},
+        poses::{poses_from, poses_to},
         scans::register,
         simulation::simulate,
     };

@@ -47,7 +47,8 @@ pub fn register(
         .map_err(|error| PyRuntimeError::new_err(error.to_string()))
 }
 
-fn scan(array: &Bound<'_, PyAny>, name: &str) -> PyResult<Scan> {
+/// Points, N x 3 or as the camera has them, m.
+pub fn scan(array: &Bound<'_, PyAny>, name: &str) -> PyResult<Scan> {
     let (columns, rows, points) = arrays::points(array, name)?;
     Scan::new(columns, rows, points).ok_or_else(|| errors::input(format!("{name} has no points")))
 }

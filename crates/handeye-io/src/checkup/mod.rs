@@ -26,7 +26,6 @@ use crate::{
     Dataset, Error, Place, Shape,
     dataset::{Rereading, rereadings},
     error::malformed,
-    files,
     measure::{self, Measured},
 };
 
@@ -177,7 +176,7 @@ fn cannot_be_checked(dataset: &Dataset) -> Option<Error> {
 /// Looks for mistakes in what was measured.
 fn examine(measured: &Measured, judged: &Judged) -> Result<Checkup, Error> {
     let Judged { dataset, session, .. } = *judged;
-    let text = files::text(&dataset.manifest)?;
+    let text = dataset.manifest_text()?;
     let (seen, blind): (Vec<usize>, Vec<usize>) =
         (0..dataset.captures.len()).partition(|&i| !session.observations[i].candidates.is_empty());
     let name = |i: &usize| session.observations[*i].capture.clone();
@@ -194,7 +193,10 @@ fn examine(measured: &Measured, judged: &Judged) -> Result<Checkup, Error> {
             ..Checkup::default()
         },
         None => {
-            let robot = rereadings(&dataset.manifest, &dataset.root, dataset)?;
+            let robot = match dataset.is_in_memory() {
+                true => vec![],
+                false => rereadings(&dataset.manifest, &dataset.root, dataset)?,
+            };
             let case = case(dataset, session, text, &seen, robot);
             let mut found = checkup(&case, &mistakes::diagnose(&case.evidence));
             add_layout(&mut found, dataset);
@@ -238,7 +240,7 @@ pub(crate) fn basic_mistake(
     measured: &Measured,
 ) -> Result<Option<Explanation>, Error> {
     let layout = layout::layout_of_missing(dataset, measured);
-    let text = files::text(&dataset.manifest)?;
+    let text = dataset.manifest_text()?;
     Ok(layout.or_else(|| scan_unit::wrong_scan_unit(dataset, measured, &text)))
 }
 

@@ -3,6 +3,7 @@
 mod answers;
 mod corners;
 mod draft;
+mod in_memory;
 mod inputs;
 pub(crate) mod manifest;
 mod motion;
@@ -36,6 +37,7 @@ use crate::{
 pub use answers::{OpenKey, OpenQuestion, answered_with, open_questions};
 pub use draft::Question;
 pub(crate) use draft::{Draft, EXAMPLE_TARGET};
+pub use in_memory::{InMemory, InMemoryCell, Pictures};
 pub use manifest::PixelOrigin;
 pub(crate) use manifest::{Manifest, Source};
 pub(crate) use motion::TIMES;
@@ -111,6 +113,8 @@ pub struct Dataset {
     pub(crate) root: PathBuf,
     bit_depth: Option<u32>,
     scan_options: ScanOptions,
+    /// Where images and scans come from, if not from files.
+    memory: Option<in_memory::Memory>,
 }
 
 /// One robot pose and the files of what the camera saw.
@@ -264,8 +268,16 @@ impl Dataset {
         Opening { manifest, source, root }.dataset()
     }
 
+    /// The text of its manifest; none of captures in memory.
+    pub(crate) fn manifest_text(&self) -> Result<String, Error> {
+        if self.is_in_memory() { Ok(String::new()) } else { files::text(&self.manifest) }
+    }
+
     /// What it is called: its folder's name, or that of a manifest with a name of its own.
     pub fn title(&self) -> String {
+        if self.is_in_memory() {
+            return "captures in memory".into();
+        }
         let whole = self.manifest.canonicalize().unwrap_or_else(|_| self.manifest.clone());
         let folder = whole.parent().and_then(|p| p.file_name());
         let file = self.manifest.file_stem();
@@ -278,7 +290,10 @@ impl Dataset {
     /// # Errors
     /// As [`crate::read_image`].
     pub fn image(&self, path: &Path) -> Result<GrayImage, Error> {
-        image::read_image(path, self.bit_depth)
+        match &self.memory {
+            Some(memory) => memory.image(path),
+            None => image::read_image(path, self.bit_depth),
+        }
     }
 
     /// Reads a capture's or a placement's scan.
@@ -286,6 +301,9 @@ impl Dataset {
     /// # Errors
     /// As [`crate::read_scan`].
     pub fn scan(&self, path: &Path) -> Result<Scan, Error> {
-        scan::read_scan(path, &self.scan_options)
+        match &self.memory {
+            Some(memory) => memory.scan(path),
+            None => scan::read_scan(path, &self.scan_options),
+        }
     }
 }

@@ -104,6 +104,7 @@ impl Opening {
             root: self.root.clone(),
             bit_depth: m.images.as_ref().and_then(|i| i.bit_depth),
             scan_options: self.scan_options(intrinsics, &parts)?,
+            memory: None,
         })
     }
 

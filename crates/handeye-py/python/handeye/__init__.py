@@ -8,6 +8,7 @@ Lengths are metres and angles radians, but where a name ends in ``_mm`` or ``_de
 'R. Tsai, R. Lenz, 1989'
 """
 
+from ._bags import BagContents, BagTopic, Extracted, bag_contents, extract_bag
 from ._calibration import Calibration, Candidate, Corrected
 from ._commands import Target, check, compare, export, import_dataset, init, target, tool_tip, verify, view
 from ._core import (
@@ -18,22 +19,9 @@ from ._core import (
     Rejected,
     __version__,
 )
-from ._functions import (
-    BagContents,
-    BagTopic,
-    Corners,
-    Extracted,
-    Registration,
-    bag_contents,
-    calibrate,
-    closed_form,
-    detect,
-    extract_bag,
-    register,
-    simulate,
-    solve,
-)
+from ._functions import Corners, Registration, detect, register, simulate
 from ._pose import Pose
+from ._solving import calibrate, closed_form, poses_from, poses_to, solve
 
 # what only errors in files have
 for _name in ("code", "file", "line", "capture"):
@@ -67,6 +55,8 @@ __all__ = [
     "extract_bag",
     "import_dataset",
     "init",
+    "poses_from",
+    "poses_to",
     "register",
     "simulate",
     "solve",

@@ -7,7 +7,6 @@ import json
 from os import PathLike
 from pathlib import Path
 from typing import (
-    TYPE_CHECKING,
     Any,
     Dict,
     List,
@@ -21,13 +20,9 @@ from typing import (
 
 from . import _core
 from ._core import NotDetermined
+from ._inputs import poses_of
 from ._pose import Pose
-
-if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
-    Array = npt.NDArray[np.float64]
+from ._types import Array
 
 
 class Candidate(NamedTuple):
@@ -214,9 +209,7 @@ class Calibration:
         """
         import numpy as np
 
-        from ._functions import _poses
-
-        given = _poses(base_from_flange, "base", "flange")
+        given = poses_of(base_from_flange, "base", "flange")
         return [
             Corrected(
                 Pose("base", "flange", np.array(matrix).reshape(4, 4)),

@@ -13,10 +13,11 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 from . import _core
 from ._calibration import Calibration
 from ._core import InputError
-from ._functions import _poses
+from ._files import Files, document, flag, option
+from ._inputs import json_of, poses_of
 from ._pose import Pose
+from ._types import Path as _Path
 
-_Path = Union[str, "PathLike[str]"]
 _Result = Union[Calibration, _Path]
 
 
@@ -30,12 +31,12 @@ def check(dataset: _Path, *, root: Optional[_Path] = None, apply: Union[bool, in
     :returns: what ``handeye check --json`` prints; ``ok`` says whether nothing is wrong.
     :raises InputError: files that cannot be used.
     """
-    words = ["check", fspath(dataset), *_option("root", root)]
+    words = ["check", fspath(dataset), *option("root", root)]
     if apply is True:
         words.append("--apply")
     elif apply:
         words.append(f"--apply={int(apply)}")
-    return _document(words)
+    return document(words)
 
 
 def init(
@@ -56,11 +57,11 @@ def init(
     :returns: ``manifest``, its path, and ``questions``, each with its ``line`` and ``question``.
     :raises InputError: a folder without captures, or with a manifest.
     """
-    words = ["init", fspath(folder), *_option("setup", setup), *_option("robot", robot), *_flag("force", force)]
-    with _Files() as files:
+    words = ["init", fspath(folder), *option("setup", setup), *option("robot", robot), *flag("force", force)]
+    with Files() as files:
         if isinstance(target, Mapping):
-            target = files.text("target.toml", _core.target_toml(_json(target)))
-        return _document(words + _option("target", target))
+            target = files.text("target.toml", _core.target_toml(json_of(target)))
+        return document(words + option("target", target))
 
 
 def import_dataset(
@@ -90,9 +91,9 @@ def import_dataset(
     directions = [direction] if isinstance(direction, str) else direction or []
     words = ["import", fspath(source)]
     words += [] if camera is None else [fspath(camera)]
-    words += _option("setup", setup) + _option("direction", ",".join(directions) or None)
-    words += _option("sequence", sequence) + _option("length-unit", length_unit) + _option("out", out)
-    return _document(words + _flag("force", force))
+    words += option("setup", setup) + option("direction", ",".join(directions) or None)
+    words += option("sequence", sequence) + option("length-unit", length_unit) + option("out", out)
+    return document(words + flag("force", force))
 
 
 def compare(*results: _Result, out: Optional[_Path] = None, root: Optional[_Path] = None) -> Dict[str, Any]:
@@ -105,9 +106,9 @@ def compare(*results: _Result, out: Optional[_Path] = None, root: Optional[_Path
     :returns: what ``handeye compare --json`` prints.
     :raises InputError: results that cannot be compared.
     """
-    with _Files() as files:
+    with Files() as files:
         words = ["compare", *(files.result(r) for r in results)]
-        return _document(words + _option("out", out) + _option("root", root))
+        return document(words + option("out", out) + option("root", root))
 
 
 def verify(
@@ -129,10 +130,10 @@ def verify(
     :returns: what ``handeye verify --json`` prints; ``verdict`` is ``accepted`` where it passed.
     :raises InputError: files that cannot be used.
     """
-    with _Files() as files:
+    with Files() as files:
         words = ["verify", files.result(calibration), fspath(touches)]
-        words += _option("tolerance-mm", tolerance_mm) + _option("touch-noise-mm", touch_noise_mm)
-        return _document(words + _option("camera-noise-mm", camera_noise_mm) + _option("out", out))
+        words += option("tolerance-mm", tolerance_mm) + option("touch-noise-mm", touch_noise_mm)
+        return document(words + option("camera-noise-mm", camera_noise_mm) + option("out", out))
 
 
 def export(
@@ -155,10 +156,10 @@ def export(
     :raises InputError: a format that is not there, a result that was not accepted.
     """
     formats = format if isinstance(format, str) else ",".join(format)
-    with _Files() as files:
+    with Files() as files:
         words = ["export", files.result(calibration), "--format", formats, "--out", fspath(out)]
-        words += _option("parent", parent) + _option("child", child) + _flag("force", force)
-        return [Path(file) for file in _document(words)["files"]]
+        words += option("parent", parent) + option("child", child) + flag("force", force)
+        return [Path(file) for file in document(words)["files"]]
 
 
 def tool_tip(
@@ -179,15 +180,15 @@ def tool_tip(
     :returns: what ``handeye tcp --json`` prints: ``verdict``, ``tip_in_flange_m``, ``covariance`` and more.
     :raises InputError: poses that cannot be used.
     """
-    with _Files() as files:
+    with Files() as files:
         if isinstance(base_from_flange, (str, PathLike)):
             file = fspath(base_from_flange)
         else:
-            file = files.poses(_poses(base_from_flange, "base", "flange"))
+            file = files.poses(poses_of(base_from_flange, "base", "flange"))
             notation, direction, length_unit = "matrix4x4", "base_from_flange", "m"
-        words = ["tcp", file, *_option("notation", notation), *_option("direction", direction)]
-        words += _option("length-unit", length_unit) + _option("angle-unit", angle_unit)
-        return _document(words + _option("limit-mm", limit_mm))
+        words = ["tcp", file, *option("notation", notation), *option("direction", direction)]
+        words += option("length-unit", length_unit) + option("angle-unit", angle_unit)
+        return document(words + option("limit-mm", limit_mm))
 
 
 def view(
@@ -207,10 +208,10 @@ def view(
     :returns: the page.
     :raises InputError: files that cannot be shown.
     """
-    with _Files() as kept:
+    with Files() as kept:
         words = ["view", *(kept.result(file) for file in files), "--out", fspath(out)]
-        words += _option("length-unit", length_unit) + _option("depth-scale", depth_scale)
-        _document(words + _option("camera", camera))
+        words += option("length-unit", length_unit) + option("depth-scale", depth_scale)
+        document(words + option("camera", camera))
     return Path(out)
 
 
@@ -219,7 +220,7 @@ class Target(Dict[str, Any]):
 
     def toml(self) -> str:
         """Its ``[target]``."""
-        return _core.target_toml(_json(self))
+        return _core.target_toml(json_of(self))
 
     def draw(self, out: _Path, *, paper: str = "a4") -> Path:
         """Draws it in true scale, and writes its ``[target]`` beside it.
@@ -229,8 +230,8 @@ class Target(Dict[str, Any]):
         :returns: the drawing.
         :raises InputError: a target that does not fit on the paper, or cannot be printed.
         """
-        with _Files() as files:
-            _document(["target", files.text("target.toml", self.toml()), "--out", fspath(out), "--paper", paper])
+        with Files() as files:
+            document(["target", files.text("target.toml", self.toml()), "--out", fspath(out), "--paper", paper])
         return Path(out)
 
 
@@ -264,60 +265,3 @@ def main() -> None:
     # a Ctrl-C ends the program at once, as it ends any other
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     sys.exit(_core.main(["handeye", *sys.argv[1:]]))
-
-
-class _Files:
-    """Files for a command, of what stands in memory."""
-
-    def __init__(self) -> None:
-        self._folder = TemporaryDirectory()
-
-    def __enter__(self) -> _Files:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._folder.cleanup()
-
-    def result(self, given: _Result) -> str:
-        """A path as it is; the file of a calibration."""
-        if not isinstance(given, Calibration):
-            return fspath(given)
-        number = len(os.listdir(self._folder.name))
-        return self.text(f"calibration-{number}.json", given.to_json())
-
-    def poses(self, matrices: Any) -> str:
-        """A table of N x 4 x 4."""
-        rows = [",".join(repr(float(x)) for x in matrix.reshape(16)) for matrix in matrices]
-        return self.text("poses.csv", "\n".join(rows) + "\n")
-
-    def text(self, name: str, content: str) -> str:
-        path = Path(self._folder.name) / name
-        path.write_text(content, encoding="utf-8")
-        return str(path)
-
-
-def _option(name: str, value: Any) -> List[str]:
-    return [] if value is None else [f"--{name}", fspath(value) if isinstance(value, PathLike) else str(value)]
-
-
-def _flag(name: str, on: bool) -> List[str]:
-    return [f"--{name}"] if on else []
-
-
-def _json(target: Mapping[str, Any]) -> str:
-    return json.dumps(dict(target), default=lambda value: value.tolist())
-
-
-def _document(words: List[str]) -> Dict[str, Any]:
-    """What a command prints with ``--json``; its error as an exception."""
-    code, out, err = _core.command(["handeye", *words, "--json", "--quiet"])
-    document: Dict[str, Any] = json.loads(out) if out.strip() else {}
-    error = document.get("error")
-    if code in (1, 2) or error is not None:
-        problem = error or {"message": err.strip()}
-        refused = InputError(problem.get("message", ""))
-        refused.code = problem.get("code")
-        refused.file = None if problem.get("file") is None else Path(problem["file"])
-        refused.line, refused.capture = problem.get("line"), problem.get("capture")
-        raise refused
-    return document

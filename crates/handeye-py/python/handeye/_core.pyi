@@ -95,6 +95,33 @@ def calibrate(
     method_name: Optional[str] = None,
     progress: Optional[Callable[[int, int], object]] = None,
 ) -> Calibrated: ...
+def calibrate_captures(
+    setup_name: str,
+    base_from_flange: Any,
+    images: Sequence[Any],
+    *,
+    ids: Sequence[str],
+    scans: Optional[Sequence[Any]] = None,
+    target_json: Optional[str] = None,
+    target_file: Optional[_Path] = None,
+    camera_json: Optional[str] = None,
+    method_name: Optional[str] = None,
+    robot_rotation_deg: Optional[float] = None,
+    robot_position_mm: Optional[float] = None,
+    max_error_mm: Optional[float] = None,
+    progress: Optional[Callable[[int, int], object]] = None,
+) -> Calibrated: ...
+def poses_from(
+    rows: Sequence[Sequence[float]],
+    name: str,
+    *,
+    length_unit: Optional[str] = None,
+    angle_unit: Optional[str] = None,
+    inverse: bool = False,
+) -> List[List[float]]: ...
+def poses_to(
+    matrices: Any, name: str, *, length_unit: Optional[str] = None, angle_unit: Optional[str] = None
+) -> _Array: ...
 def solve(
     setup_name: str,
     base_from_flange: Any,

@@ -1,29 +1,23 @@
-"""The functions of the package."""
+"""Targets in pictures, registration of scans, and simulated datasets."""
 
 from __future__ import annotations
 
 import json
-from operator import index
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, List, Mapping, NamedTuple, Optional, Union
 
 from . import _core
-from ._calibration import Calibration
 from ._core import InputError
+from ._files import Files, document, flag, is_surface, option
+from ._inputs import count, json_of
 from ._pose import Pose
-
-if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
-    Array = npt.NDArray[np.float64]
-    Path = Union[str, PathLike[str]]
+from ._types import Array, Ids, Path
 
 
 class Corners(NamedTuple):
     """A target's corners in a picture."""
 
-    ids: npt.NDArray[np.uint32]
+    ids: Ids
     """N: ``row * columns + column`` of a checkerboard, OpenCV's ids of a ChArUco board."""
     pixels: Array
     """N x 2: right and down from the centre of the top left pixel."""
@@ -73,233 +67,6 @@ class Registration(NamedTuple):
         return self.verdict == "accepted"
 
 
-class BagTopic(NamedTuple):
-    """A topic of a bag."""
-
-    type: str
-    """As ``sensor_msgs/Image``."""
-    messages: int
-    frame: Optional[str]
-    """That of the first message."""
-    shape: Optional[str]
-    """Size and encoding of the first picture or cloud."""
-
-
-class BagContents(NamedTuple):
-    """What a ROS bag holds."""
-
-    topics: Dict[str, BagTopic]
-    frames: List[str]
-    """The tree of the transforms, a line each, indented."""
-    joints: Dict[str, List[str]]
-    """Names of the joints, by topic."""
-    has_robot_description: bool
-    broken: List[str]
-    """Where it ends too early or is broken."""
-
-
-class Extracted(NamedTuple):
-    """What became of a ROS bag."""
-
-    captures: int
-    moving: bool
-    """Whether the robot moved in them."""
-    notes: List[str]
-    """What was done, and what is worth knowing."""
-    questions: List[str]
-    """What must be added to ``handeye.toml`` before the folder can be calibrated."""
-
-
-def bag_contents(bag: Path) -> BagContents:
-    """Topics, frames and joints of a ROS bag: MCAP or SQLite of ROS 2, or a bag of ROS 1.
-
-    :param bag: the file, or the folder of a bag of ROS 2.
-    :raises InputError: what is no bag.
-    """
-    found = json.loads(_core.bag_contents(fspath(bag)))
-    found["topics"] = {name: BagTopic(**about) for name, about in found["topics"].items()}
-    return BagContents(**found)
-
-
-def extract_bag(
-    bag: Path,
-    out: Path,
-    *,
-    base: Optional[str] = None,
-    flange: Optional[str] = None,
-    pose: Optional[str] = None,
-    joints: Union[bool, str] = False,
-    urdf: Optional[Path] = None,
-    setup: Optional[str] = None,
-    target: Union[Mapping[str, Any], Path, None] = None,
-    image: Optional[str] = None,
-    depth: Optional[str] = None,
-    camera_info: Optional[str] = None,
-    motion: str = "auto",
-    most: int = 150,
-    stamps: str = "header",
-) -> Extracted:
-    """A folder of captures out of a ROS bag, for :func:`calibrate`.
-
-    The robot's pose is interpolated to the time of each picture, but never over a gap. A bag that was not closed is
-    read as far as it goes; ``notes`` say so.
-
-    :param bag: the file, or the folder of a bag of ROS 2.
-    :param out: a new folder.
-    :param base: the frame of the robot's base, as ``base_link``.
-    :param flange: the frame of its flange, as ``tool0``.
-    :param pose: a topic of poses of the flange in the base, in place of ``base`` and ``flange``.
-    :param joints: take joint values in place of transforms; the topic, or True where there is only one.
-    :param urdf: the robot's model for ``joints``; else the bag's ``robot_description``.
-    :param setup: ``"eye-in-hand"``: the camera is on the flange; ``"eye-to-hand"``: beside the robot.
-    :param target: as for :func:`detect`, what the camera sees.
-    :param image: topic of the pictures, where there are several; likewise ``depth`` and ``camera_info``.
-    :param motion: ``"still"``: one picture of each place at which the robot stood; ``"moving"``: many of the motion, and
-        the time offset of the camera is estimated; ``"auto"``: still where it stood at six places and more.
-    :param most: most pictures of a moving robot.
-    :param stamps: the time of a picture is that of its ``"header"``, or that at which it was ``"recorded"``.
-    :raises InputError: a bag that cannot be used, or lacks what is asked for.
-    """
-    file = target if isinstance(target, (str, PathLike)) else None
-    table = None if target is None or file is not None else _json(target)  # type: ignore[arg-type]
-    text = _core.extract_bag(
-        fspath(bag),
-        fspath(out),
-        base=base,
-        flange=flange,
-        pose=pose,
-        joints=joints,
-        urdf=None if urdf is None else fspath(urdf),
-        setup_name=setup,
-        target_json=table,
-        target_file=None if file is None else fspath(file),
-        image=image,
-        depth=depth,
-        camera_info=camera_info,
-        motion=motion,
-        most=_count("most", most),
-        stamps=stamps,
-    )
-    return Extracted(**json.loads(text))
-
-
-def calibrate(
-    dataset: Path,
-    *,
-    out: Optional[Path] = None,
-    root: Optional[Path] = None,
-    method: Optional[str] = None,
-    progress: Optional[Callable[[int, int], object]] = None,
-) -> Calibration:
-    """Calibrates a folder of captures.
-
-    :param dataset: the folder, or its manifest ``handeye.toml``.
-    :param out: where ``calibration.json`` and ``report.html`` are written, if anywhere.
-    :param root: where the captures lie, if not beside the manifest.
-    :param method: a published method to run as published; see ``METHODS``.
-    :param progress: called with the number of captures that are read, and of all.
-    :raises InputError: files that cannot be used; ``file``, ``line`` and ``capture`` say where.
-
-    Bad data end in a verdict, not in an exception.
-    """
-    calibration = Calibration(
-        _core.calibrate(
-            fspath(dataset),
-            root=None if root is None else fspath(root),
-            method_name=method,
-            progress=progress,
-        )
-    )
-    if out is not None:
-        calibration.save(out)
-    return calibration
-
-
-def solve(
-    base_from_flange: Any,
-    camera_from_target: Any,
-    *,
-    setup: str,
-    ids: Optional[Sequence[str]] = None,
-    method: Optional[str] = None,
-    robot_rotation_deg: Optional[float] = None,
-    robot_position_mm: Optional[float] = None,
-    unknown_scale: bool = False,
-    known_position: Optional[Tuple[Sequence[float], float, float]] = None,
-    robot_times_s: Optional[Sequence[float]] = None,
-    camera_times_s: Optional[Sequence[float]] = None,
-) -> Calibration:
-    """Calibrates from poses of the robot and of the target.
-
-    :param base_from_flange: what the robot reported: N x 4 x 4 (m), or a list of :class:`Pose`.
-    :param camera_from_target: where the camera saw the target: N x 4 x 4 (m), or a list of :class:`Pose`.
-    :param setup: ``"eye-in-hand"``: the camera is on the flange; ``"eye-to-hand"``: beside the robot.
-    :param ids: names of the captures; their order is the order in which they were taken. Else ``0``, ``1`` ...
-    :param method: a published method to run as published; see ``METHODS``.
-    :param robot_rotation_deg: standard deviation of the robot's rotation, per axis, where it is known.
-    :param robot_position_mm: of its position.
-    :param unknown_scale: the target's distances are known up to one factor.
-    :param known_position: where the camera sits along one direction that the poses leave open, as those of a robot of
-        one axis do: the direction in the body that carries the camera, the position (mm) and its standard deviation.
-    :param robot_times_s: stamps of the robot's poses (s), where both lists have clocks of their own.
-    :param camera_times_s: stamps of the target's poses; both lists may then differ in length.
-    :returns: the answer with its covariance, and a verdict: look at that first. Where ``method`` is not given, the
-        maximum-likelihood estimate of both poses and of the noise, or a closed form where that predicts less error.
-    :raises InputError: arrays of another shape or length, numbers that are not finite, rotations that are none.
-
-    Bad data, and too few, end in a verdict and not in an exception.
-    """
-    robot = _poses(base_from_flange, "base", "flange")
-    camera = _poses(camera_from_target, "camera", "target")
-    if (robot_times_s is None) != (camera_times_s is None):
-        raise InputError("give the times of both streams, or of none")
-    if robot_times_s is not None and camera_times_s is not None:
-        if any(given is not None for given in (ids, method, robot_rotation_deg, robot_position_mm, known_position)):
-            raise InputError("streams take neither ids nor a method nor the robot's noise nor a known position")
-        robot_times = [float(time) for time in robot_times_s]
-        camera_times = [float(time) for time in camera_times_s]
-        return Calibration(
-            _core.solve_streams(
-                setup, robot_times, robot, camera_times, camera, unknown_scale=unknown_scale
-            )
-        )
-    names = [str(k) for k in range(len(robot))] if ids is None else [str(name) for name in ids]
-    return Calibration(
-        _core.solve(
-            setup,
-            robot,
-            camera,
-            ids=names,
-            method_name=method,
-            robot_rotation_deg=robot_rotation_deg,
-            robot_position_mm=robot_position_mm,
-            unknown_scale=unknown_scale,
-            known=known_position,
-        )
-    )
-
-
-def closed_form(
-    base_from_flange: Any, camera_from_target: Any, *, setup: str, method: str = "shah"
-) -> Tuple[Pose, Pose]:
-    """``mount_from_camera`` and ``anchor_from_target`` by one published method, and nothing else.
-
-    Arguments are those of :func:`solve`. Takes microseconds, and says nothing of how sure it is.
-
-    :param method: one of ``METHODS``, which says who published it.
-    :raises NotDetermined: all rotations are about one axis, or the method has no single answer.
-    :raises InputError: arrays of another shape or length, a method that is not there.
-    """
-    x, y = _core.closed_form(
-        setup,
-        _poses(base_from_flange, "base", "flange"),
-        _poses(camera_from_target, "camera", "target"),
-        method,
-    )
-    mount, anchor = ("flange", "base") if setup == "eye-in-hand" else ("base", "flange")
-    return Pose(mount, "camera", x), Pose(anchor, "target", y)
-
-
 def detect(image: Any, target: Union[Mapping[str, Any], Path]) -> Corners:
     """The corners of a calibration target in a picture, to about a hundredth of a pixel.
 
@@ -312,7 +79,7 @@ def detect(image: Any, target: Union[Mapping[str, Any], Path]) -> Corners:
     if isinstance(target, (str, PathLike)):
         found = _core.detect(image, target_file=fspath(target))
     else:
-        found = _core.detect(image, target_json=_json(target))
+        found = _core.detect(image, target_json=json_of(target))
     return Corners(found["ids"], found["pixels"], found["covariances"], found["reason"])
 
 
@@ -322,42 +89,80 @@ def register(
     *,
     initial: Union[Pose, Any, None] = None,
     method: str = "symmetric",
-    max_distance_m: float = 0.05,
+    max_distance_mm: Optional[float] = None,
+    max_distance_m: Optional[float] = None,
     max_iterations: int = 60,
     search: bool = False,
+    length_unit: Optional[str] = None,
+    depth_scale: Optional[float] = None,
+    camera: Optional[Path] = None,
+    report: Optional[Path] = None,
     threads: int = 1,
 ) -> Registration:
     """Where the source lies in the target.
 
-    :param source: points, N x 3, or H x W x 3 as the camera has them (faster, and judged better); m.
+    :param source: points, N x 3, or H x W x 3 as the camera has them (faster, and judged better); m. Or the path of a
+        scan or mesh. Or a mesh: a pair of vertices (N x 3, m) and triangles (M x 3), or an object that has both, as
+        those of trimesh and Open3D have.
     :param target: likewise.
     :param initial: ``target_from_source`` to begin from, a :class:`Pose` or 4 x 4; right to some centimetres and
         10 degrees. Without it both are taken to lie as they are.
     :param method: ``symmetric``, ``point-to-point``, ``point-to-plane`` or ``gicp``.
-    :param max_distance_m: what is farther apart does not belong together.
+    :param max_distance_mm: what is farther apart does not belong together; 50 where it is left out.
+    :param max_distance_m: the same in metres.
     :param max_iterations: most rounds.
-    :param search: look for a beginning everywhere, and take no ``initial``.
-    :param threads: the answer is the same with any number.
+    :param search: look for a beginning everywhere, and take no ``initial`` (``--global`` of the program).
+    :param length_unit: ``"m"``, ``"mm"``, ``"cm"`` or ``"inch"`` of files that do not say it.
+    :param depth_scale: metres per unit of a depth image.
+    :param camera: intrinsics of depth images, in any file that a manifest may name.
+    :param report: a page with both in 3D, before and after, and their distances.
+    :param threads: the answer is the same with any number; files and meshes take all there are.
     :returns: the pose with its covariance, and a verdict: look at that first.
-    :raises InputError: arrays of another shape or without points, an ``initial`` that is no rigid transform.
+    :raises InputError: arrays of another shape or without points, files that cannot be used, an ``initial`` that is no
+        rigid transform.
 
     Methods: Besl and McKay 1992 (point-to-point), Chen and Medioni 1992 (point-to-plane), Segal et al. 2009 (GICP).
     """
     if isinstance(initial, Pose) and (initial.to, initial.from_frame) != ("target", "source"):
         raise InputError(f"initial is {initial.name}: target_from_source is needed")
-    text = _core.register(
-        source,
-        target,
-        initial=initial.matrix if isinstance(initial, Pose) else initial,
-        method=method,
-        max_distance_m=max_distance_m,
-        max_iterations=_count("max_iterations", max_iterations),
-        is_global=search,
-        threads=_count("threads", threads),
-    )
+    if max_distance_mm is not None and max_distance_m is not None:
+        raise InputError("give max_distance_mm or max_distance_m, not both")
+    if max_distance_m is None:
+        max_distance_m = 0.05 if max_distance_mm is None else 1e-3 * max_distance_mm
+    start = initial.matrix if isinstance(initial, Pose) else initial
+    rounds = count("max_iterations", max_iterations)
+    of_files = [length_unit, depth_scale, camera, report]
+    if is_surface(source) or is_surface(target) or any(given is not None for given in of_files):
+        with Files() as files:
+            metres = _METRES.get(length_unit or "m", 1.0)
+            words = ["register", files.surface(source, metres), files.surface(target, metres)]
+            if start is not None:
+                words += option("initial", files.matrix("initial.json", start))
+            words += option("method", method) + option("max-distance-mm", 1e3 * max_distance_m)
+            words += option("max-iterations", rounds) + flag("global", search)
+            words += option("length-unit", length_unit) + option("depth-scale", depth_scale)
+            found = document(words + option("camera", camera) + option("report", report))
+    else:
+        text = _core.register(
+            source,
+            target,
+            initial=start,
+            method=method,
+            max_distance_m=max_distance_m,
+            max_iterations=rounds,
+            is_global=search,
+            threads=count("threads", threads),
+        )
+        found = json.loads(text)
+    return _registration(found)
+
+
+_METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "inch": 0.0254}
+
+
+def _registration(found: Mapping[str, Any]) -> Registration:
     import numpy as np
 
-    found = json.loads(text)
     covariance = found["covariance"]
 
     def pose(place: Any) -> Pose:
@@ -412,53 +217,14 @@ def simulate(
     return _core.simulate(
         fspath(out),
         setup,
-        seed=_count("seed", seed, least=0),
-        captures=_count("captures", captures),
-        width=_count("width", width),
-        height=_count("height", height),
-        target_json=None if target is None else _json(target),
+        seed=count("seed", seed, least=0),
+        captures=count("captures", captures),
+        width=count("width", width),
+        height=count("height", height),
+        target_json=None if target is None else json_of(target),
         images=images,
         scans=scans,
         arm=arm,
         exact=exact,
         force=force,
     )
-
-
-def _json(target: Mapping[str, Any]) -> str:
-    """With numbers of NumPy as numbers."""
-    return json.dumps(dict(target), default=lambda value: value.tolist())
-
-
-def _count(name: str, value: int, least: int = 1) -> int:
-    number = index(value)
-    if not least <= number < 2**63:
-        raise InputError(f"{name} is {number}: a number from {least} on is needed")
-    return number
-
-
-def _poses(poses: Any, to: str, from_frame: str) -> Any:
-    """As N x 4 x 4; frames of poses are checked."""
-    import numpy as np
-
-    if isinstance(poses, np.ndarray):
-        return poses
-    name = f"{to}_from_{from_frame}"
-    try:
-        listed = list(poses)
-    except TypeError:
-        raise InputError(f"{name} is no list of poses, and no array of N x 4 x 4") from None
-    matrices = []
-    for k, pose in enumerate(listed):
-        if isinstance(pose, Pose):
-            if (pose.to, pose.from_frame) != (to, from_frame):
-                raise InputError(f"pose {k} is {pose.name}: {to}_from_{from_frame} is needed")
-            pose = pose.matrix
-        try:
-            matrix = np.asarray(pose, dtype=np.float64)
-        except (TypeError, ValueError):
-            matrix = np.zeros(0)
-        if matrix.shape != (4, 4):
-            raise InputError(f"{name}[{k}] is no matrix of 4 x 4")
-        matrices.append(matrix)
-    return np.array(matrices) if matrices else np.zeros((0, 4, 4))

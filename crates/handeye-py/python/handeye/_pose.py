@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Union, overload
+from typing import Any, Dict, Mapping, Optional, Union, overload
 
 from ._core import InputError
-
-if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
-    Array = npt.NDArray[np.float64]
+from ._types import Array, ArrayLike
 
 # rotations may be off by so much: they were printed with three digits
 _ROUNDED = 5e-3
@@ -152,8 +147,8 @@ class Pose:
     @overload
     def __matmul__(self, other: Pose) -> Pose: ...
     @overload
-    def __matmul__(self, other: npt.ArrayLike) -> Array: ...
-    def __matmul__(self, other: Union[Pose, npt.ArrayLike]) -> Union[Pose, Array]:
+    def __matmul__(self, other: ArrayLike) -> Array: ...
+    def __matmul__(self, other: Union[Pose, ArrayLike]) -> Union[Pose, Array]:
         """With a pose: the chain of both. With points (3, or N x 3, m): their places in ``to``."""
         import numpy as np
 

@@ -15,16 +15,11 @@ read as they are meant, where OpenCV goes wrong.
 
 import functools as _functools
 import warnings as _warnings
-from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, Sequence, Tuple, Type, TypeVar, cast
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Type, TypeVar, cast
 
 from . import _core
 from ._core import HandEyeError, InputError
-
-if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
-    Array = npt.NDArray[np.float64]
+from ._types import Array
 
 __all__ = [
     "CALIB_HAND_EYE_ANDREFF",
