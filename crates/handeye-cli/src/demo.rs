@@ -4,13 +4,13 @@
 //! the truth is known, and the answer is compared with it.
 
 use std::{
-    env, fs,
+    fs,
     path::{Path, PathBuf},
 };
 
 use clap::Args;
 use handeye::{Calibration, Camera, Config, Mount, Pose};
-use handeye_io::{Dataset, report::dataset_html, write_atomically};
+use handeye_io::{Dataset, process, report::dataset_html, temporary_folder, write_atomically};
 use serde::{Deserialize, Serialize};
 
 use crate::{args::GlobalArgs, browser, calibrate, failure::Failure, output};
@@ -95,7 +95,7 @@ pub fn run(args: &DemoArgs, global: &GlobalArgs) -> Result<u8, Failure> {
 
 /// A folder of this user's own: others may have run the demo on the same machine.
 fn temporary() -> PathBuf {
-    env::temp_dir().join(format!("handeye-demo-{}", std::process::id()))
+    temporary_folder().join(format!("handeye-demo-{}", process()))
 }
 
 fn unpack(folder: &Path) -> Result<(), Failure> {

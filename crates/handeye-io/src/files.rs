@@ -179,13 +179,23 @@ fn children(folder: &Path, segment: &str) -> Vec<PathBuf> {
         .collect()
 }
 
+/// A number that no other process on this machine has; a program in a browser is alone.
+pub fn process() -> u32 {
+    if cfg!(target_family = "wasm") { 1 } else { std::process::id() }
+}
+
+/// The folder for temporary files.
+pub fn temporary_folder() -> PathBuf {
+    if cfg!(target_family = "wasm") { "/tmp".into() } else { std::env::temp_dir() }
+}
+
 /// Writes a file whole or not at all: a temporary file in the same folder, synced, then renamed.
 ///
 /// # Errors
 /// [`Error::Write`]; the temporary file is removed and an older file stays as it was.
 pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), Error> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let temporary = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
+    let temporary = path.with_file_name(format!(".{name}.{}.part", process()));
     write_and_rename(&temporary, path, content).map_err(|source| {
         fs::remove_file(&temporary).ok();
         Error::Write { path: path.into(), source }

@@ -56,7 +56,7 @@ pub use dataset::{
     read_robot_poses,
 };
 pub use error::{Error, Place};
-pub use files::write_atomically;
+pub use files::{process, temporary_folder, write_atomically};
 pub use image::{image_size, read_image};
 pub use import::{Declared, Direction, Imported, import};
 pub use init::{FirstManifest, Known, first_manifest};

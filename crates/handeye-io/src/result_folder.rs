@@ -13,7 +13,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::{Error, hash::Hash};
+use crate::{Error, files, hash::Hash};
 
 /// The result: the file that comes last.
 pub const RESULT: &str = "calibration.json";
@@ -58,7 +58,7 @@ impl ResultFolder {
         let _turn = turn(&self.path).map_err(|e| cannot_write(&self.path, e))?;
         remove_leftovers(&self.path);
         let has_other = result_in(&self.path) != self.before;
-        let staging = self.path.join(format!("{STAGING}{}{UNFINISHED}", std::process::id()));
+        let staging = self.path.join(format!("{STAGING}{}{UNFINISHED}", files::process()));
         let done = stage(&staging, run).and_then(|()| replace(&self.path, &staging, run));
         fs::remove_dir_all(&staging).ok();
         done.map_err(|(name, e)| cannot_write(&self.path.join(name), e))?;

@@ -20,6 +20,7 @@ use super::{
 use crate::{
     MANIFEST, Targets,
     error::{Error, unusable},
+    files,
     robot::Urdf,
 };
 
@@ -110,7 +111,7 @@ struct Aside {
 
 impl Aside {
     fn new(out: &Path) -> Self {
-        let part = format!("{}.part", std::process::id());
+        let part = format!("{}.part", files::process());
         let name = out.file_name().unwrap_or_default().to_string_lossy();
         let folder = match out.is_dir() {
             true => out.join(format!(".{part}")),

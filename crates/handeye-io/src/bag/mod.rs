@@ -160,8 +160,8 @@ impl Unpacked {
         let source = |source| Error::Read { path: packed.into(), source };
         let name = packed.file_stem().unwrap_or_default().to_string_lossy();
         static COUNT: AtomicUsize = AtomicUsize::new(0);
-        let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let file = std::env::temp_dir().join(format!("handeye-{process}-{count}-{name}"));
+        let (process, count) = (files::process(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let file = files::temporary_folder().join(format!("handeye-{process}-{count}-{name}"));
         let this = Self { file };
         let target = |source| Error::Write { path: this.file.clone(), source };
         let mut into = BufWriter::new(File::create(&this.file).map_err(target)?);

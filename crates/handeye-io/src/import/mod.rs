@@ -55,7 +55,11 @@ impl Imported {
     pub fn text_in(&self, folder: &Path) -> Result<String, Error> {
         let real = |path: &Path| {
             let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
-            path.canonicalize().map_err(|source| Error::Read { path: path.into(), source })
+            match path.canonicalize() {
+                // where there are no links, a path is what it says
+                Err(error) if error.kind() == std::io::ErrorKind::Unsupported => Ok(path.into()),
+                found => found.map_err(|source| Error::Read { path: path.into(), source }),
+            }
         };
         let (here, there) = (real(folder)?, real(&self.folder)?);
         if self.name != MANIFEST || here == there {

@@ -20,7 +20,12 @@ use handeye::{
 };
 use serde_json::{Map, Value, json};
 
-use crate::{Error, MANIFEST, files::write_atomically, hash::Hash, robot::arm_file};
+use crate::{
+    Error, MANIFEST,
+    files::{process, write_atomically},
+    hash::Hash,
+    robot::arm_file,
+};
 
 /// Name of the file with the truth.
 pub const TRUTH: &str = "truth.json";
@@ -66,7 +71,7 @@ impl ScanFormat {
 /// What cannot be written; an earlier simulation stays until all of the new one is written.
 pub fn write(recording: &Recording, out: &Path, writing: Writing) -> Result<Vec<String>, Error> {
     let is_new = !out.exists();
-    let aside = out.join(format!(".simulation.{}.part", std::process::id()));
+    let aside = out.join(format!(".simulation.{}.part", process()));
     let written = write_aside(recording, &aside, writing).and_then(|names| {
         clear(out)?;
         names.iter().try_for_each(|name| move_file(&aside, out, name))?;
