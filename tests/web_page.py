@@ -12,6 +12,7 @@ import math
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -34,7 +35,7 @@ class Browser:
             "--remote-allow-origins=*", f"--user-data-dir={work}/profile", f"--window-size={size[0]},{size[1]}",
             "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
         ]  # fmt: skip
-        self.process = subprocess.Popen([program, *flags, page.as_uri()], stderr=subprocess.DEVNULL)
+        self.process = subprocess.Popen([program, *flags, page.as_uri()], stderr=subprocess.DEVNULL, start_new_session=True)
         self.count, self.said = 0, []
         told = pathlib.Path(work) / "profile" / "DevToolsActivePort"
         port = until(lambda: told.is_file() and told.read_text().split("\n")[0], "the browser starts")
@@ -89,8 +90,6 @@ class Browser:
     def close(self):
         """Ends it; what went wrong in the page meanwhile is an error."""
         self.value("1")
-        self.process.terminate()
-        self.process.wait()
         for event in self.said:
             kind, about = event["method"], event["params"]
             assert kind != "Runtime.exceptionThrown", about
@@ -124,8 +123,8 @@ def same(a, b, path=""):
         assert len(a) == len(b), path
         return max((same(x, y, f"{path}/{k}") for k, (x, y) in enumerate(zip(a, b))), default=0.0)
     if isinstance(a, float) and isinstance(b, float):
-        # in metres; of large numbers, such as a condition, the part that is off
-        unit = 1e-3 if "_mm" in path else 1.0
+        # in metres and radians; of large numbers, such as a condition, the part that is off
+        unit = 1e-3 if "_mm" in path else math.radians(1.0) if "_deg" in path else 1.0
         return unit * abs(a - b) / max(1.0, unit * abs(b)) if math.isfinite(a - b) else float(a != b)
     assert a == b, (path, a, b)
     return 0.0
@@ -144,46 +143,54 @@ def main():
         cell = work / "demo" / "dataset"
         subprocess.run([handeye, "calibrate", cell, "--out", work / "native"], **quiet)
         browser = Browser(program, work, page)
-        browser.wait("!!document.querySelector('#format option') && !document.querySelector('#choose').disabled", "it loads")
-        began = time.monotonic()
-        browser.drop(cell)
-        browser.wait("!document.querySelector('#report').hidden", "the demo folder is calibrated")
-        seconds = time.monotonic() - began
-        native = json.loads((work / "native" / "calibration.json").read_text())
-        off = same(json.loads(browser.read("dataset-result/calibration.json")), native)
-        assert off < 1e-9, f"another result than that of the program: {off:.1e}"
-        inside = "document.querySelector('#report').contentDocument"
-        browser.wait(f"!!({inside} && {inside}.querySelector('.verdict .word'))", "the report is shown")
-        word = browser.value(f"{inside}.querySelector('.verdict .word').textContent")
-        assert word.lower() == native["verdict"], word
-        if len(sys.argv) > 3:
-            time.sleep(1.0)
-            browser.picture(sys.argv[3])
-        # another command, and a file out of it
-        browser.value("command('export dataset-result --format kuka --out exported')")
-        assert b"A " in browser.read("exported/base_from_camera_kuka.txt")
-        browser.value("command('check dataset')")
-        assert "No mistake found" in browser.value("document.querySelector('#output').textContent")
-        # without a manifest: a proposal, its questions, a refusal, and answers
-        bare = work / "bare"
-        shutil.copytree(cell, bare, ignore=shutil.ignore_patterns("handeye.toml", "truth.json", "touches.csv", "place-*"))
-        browser.drop(bare)
-        browser.wait("document.querySelectorAll('#questions li').length > 2", "questions are asked")
-        browser.value("document.querySelector('#setup').value = 'eye-to-hand'; document.querySelector('#setup').onchange()")
-        browser.wait("document.querySelector('#text').value.includes('setup = \"eye-to-hand\"')", "an answer is taken")
-        browser.wait("!document.querySelector('#calibrate').disabled", "it is ready again")
-        browser.value("document.querySelector('#calibrate').click()")
-        browser.wait("!document.querySelector('#trouble').hidden", "open questions are refused")
-        answered = (cell / "handeye.toml").read_text().split("[[placements]]")[0]
-        browser.value(f"document.querySelector('#text').value = {json.dumps(answered)}")
-        browser.wait("!document.querySelector('#calibrate').disabled", "it is ready again")
-        browser.value("document.querySelector('#calibrate').click()")
-        browser.wait("!document.querySelector('#report').hidden", "answered, it is calibrated")
-        assert json.loads(browser.read("bare-result/calibration.json"))["hand_eye"]["mount_from_camera"]
-        browser.close()
-        megabytes = os.path.getsize(page) / 1e6
-        print(f"{page.name} ({megabytes:.1f} MB): a folder dropped without a network, {len(native['captures'])} captures"
-              f" in {seconds:.1f} s, off the program's result by {off:.0e}; commands, questions and files work")
+        try:
+            look(browser, cell, work, page)
+        finally:
+            os.killpg(browser.process.pid, signal.SIGKILL)
+
+
+def look(browser, cell, work, page):
+    """Uses the page as a person would."""
+    native = json.loads((work / "native" / "calibration.json").read_text())
+    browser.wait("!!document.querySelector('#format option') && !document.querySelector('#choose').disabled", "it loads")
+    began = time.monotonic()
+    browser.drop(cell)
+    browser.wait("!document.querySelector('#report').hidden", "the demo folder is calibrated")
+    seconds = time.monotonic() - began
+    off = same(json.loads(browser.read("dataset-result/calibration.json")), native)
+    assert off < 1e-9, f"another result than that of the program: {off:.1e}"
+    inside = "document.querySelector('#report').contentDocument"
+    browser.wait(f"!!({inside} && {inside}.querySelector('.verdict .word'))", "the report is shown")
+    word = browser.value(f"{inside}.querySelector('.verdict .word').textContent")
+    assert word.lower() == native["verdict"], word
+    if len(sys.argv) > 3:
+        time.sleep(1.0)
+        browser.picture(sys.argv[3])
+    # another command, and a file out of it
+    browser.value("command('export dataset-result --format kuka --out exported')")
+    assert b"A " in browser.read("exported/base_from_camera_kuka.txt")
+    browser.value("command('check dataset')")
+    assert "No mistake found" in browser.value("document.querySelector('#output').textContent")
+    # without a manifest: a proposal, its questions, a refusal, and answers
+    bare = work / "bare"
+    shutil.copytree(cell, bare, ignore=shutil.ignore_patterns("handeye.toml", "truth.json", "touches.csv", "place-*"))
+    browser.drop(bare)
+    browser.wait("document.querySelectorAll('#questions li').length > 2", "questions are asked")
+    browser.value("document.querySelector('#setup').value = 'eye-to-hand'; document.querySelector('#setup').onchange()")
+    browser.wait("document.querySelector('#text').value.includes('setup = \"eye-to-hand\"')", "an answer is taken")
+    browser.wait("!document.querySelector('#calibrate').disabled", "it is ready again")
+    browser.value("document.querySelector('#calibrate').click()")
+    browser.wait("!document.querySelector('#trouble').hidden", "open questions are refused")
+    answered = (cell / "handeye.toml").read_text().split("[[placements]]")[0]
+    browser.value(f"document.querySelector('#text').value = {json.dumps(answered)}")
+    browser.wait("!document.querySelector('#calibrate').disabled", "it is ready again")
+    browser.value("document.querySelector('#calibrate').click()")
+    browser.wait("!document.querySelector('#report').hidden", "answered, it is calibrated")
+    assert json.loads(browser.read("bare-result/calibration.json"))["hand_eye"]["mount_from_camera"]
+    browser.close()
+    megabytes = os.path.getsize(page) / 1e6
+    print(f"{page.name} ({megabytes:.1f} MB): a folder dropped without a network, {len(native['captures'])} captures"
+          f" in {seconds:.1f} s, off the program's result by {off:.0e}; commands, questions and files work")
 
 
 main()
