@@ -41,7 +41,7 @@ pub struct GlobalArgs {
 pub enum Command {
     /// Calibrate from a folder of captures with a manifest `handeye.toml`.
     Calibrate(CalibrateArgs),
-    /// Solve for the transform from pairs of robot and target poses in a JSON file.
+    /// Solve for the transform from pairs of robot and target poses.
     Solve(Box<crate::solve::SolveArgs>),
     /// Find mistakes in a dataset: notation, units, direction, order, target size, outliers.
     Check(CheckArgs),
