@@ -25,6 +25,7 @@ pub fn dataset_html(dataset: &Dataset, calibration: &Calibration, session: &Sess
         touched: session.touches.iter().map(|t| t.in_base).collect(),
         notations: notations(dataset.notation.as_deref(), calibration),
         pictures: pictures(dataset, calibration, session),
+        corners: corners(calibration, session),
     })
 }
 
@@ -38,17 +39,36 @@ pub fn calibration_html(title: &str, calibration: &Calibration) -> String {
         touched: vec![],
         notations: notations(None, calibration),
         pictures: vec![],
+        corners: vec![],
     })
 }
 
-/// The transform in the dataset's own notation and in those most programs read.
+/// Notations of the transform, those that most programs read first.
+const ALL: [&str; 16] = [
+    "quaternion-xyzw",
+    "quaternion-wxyz",
+    "rotation-vector",
+    "matrix4x4",
+    "ur",
+    "ur-rpy",
+    "kuka",
+    "fanuc",
+    "abb",
+    "yaskawa",
+    "kawasaki",
+    "staubli",
+    "doosan",
+    "denso",
+    "urdf",
+    "ros2-launch",
+];
+
+/// The transform in the dataset's own notation and in all others.
 fn notations(own: Option<&str>, calibration: &Calibration) -> Vec<(String, String)> {
     let Ok(Some(camera)) = CameraPose::of(calibration, None, None, &[]) else { return vec![] };
-    let own = own.filter(|n| !["joints", "matrix4x4"].contains(n));
-    let mut names: Vec<&str> = own.into_iter().chain(["quaternion-xyzw", "urdf"]).collect();
-    names.dedup();
+    let own = own.filter(|n| ALL.contains(n));
+    let names = own.into_iter().chain(ALL.into_iter().filter(|n| Some(*n) != own));
     names
-        .into_iter()
         .filter_map(|name| {
             let text = export::render(&camera, &Format::named(name).ok()?);
             Some((name.to_owned(), String::from_utf8(text).ok()?.trim_end().to_owned()))
@@ -91,6 +111,16 @@ fn caption(c: &CaptureResult) -> String {
         (None, Some(px)) => format!("{} corners, {px:.3} px", c.corners),
         (None, None) => format!("{} corners", c.corners),
     }
+}
+
+/// Those of all captures that are used.
+fn corners(calibration: &Calibration, session: &Session) -> Vec<MarkedCorner> {
+    let used = calibration.captures.iter().filter(|c| c.used);
+    let with_result = used.filter_map(|result| {
+        let o = session.observations.iter().find(|o| o.capture == result.id)?;
+        Some(marked(session, o, result))
+    });
+    with_result.flatten().collect()
 }
 
 /// Corners with their residuals against the target seen from the image's own pose.

@@ -10,6 +10,8 @@ mod cell;
 mod colours;
 mod dataset;
 mod diversity;
+mod headline;
+mod image_plane;
 mod map;
 mod origin;
 mod picture;
@@ -56,14 +58,17 @@ pub struct Report<'a> {
     pub notations: Vec<(String, String)>,
     /// Images with their corners.
     pub pictures: Vec<Picture>,
+    /// The corners of all captures that are used.
+    pub corners: Vec<MarkedCorner>,
 }
 
 const STYLE: &str = include_str!("style.css");
+const SCRIPT: &str = include_str!("shared.js");
 
 /// The whole page.
 pub fn html(report: &Report) -> String {
     let c = report.calibration;
-    let mut body = verdict(report);
+    let mut body = headline::verdict(report);
     if c.verdict == Verdict::Rejected {
         // the reasons first; its numbers below them, crossed out
         body += &found(c);
@@ -86,6 +91,8 @@ pub fn html(report: &Report) -> String {
     body += &scans::scene(c);
     body += &scans::scans(c);
     body += &diversity::diversity(c);
+    let size = report.camera.map(|camera| (camera.width, camera.height));
+    body += &image_plane::image_plane(&report.corners, size);
     body += &picture::pictures(&report.pictures);
     body += &origin::origin(c);
     page(
@@ -105,7 +112,7 @@ fn page((kind, title): (&str, &str), body: &str, footer: &str) -> String {
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
          <title>{title} - {}</title><style>{STYLE}</style></head>\n<body><main>\
          <h1>{kind} &middot; {title}</h1>{body}\
-         <footer>handeye {version}. {footer}</footer></main></body></html>\n",
+         <footer>handeye {version}. {footer}</footer></main><script>{SCRIPT}</script></body></html>\n",
         kind.to_lowercase(),
         title = escape(title),
         version = env!("CARGO_PKG_VERSION"),
@@ -114,9 +121,9 @@ fn page((kind, title): (&str, &str), body: &str, footer: &str) -> String {
 
 /// The verdict in a word of its kind, its reasons, and figures with their names.
 fn judgement(
-    verdict: Verdict,
-    word: &str,
+    (verdict, word): (Verdict, &str),
     reasons: &[String],
+    accuracy: &str,
     facts: &[(String, String)],
 ) -> String {
     let class = match verdict {
@@ -136,7 +143,7 @@ fn judgement(
     };
     let facts: String = facts.iter().map(fact).collect();
     format!(
-        "<section class=\"verdict {class}\"><div class=\"word\">{word}</div>{reasons}\
+        "<section class=\"verdict {class}\"><div class=\"word\">{word}</div>{reasons}{accuracy}\
          <div class=\"facts\">{facts}</div></section>\n"
     )
 }
@@ -163,16 +170,6 @@ fn mm(value: Option<f64>) -> String {
 
 fn deg(value: Option<f64>) -> String {
     value.map_or("&ndash;".into(), |v| format!("{v:.3}"))
-}
-
-fn verdict(report: &Report) -> String {
-    let c = report.calibration;
-    let Some(reservation) = findings::reservation(c) else {
-        return judgement(c.verdict, word(c.verdict), &c.reasons, &facts(c));
-    };
-    let sentences: Vec<String> =
-        [reservation].into_iter().chain(c.reasons.iter().cloned()).collect();
-    judgement(c.verdict, RESERVED, &sentences, &facts(c))
 }
 
 /// Numbers of an answer that is not to be used: crossed out, and not to be selected.
@@ -213,35 +210,6 @@ fn capital(text: &str) -> String {
     chars.next().map_or(String::new(), |c| c.to_uppercase().chain(chars).collect())
 }
 
-fn facts(c: &Calibration) -> Vec<(String, String)> {
-    let mut all = Vec::new();
-    if let Some(tre) = c.predicted_tre_mm.as_ref().filter(|_| c.verdict != Verdict::Rejected) {
-        all.push((format!("{:.2} mm", tre.p95), "predicted error, 95 %".to_owned()));
-        all.push((format!("{:.2} mm", tre.rms), "predicted error, RMS".to_owned()));
-        if let Some(mm) = tre.at_task_p95.filter(|mm| *mm > 1.01 * tre.p95) {
-            all.push((format!("{mm:.2} mm"), "95 %, with the robot's own errors".to_owned()));
-        }
-    }
-    if let Some(t) = c.held_out.translation_rms_mm {
-        let r = c.held_out.rotation_rms_deg.map_or(String::new(), |r| format!(" / {r:.2}&deg;"));
-        all.push((format!("{t:.2} mm{r}"), "leave-one-out residual, RMS".to_owned()));
-    }
-    if !c.captures.is_empty() {
-        let used = c.captures.iter().filter(|k| k.used).count();
-        all.push((format!("{used} of {}", c.captures.len()), "captures used".to_owned()));
-        let unseen = c.captures.len() - used - c.rejected.len().min(c.captures.len() - used);
-        for (count, name) in [(c.rejected.len(), "rejected"), (unseen, "without target")] {
-            if count > 0 {
-                all.push((count.to_string(), format!("captures {name}")));
-            }
-        }
-    }
-    if !c.touches.is_empty() {
-        all.push((c.touches.len().to_string(), "touched corners".to_owned()));
-    }
-    all
-}
-
 fn transform(report: &Report) -> String {
     let c = report.calibration;
     let words = match c.setup {
@@ -274,13 +242,64 @@ fn transform(report: &Report) -> String {
     let mut content = format!("<p>Camera on the {}, {words}.</p>", c.setup.mount());
     let _ = write!(
         content,
-        "<div class=\"two\"><div><h3>4 x 4, translation in mm</h3><pre>{matrix}</pre>{}</div><div>",
-        sigmas(c)
+        "<div class=\"two\"><div><h3>4 x 4, translation in mm</h3><pre class=\"matrix\">{matrix}</pre>{}</div><div>{}</div></div>",
+        sigmas(c),
+        in_notations(&report.notations)
     );
-    for (name, text) in &report.notations {
-        let _ = write!(content, "<h3>{}</h3><pre>{}</pre>", escape(name), escape(text));
+    section(&c.name, "", &content)
+}
+
+/// The transform in all notations, one at a time.
+fn in_notations(all: &[(String, String)]) -> String {
+    let one = |(k, (name, text)): (usize, &(String, String))| {
+        let checked = if k == 0 { " checked" } else { "" };
+        format!(
+            "<input type=\"radio\" name=\"notation\" id=\"notation-{k}\"{checked}><label for=\"notation-{k}\">{}</label>\
+             <div class=\"pane\"><button class=\"copy\" type=\"button\" hidden>Copy</button><pre>{}</pre></div>",
+            escape(name),
+            escape(text)
+        )
+    };
+    let panes: String = all.iter().enumerate().map(one).collect();
+    if panes.is_empty() {
+        return panes;
     }
-    section(&c.name, "", &(content + "</div></div>"))
+    format!("<h3>In the notation of</h3><div class=\"tabs\">{panes}</div>")
+}
+
+/// Rows of a table that are shown from the start, where there are clearly more.
+const SHOWN_ROWS: usize = 10;
+/// So many are all shown.
+const FEW_ROWS: usize = 14;
+
+/// A table with its rows, the worst first; of many, the rest is shown on demand.
+fn folded(id: &str, head: &str, mut rows: Vec<Row>) -> String {
+    rows.sort_by(|a, b| b.worse.total_cmp(&a.worse));
+    let count = rows.len();
+    let has_more = count > FEW_ROWS;
+    let row = |(k, row): (usize, &Row)| {
+        let more = if has_more && k >= SHOWN_ROWS { " more" } else { "" };
+        format!("<tr class=\"{}{more}\">{}</tr>", row.class, row.cells)
+    };
+    let all: String = rows.iter().enumerate().map(row).collect();
+    let switch = if has_more {
+        format!(
+            "<input type=\"checkbox\" id=\"all-{id}\"><label for=\"all-{id}\">all {count}, not only the worst {SHOWN_ROWS}</label>"
+        )
+    } else {
+        String::new()
+    };
+    format!(
+        "<div class=\"fold\">{switch}<div class=\"scroll\"><table><tr>{head}</tr>{all}</table></div></div>"
+    )
+}
+
+/// A row of a table.
+struct Row {
+    class: &'static str,
+    cells: String,
+    /// What it is sorted by: larger is worse.
+    worse: f64,
 }
 
 fn sigmas(c: &Calibration) -> String {
@@ -345,7 +364,9 @@ fn candidates(c: &Calibration) -> String {
         "<div class=\"scroll\"><table><tr><th>candidate</th><th>captures<br>in sample, mm</th><th>in sample,<br>degrees</th>\
          <th>captures<br>held out, mm</th><th>touches,<br>mm</th><th>not seen<br>before, mm</th><th>predicted<br>at work, mm</th></tr>{rows}</table></div>\
          {notes}<p>{}.</p><p class=\"note\">All figures are root mean squares. The residual of what an answer was made from never \
-         chooses: it falls whenever more is fitted, also when the answer gets worse.</p>",
+         chooses: it falls whenever more is fitted, also when the answer gets worse. In sample: with all captures. Held out: \
+         each capture by an answer that has not seen it. Touches: distance of the touched points. Not seen before: on \
+         captures or touches that were left out, which decides. At work: in the volume of the headline.</p>",
         capital(&escape(&c.why))
     );
     section("Candidates side by side", "", &table)
@@ -381,28 +402,46 @@ fn captures(c: &Calibration) -> String {
         )
     };
     let row = |k: &CaptureResult| {
-        let class = if k.used { "" } else { "out" };
         let reason = k.reason.as_deref().map_or(String::new(), escape);
-        format!(
-            "<tr class=\"{class}\"><td>{}</td>{}<td>{}</td><td>{}</td><td>{}</td><td class=\"words\">{reason}</td></tr>",
+        let cells = format!(
+            "<td>{}</td>{}<td>{}</td><td>{}</td><td>{}</td><td class=\"words\">{reason}</td>",
             escape(&k.id),
             if has_pictures { seen(k) } else { String::new() },
             mm(k.residual_mm),
             deg(k.residual_deg),
             mm(k.held_out_mm)
-        )
+        );
+        let residual = k.held_out_mm.or(k.residual_mm).unwrap_or(0.0);
+        let (class, worse) = if k.used { ("", residual) } else { ("out", f64::INFINITY) };
+        Row { class, cells, worse }
     };
-    let rows: String = c.captures.iter().map(row).collect();
+    let rows = c.captures.iter().map(row).collect();
     let of_pictures = "<th>corners</th><th>own pose,<br>px</th><th>through the<br>robot, px</th>";
+    let head = format!(
+        "<th>capture</th>{}<th>residual,<br>mm</th><th>residual,<br>degrees</th><th>held out,<br>mm</th>\
+         <th class=\"words\">why not used</th>",
+        if has_pictures { of_pictures } else { "" }
+    );
+    let explained = if has_pictures {
+        "Corners: how many were found. Own pose: RMS distance of the corners from the target at the pose that this image \
+         alone gives. Through the robot: the same at the pose that robot and answer give. "
+    } else {
+        ""
+    };
     let content = format!(
-        "{}<div class=\"scroll\"><table><tr><th>capture</th>{}<th>residual,<br>mm</th><th>residual,<br>degrees</th><th>held out,<br>mm</th><th class=\"words\">why not used</th></tr>{rows}</table></div>\
-         <p class=\"note\">Residual: by how much robot and camera disagree on where the target's {} is. Held out: the \
-         same with an answer that has not seen the capture.</p>",
-        plot::bars(&bars, "mm", ("residual", "held out")),
-        if has_pictures { of_pictures } else { "" },
+        "{}{}<p class=\"note\">What is left out stands first, then the largest residuals. {explained}Residual: by how much \
+         robot and camera disagree on where the target's {} is. Held out: the same with an answer that has not seen the \
+         capture.</p>",
+        wide(&plot::bars(&bars, "mm", ("residual", "held out"))),
+        folded("captures", &head, rows),
         if has_board(c) { "first corner" } else { "origin" }
     );
     section("Captures", "long", &content)
+}
+
+/// A plot that keeps its size on a narrow screen, and scrolls.
+fn wide(plot: &str) -> String {
+    if plot.is_empty() { String::new() } else { format!("<div class=\"scroll\">{plot}</div>") }
 }
 
 fn touches(c: &Calibration) -> String {
@@ -420,21 +459,22 @@ fn touches(c: &Calibration) -> String {
         .collect();
     let row = |t: &handeye::calibrate::result::TouchResult| {
         let d = t.difference_mm;
-        format!(
-            "<tr><td>{}</td><td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td></tr>",
+        let cells = format!(
+            "<td>{}</td><td>{}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td><td>{:.3}</td>",
             escape(&t.capture),
             t.corner,
             t.residual_mm,
             d.x,
             d.y,
             d.z
-        )
+        );
+        Row { class: "", cells, worse: t.residual_mm }
     };
-    let rows: String = c.touches.iter().map(row).collect();
+    let head = "<th>placement</th><th>corner</th><th>distance, mm</th><th>x, mm</th><th>y, mm</th><th>z, mm</th>";
     let content = format!(
-        "{}<div class=\"scroll\"><table><tr><th>placement</th><th>corner</th><th>distance, mm</th><th>x, mm</th><th>y, mm</th><th>z, mm</th></tr>{rows}</table></div>\
-         <p class=\"note\">Tip minus corner as the answer predicts it, in the base frame{}.</p>",
-        plot::bars(&bars, "mm", ("distance", "")),
+        "{}{}<p class=\"note\">Tip minus corner as the answer predicts it, in the base frame, the largest distance first{}.</p>",
+        wide(&plot::bars(&bars, "mm", ("distance", ""))),
+        folded("touches", head, c.touches.iter().map(row).collect()),
         if c.touches.iter().any(|t| t.used) {
             "; the answer was made with these touches"
         } else {

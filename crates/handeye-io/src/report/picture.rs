@@ -32,6 +32,8 @@ pub struct Picture {
 
 /// Width of the small copy, px.
 const WIDTH: usize = 480;
+/// A residual of so many times the typical one is no noise.
+const FAR: f64 = 3.0;
 /// Length of the scale bar, px of the small copy.
 const BAR_PX: f64 = 40.0;
 
@@ -41,10 +43,12 @@ pub(super) fn pictures(pictures: &[Picture]) -> String {
         return String::new();
     }
     let magnified = magnification(pictures);
-    let figures: String = pictures.iter().map(|p| p.figure(magnified)).collect();
+    let all = || pictures.iter().flat_map(|p| &p.corners).map(|c| c.dx.hypot(c.dy));
+    let rms = (all().map(|d| d * d).sum::<f64>() / all().count().max(1) as f64).sqrt();
+    let figures: String = pictures.iter().map(|p| p.figure(magnified, FAR * rms)).collect();
     let content = format!(
-        "<p class=\"note\">Detected corners (blue) and residuals (red) against the target seen from its own best pose, \
-         magnified {magnified:.0} times: an arrow as long as the bar in the corner is {:.2} px.</p><div class=\"pictures\">{figures}</div>",
+        "<p class=\"note\">Detected corners (blue) and residuals against the target seen from its own best pose, red where \
+         they are more than {FAR} times the typical one, magnified {magnified:.0} times: an arrow as long as the bar in the corner is {:.2} px.</p><div class=\"pictures\">{figures}</div>",
         BAR_PX / magnified
     );
     section("Pictures", "long", &content)
@@ -80,8 +84,8 @@ impl Picture {
         Some(Self { id: id.into(), caption, used, jpeg, size: (w, h), shrink, corners })
     }
 
-    /// Its figure, residuals magnified.
-    fn figure(&self, magnified: f64) -> String {
+    /// Its figure, residuals magnified; those beyond `far` (px) stand out.
+    fn figure(&self, magnified: f64, far: f64) -> String {
         let (w, h) = self.size;
         let mut svg = format!(
             "<svg viewBox=\"0 0 {w} {h}\"><image width=\"{w}\" height=\"{h}\" href=\"data:image/jpeg;base64,{}\"/>",
@@ -97,12 +101,13 @@ impl Picture {
             let (ex, ey) = (x + c.dx * magnified, y + c.dy * magnified);
             let _ = write!(
                 svg,
-                "<line x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{ex:.1}\" y2=\"{ey:.1}\" stroke=\"#ff2d1a\" stroke-width=\"1.3\"/>"
+                "<line x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{ex:.1}\" y2=\"{ey:.1}\" stroke=\"{}\" stroke-width=\"1.3\"/>",
+                if c.dx.hypot(c.dy) > far { "#ff2d1a" } else { "#e8c9a0" }
             );
         }
         let _ = write!(
             svg,
-            "<rect x=\"6\" y=\"{:.0}\" width=\"{BAR_PX}\" height=\"4\" fill=\"#ff2d1a\" stroke=\"#fff\"/></svg>",
+            "<rect x=\"6\" y=\"{:.0}\" width=\"{BAR_PX}\" height=\"4\" fill=\"#e8c9a0\" stroke=\"#555\"/></svg>",
             h as f64 - 12.0
         );
         let class = if self.used { "" } else { "out" };

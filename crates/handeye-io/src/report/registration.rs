@@ -90,12 +90,13 @@ fn rms(mm: &[f64]) -> Option<f64> {
 pub fn registration_html(r: &Registration) -> String {
     let gaps = Gaps::of(r);
     let found = r.found;
-    let body = judgement(found.verdict, word(found.verdict), &reasons(found), &facts(found, &gaps))
-        + &warnings(r.warnings)
-        + &section("Both scans", "", &view(r, &gaps))
-        + &section("Distances to the target", "", &distances(r, &gaps))
-        + &section("target_from_source", "", &transform(found))
-        + &section("How it went", "", &progress(r));
+    let body =
+        judgement((found.verdict, word(found.verdict)), &reasons(found), "", &facts(found, &gaps))
+            + &warnings(r.warnings)
+            + &section("Both scans", "", &view(r, &gaps))
+            + &section("Distances to the target", "", &distances(r, &gaps))
+            + &section("target_from_source", "", &transform(found))
+            + &section("How it went", "", &progress(r));
     let title = format!("{} in {}", r.source.name, r.target.name);
     page(
         ("Registration", &title),

@@ -137,6 +137,8 @@ fn chance(p: f64) -> String {
 
 /// Longer side of the map, units of the drawing.
 const EDGE: f64 = 300.0;
+/// Full colour is for deviations of so many times their own noise.
+const BEYOND_NOISE: f64 = 6.0;
 /// Around the outermost corners.
 const MARGIN: f64 = 22.0;
 
@@ -152,6 +154,8 @@ fn map(all: &[BoardDeviation]) -> String {
     if !(long > 0.0 && most > 0.0 && (long + most).is_finite()) {
         return String::new();
     }
+    // what may be noise stays pale
+    let most = all.iter().map(|d| BEYOND_NOISE * d.sigma_mm).fold(most, f64::max);
     let scale = EDGE / long;
     let radius = (0.42 * EDGE / (all.len() as f64).sqrt()).min(14.0);
     let (w, h) = ((x.1 - x.0) * scale + 2.0 * MARGIN, (y.1 - y.0) * scale + 2.0 * MARGIN);

@@ -34,7 +34,7 @@ pub fn touch_test_html(test: &TouchTest) -> String {
         Verdict::Rejected => "Failed",
         Verdict::Undetermined => "Undetermined",
     };
-    let body = judgement(test.verdict, word, test.reasons, &facts(test))
+    let body = judgement((test.verdict, word), test.reasons, "", &facts(test))
         + &warnings(test.warnings)
         + &touches(test)
         + &statistics(test);

@@ -75,6 +75,7 @@ fn full(errors: RobotErrors) -> Calibration {
                 slices: vec![TreSlice { axes: [0, 1], p95_mm: vec![vec![Some(1.0)]] }],
             }),
         }),
+        max_error_mm: Some(1.0),
         residual,
         held_out: residual,
         captures: vec![CaptureResult {

@@ -161,6 +161,7 @@ impl Evidence {
             why: choice.why,
             candidates: self.candidates,
             predicted_tre_mm: choice.predicted_tre_mm,
+            max_error_mm: None,
             residual: choice.residual,
             held_out: choice.held_out,
             captures: self.captures,

@@ -19,7 +19,16 @@ use crate::{
 };
 
 /// The result with its verdict: reasons against the answer first.
-pub(crate) fn judge(setup: Setup, config: &Config, mut found: Evidence) -> Calibration {
+pub(crate) fn judge(setup: Setup, config: &Config, found: Evidence) -> Calibration {
+    Calibration { max_error_mm: Some(limit(config)), ..judged(setup, config, found) }
+}
+
+/// Largest predicted error (95 %) that is accepted, mm.
+pub(crate) fn limit(config: &Config) -> f64 {
+    config.max_error_mm.unwrap_or(MOST_PREDICTED_MM)
+}
+
+fn judged(setup: Setup, config: &Config, mut found: Evidence) -> Calibration {
     let contradictions = contradictions(&found);
     if found.notes.rejects || !contradictions.is_empty() {
         // data that contradict themselves leave nothing to determine
@@ -134,7 +143,7 @@ pub(crate) fn is_believable(residual: &RmsResidual) -> bool {
 
 /// Why the answer is not certain enough.
 fn imprecision(config: &Config, found: &Evidence) -> Vec<String> {
-    let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
+    let limit = limit(config);
     let Some(choice) = &found.choice else { return vec![] };
     match &choice.predicted_tre_mm {
         Some(tre) if tre.p95 <= limit => vec![],

@@ -296,6 +296,9 @@ pub struct Calibration {
     pub candidates: Vec<Candidate>,
     /// Predicted error where the answer will be used.
     pub predicted_tre_mm: Option<PredictedTre>,
+    /// Largest predicted error (95 %) with which an answer is accepted, mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_error_mm: Option<f64>,
     /// Residual of the chosen answer.
     pub residual: RmsResidual,
     /// Residual of the chosen method on what was left out.

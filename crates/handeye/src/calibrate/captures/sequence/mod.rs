@@ -15,7 +15,7 @@ use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 use crate::{
     Calibration, Config, Error, HandEye, Observation, PosePair, Session, Verdict, Warning,
     calibrate::{
-        flow::{limits::MOST_PREDICTED_MM, unknown::Task, verdict},
+        flow::{unknown::Task, verdict},
         result::{Answer, Candidate, CaptureResult, PoseCovariance, rows},
     },
     detect::sight::{CLOCK, TARGET_SCALE},
@@ -367,7 +367,7 @@ fn judged(
     tre: Option<&PredictedTre>,
     config: &Config,
 ) -> (Verdict, Vec<String>) {
-    let limit = config.max_error_mm.unwrap_or(MOST_PREDICTED_MM);
+    let limit = verdict::limit(config);
     let accepted = steady.verdict == Verdict::Accepted;
     // the reason of an accepted one is the error that is predicted without drift
     let mut reasons = if accepted { vec![] } else { steady.reasons.clone() };
