@@ -1,5 +1,6 @@
 """Calibrates many recorded cells, on as many machines as there are: folders in, one table out.
 
+    python many_cells.py                                      six cells that it makes up
     python many_cells.py TABLE.csv FOLDER...                  workers on this machine
     python many_cells.py TABLE.csv FOLDER... --scheduler tcp://host:8786
 
@@ -73,17 +74,30 @@ def run(table: pathlib.Path, folders: list, client) -> int:
     return len(left)
 
 
+def made_up() -> list:
+    """Simulated cells, one of which has another board than its manifest says."""
+    import handeye
+
+    folders = [f"cells/{k}" for k in range(1, 7)]
+    for k, folder in enumerate(folders):
+        handeye.simulate(folder, captures=10, images=False, seed=k + 1, force=True)
+    manifest = pathlib.Path(folders[2]) / "handeye.toml"
+    manifest.write_text(manifest.read_text().replace("square_mm = 30", "square_mm = 33"))
+    return folders
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("table", type=pathlib.Path)
-    parser.add_argument("folders", nargs="+")
+    parser.add_argument("table", type=pathlib.Path, nargs="?", default=pathlib.Path("table.csv"))
+    parser.add_argument("folders", nargs="*")
     parser.add_argument("--scheduler", help="address of a running scheduler [default: workers on this machine]")
     given = parser.parse_args()
+    folders = given.folders or made_up()
     from dask.distributed import Client
 
     with Client(given.scheduler) if given.scheduler else Client(threads_per_worker=1, dashboard_address=None) as client:
-        count = run(given.table, given.folders, client)
-    print(f"{count} calibrated, {len(given.folders) - count} were in {given.table} before")
+        count = run(given.table, folders, client)
+    print(f"{count} calibrated, {len(folders) - count} were in {given.table} before")
 
 
 if __name__ == "__main__":
