@@ -50,9 +50,9 @@ mod xml;
 
 pub use camera::read_intrinsics;
 pub use dataset::{
-    CaptureSource, Dataset, FIXED_BOARD, InMemory, InMemoryCell, Limits, MANIFEST, Noise, OpenKey,
-    OpenQuestion, Pictures, PixelOrigin, PlacementSource, Question, RobotFile, RobotPoses, Shape,
-    WorkspaceBox, WorkspaceFrame, Writing, answered_with, columns, open_questions,
+    CaptureSource, Dataset, FIXED_BOARD, ImageSource, Limits, MANIFEST, MemoryCapture, MemoryCell,
+    Noise, OpenKey, OpenQuestion, PixelOrigin, PlacementSource, Question, RobotFile, RobotPoses,
+    Shape, WorkspaceBox, WorkspaceFrame, Writing, answered_with, columns, open_questions,
     read_robot_poses,
 };
 pub use error::{Error, Place};

@@ -8,7 +8,7 @@ use std::{
 
 use handeye::{Config, GrayImage, Pose, Scan};
 use handeye_io::{
-    Dataset, Error, InMemory, InMemoryCell, Limits, Pictures, Place, ScanOptions,
+    Dataset, Error, ImageSource, Limits, MemoryCapture, MemoryCell, Place, ScanOptions,
     calibrate::calibrate_dataset, read_image, read_scan, units::LengthUnit,
 };
 use pyo3::{prelude::*, types::PyString};
@@ -56,7 +56,7 @@ fn taken<T>(
     }
 }
 
-impl Pictures for Objects {
+impl ImageSource for Objects {
     fn image(&self, capture: &str) -> Result<GrayImage, Error> {
         taken(capture, &self.images, |file| read_image(file, None), picture)
     }
@@ -100,14 +100,14 @@ pub fn calibrate_captures(
     if max_error_mm.is_some_and(|mm| !(mm > 0.0)) {
         return Err(errors::input("max_error_mm must be positive"));
     }
-    let cell = InMemoryCell {
+    let cell = MemoryCell {
         setup: setup(setup_name)?,
         target: target(py, target_json, target_file)?,
         camera_json,
         noise: noise(robot_rotation_deg, robot_position_mm)?,
         limits: Limits { max_error: max_error_mm.map(|mm| mm * 1e-3) },
     };
-    let captures = ids.iter().zip(&robot).zip(&scans).map(|((id, (r, t)), scan)| InMemory {
+    let captures = ids.iter().zip(&robot).zip(&scans).map(|((id, (r, t)), scan)| MemoryCapture {
         id: id.clone(),
         base_from_flange: Pose::from_parts(r, *t),
         has_image: true,

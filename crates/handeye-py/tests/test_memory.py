@@ -1,4 +1,4 @@
-"""What stands in memory: pictures and poses without a folder, rows of robots, parts as OpenCV has them, meshes."""
+"""What stands in memory: images and poses without a folder, rows of robots, parts as OpenCV has them, meshes."""
 
 import inspect
 import tomllib
@@ -44,13 +44,13 @@ def test_pictures_in_memory_calibrate_like_those_of_a_folder(folder):
     images = [cv2.imread(str(name), cv2.IMREAD_GRAYSCALE) for name in names]
     scans = sorted((folder / "scans").iterdir())
     given = dict(setup="eye-in-hand", target=BOARD, intrinsics=camera)
-    told = []
-    found = handeye.calibrate(images, poses, scans=scans, progress=lambda k, n: told.append((k, n)), **given)
+    progress = []
+    found = handeye.calibrate(images, poses, scans=scans, progress=lambda k, n: progress.append((k, n)), **given)
     of_folder = handeye.calibrate(folder)
     assert found.accepted and of_folder.accepted
     assert np.allclose(found.pose.matrix, of_folder.pose.matrix, atol=1e-12)
     assert np.allclose(found.covariance, of_folder.covariance, rtol=1e-9)
-    assert sorted(told) == [(k, 8) for k in range(1, 9)]
+    assert sorted(progress) == [(k, 8) for k in range(1, 9)]
     page = found.report(folder / "page.html").read_text()
     assert "captures in memory" in page and page.count("<img") == of_folder.report(
         folder / "page.html"
@@ -99,6 +99,8 @@ def test_what_is_wrong_with_pictures_in_memory_is_said(folder):
         handeye.calibrate(names, poses, setup="eye-in-hand", target=BOARD, intrinsics=np.ones((3, 3)))
     with pytest.raises(handeye.InputError, match="unknown field"):
         handeye.calibrate(names, poses, setup="eye-in-hand", target=BOARD, intrinsics={"focal": 3.0})
+    with pytest.raises(handeye.InputError, match="^captures in memory: no intrinsics given"):
+        handeye.calibrate(names[:1], poses[:1], setup="eye-in-hand", target=BOARD)
     found = handeye.calibrate(names, np.array([p.inverse().matrix for p in poses]), **given)
     assert not found.accepted and "flange_from_base" in " ".join(found.reasons)
 

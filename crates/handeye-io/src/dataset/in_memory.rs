@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// Gives the images and scans of captures by the name of the capture, whenever they are asked for and from any thread.
-pub trait Pictures: Send + Sync {
+pub trait ImageSource: Send + Sync {
     /// The capture's image.
     ///
     /// # Errors
@@ -34,7 +34,7 @@ pub trait Pictures: Send + Sync {
 
 /// Where a dataset's images and scans come from, if not from files.
 #[derive(Clone)]
-pub(super) struct Memory(Arc<dyn Pictures>);
+pub(super) struct Memory(Arc<dyn ImageSource>);
 
 impl fmt::Debug for Memory {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -47,6 +47,13 @@ impl Memory {
         self.0.image(&capture.to_string_lossy())
     }
 
+    /// Width and height of the first image, if there is one.
+    fn image_size(&self, captures: &[CaptureSource]) -> Result<Option<(u32, u32)>, Error> {
+        let Some(first) = captures.iter().find(|c| c.image.is_some()) else { return Ok(None) };
+        let image = self.0.image(&first.id).map_err(|e| e.in_capture(&first.id))?;
+        Ok(Some((image.width() as u32, image.height() as u32)))
+    }
+
     pub(super) fn scan(&self, capture: &Path) -> Result<Scan, Error> {
         self.0.scan(&capture.to_string_lossy())
     }
@@ -54,7 +61,7 @@ impl Memory {
 
 /// A capture in memory.
 #[derive(Debug, Clone)]
-pub struct InMemory {
+pub struct MemoryCapture {
     /// Its name.
     pub id: String,
     /// What the robot reported.
@@ -67,7 +74,7 @@ pub struct InMemory {
 
 /// What is known of a cell whose captures stand in memory.
 #[derive(Debug, Clone)]
-pub struct InMemoryCell<'a> {
+pub struct MemoryCell<'a> {
     /// Where the camera is.
     pub setup: Setup,
     /// What it looks at.
@@ -80,53 +87,69 @@ pub struct InMemoryCell<'a> {
     pub limits: Limits,
 }
 
+/// Stands where a manifest would be named.
+pub(super) const NAME: &str = "captures in memory";
+
 impl Dataset {
     /// Captures in memory in place of a folder; names are those of captures where files would be named.
     ///
     /// # Errors
     /// A camera that is none, a target that is none, an image that cannot be used.
     pub fn in_memory(
-        cell: InMemoryCell,
-        captures: Vec<InMemory>,
-        pictures: Arc<dyn Pictures>,
+        cell: MemoryCell,
+        captures: Vec<MemoryCapture>,
+        images: Arc<dyn ImageSource>,
     ) -> Result<Self, Error> {
-        let memory = Memory(pictures);
+        let memory = Memory(images);
         let captures: Vec<CaptureSource> = captures.into_iter().enumerate().map(source).collect();
-        let place = Place::field(Path::new(""), "camera");
-        let spec = cell.camera_json.map(serde_json::from_str::<CameraSpec>).transpose();
-        let spec = spec.map_err(|e| {
+        let Some(text) = cell.camera_json else {
+            return Ok(Self { captures, ..Self::without_files(cell, memory) });
+        };
+        let place = Place::field(Path::new(NAME), "camera");
+        let spec: CameraSpec = serde_json::from_str(text).map_err(|e| {
             let advice = "give the keys of [camera] of a manifest, such as fx, fy, cx, cy";
             malformed(place.clone(), format!("no intrinsics: {e}"), advice)
         })?;
-        let first = captures.iter().find_map(|c| Some((c, c.image.as_ref()?)));
-        let first = first.filter(|_| spec.is_some());
-        let first = first.map(|(c, name)| memory.image(name).map_err(|e| e.in_capture(&c.id)));
-        let size = first.transpose()?.map(|i| (i.width() as u32, i.height() as u32));
-        let given = spec.as_ref().filter(|spec| !spec.is_open());
+        let size = memory.image_size(&captures)?;
+        let given = Some(&spec).filter(|spec| !spec.is_open());
         let intrinsics = given.map(|s| camera::read(s, Path::new(""), &place, size)).transpose()?;
-        let lens_sigma = match &spec {
-            Some(spec) => {
-                spec.sigma().map_err(|what| malformed(place, what, "give it in pixels"))?
-            }
-            None => None,
-        };
-        let known = cell.noise;
+        let lens_sigma =
+            spec.sigma().map_err(|what| malformed(place, what, "give it in pixels"))?;
         Ok(Self {
-            manifest: PathBuf::new(),
-            setup: cell.setup,
-            target: Some(cell.target),
+            captures,
+            intrinsics,
+            lens_sigma,
+            lens: spec.calibrate,
+            ..Self::without_files(cell, memory)
+        })
+    }
+
+    /// Without captures and without a camera.
+    fn without_files(cell: MemoryCell, memory: Memory) -> Self {
+        let MemoryCell { setup, target, noise: known, limits, .. } = cell;
+        let noise = Noise {
+            robot_position: known.robot_position_m,
+            robot_rotation: known.robot_rotation_rad,
+            touch: known.touch_m,
+            tip: known.tip_m,
+            ..Noise::default()
+        };
+        Self {
+            manifest: PathBuf::from(NAME),
+            setup,
+            target: Some(target),
             target_size: Default::default(),
             answer_frame: None,
             frames: None,
             inputs: vec![],
             shape: None,
             other_targets: vec![],
-            intrinsics,
-            lens_sigma,
-            lens: spec.as_ref().and_then(|spec| spec.calibrate),
+            intrinsics: None,
+            lens_sigma: None,
+            lens: None,
             picture: None,
             pixel_origin: None,
-            captures,
+            captures: vec![],
             motion: None,
             placements: vec![],
             touches: vec![],
@@ -135,21 +158,15 @@ impl Dataset {
             known_position: None,
             arm: None,
             urdf: None,
-            noise: Noise {
-                robot_position: known.robot_position_m,
-                robot_rotation: known.robot_rotation_rad,
-                touch: known.touch_m,
-                tip: known.tip_m,
-                ..Noise::default()
-            },
-            limits: cell.limits,
+            noise,
+            limits,
             notation: None,
             warnings: vec![],
             root: PathBuf::new(),
             bit_depth: None,
-            scan_options: ScanOptions { intrinsics, ..ScanOptions::default() },
+            scan_options: ScanOptions::default(),
             memory: Some(memory),
-        })
+        }
     }
 
     /// Whether it names no files, its manifest included.
@@ -158,8 +175,8 @@ impl Dataset {
     }
 }
 
-fn source((robot_record, capture): (usize, InMemory)) -> CaptureSource {
-    let InMemory { id, base_from_flange, has_image, has_scan } = capture;
+fn source((robot_record, capture): (usize, MemoryCapture)) -> CaptureSource {
+    let MemoryCapture { id, base_from_flange, has_image, has_scan } = capture;
     CaptureSource {
         image: has_image.then(|| PathBuf::from(&id)),
         scan: has_scan.then(|| PathBuf::from(&id)),

@@ -37,7 +37,7 @@ use crate::{
 pub use answers::{OpenKey, OpenQuestion, answered_with, open_questions};
 pub use draft::Question;
 pub(crate) use draft::{Draft, EXAMPLE_TARGET};
-pub use in_memory::{InMemory, InMemoryCell, Pictures};
+pub use in_memory::{ImageSource, MemoryCapture, MemoryCell};
 pub use manifest::PixelOrigin;
 pub(crate) use manifest::{Manifest, Source};
 pub(crate) use motion::TIMES;
@@ -276,7 +276,7 @@ impl Dataset {
     /// What it is called: its folder's name, or that of a manifest with a name of its own.
     pub fn title(&self) -> String {
         if self.is_in_memory() {
-            return "captures in memory".into();
+            return in_memory::NAME.into();
         }
         let whole = self.manifest.canonicalize().unwrap_or_else(|_| self.manifest.clone());
         let folder = whole.parent().and_then(|p| p.file_name());

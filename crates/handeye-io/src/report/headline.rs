@@ -76,3 +76,40 @@ fn facts(c: &Calibration) -> Vec<(String, String)> {
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use handeye::estimate::predict::TreMap;
+
+    use super::*;
+
+    fn predicted(volume: &str, map: bool) -> PredictedTre {
+        let map = map.then(|| TreMap {
+            frame: "camera".into(),
+            minimum_mm: [-100.0, -50.0, 400.0],
+            maximum_mm: [100.0, 70.0, 700.4],
+            slices: vec![],
+        });
+        PredictedTre { rms: 0.3, p95: 0.5, at_task_p95: Some(0.8), r#where: volume.into(), map }
+    }
+
+    #[test]
+    fn the_accuracy_is_said_with_its_volume_and_shown_against_the_limit() {
+        let seen = predicted("the box in which the camera saw the target", true);
+        let text = accuracy(&seen, Some(10.0));
+        let sentence =
+            "Expected accuracy 0.50 mm (95 %) in the calibrated volume, 200 x 120 x 300 mm.";
+        assert!(text.contains(sentence), "{text}");
+        assert!(text.contains("width:5.0%") && text.contains("accepted up to 10 mm"), "{text}");
+        assert!(text.contains("0.80 mm (95 %), its own errors included"), "{text}");
+    }
+
+    #[test]
+    fn a_stated_workspace_keeps_its_name_and_without_a_limit_there_is_no_bar() {
+        let text = accuracy(&predicted("the workspace", false), None);
+        assert!(
+            text.contains("(95 %) in the workspace.") && !text.contains("class=\"limit\""),
+            "{text}"
+        );
+    }
+}

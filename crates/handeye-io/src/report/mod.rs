@@ -391,52 +391,51 @@ fn captures(c: &Calibration) -> String {
             second: k.held_out_mm,
         })
         .collect();
-    let px = |v: Option<f64>| v.map_or("&ndash;".into(), |v| format!("{v:.3}"));
-    let has_pictures = c.captures.iter().any(|k| k.corners > 0);
-    let seen = |k: &CaptureResult| {
-        format!(
-            "<td>{}</td><td>{}</td><td>{}</td>",
-            k.corners,
-            px(k.residual_px),
-            px(k.reprojection_px)
-        )
-    };
-    let row = |k: &CaptureResult| {
-        let reason = k.reason.as_deref().map_or(String::new(), escape);
-        let cells = format!(
-            "<td>{}</td>{}<td>{}</td><td>{}</td><td>{}</td><td class=\"words\">{reason}</td>",
-            escape(&k.id),
-            if has_pictures { seen(k) } else { String::new() },
-            mm(k.residual_mm),
-            deg(k.residual_deg),
-            mm(k.held_out_mm)
-        );
-        let residual = k.held_out_mm.or(k.residual_mm).unwrap_or(0.0);
-        let (class, worse) = if k.used { ("", residual) } else { ("out", f64::INFINITY) };
-        Row { class, cells, worse }
-    };
-    let rows = c.captures.iter().map(row).collect();
-    let of_pictures = "<th>corners</th><th>own pose,<br>px</th><th>through the<br>robot, px</th>";
+    let has_images = c.captures.iter().any(|k| k.corners > 0);
+    let rows = c.captures.iter().map(|k| capture_row(k, has_images)).collect();
+    let (of_images, explained) = if has_images { OF_IMAGES } else { ("", "") };
     let head = format!(
-        "<th>capture</th>{}<th>residual,<br>mm</th><th>residual,<br>degrees</th><th>held out,<br>mm</th>\
-         <th class=\"words\">why not used</th>",
-        if has_pictures { of_pictures } else { "" }
+        "<th>capture</th>{of_images}<th>residual,<br>mm</th><th>residual,<br>degrees</th><th>held out,<br>mm</th>\
+         <th class=\"words\">why not used</th>"
     );
-    let explained = if has_pictures {
-        "Corners: how many were found. Own pose: RMS distance of the corners from the target at the pose that this image \
-         alone gives. Through the robot: the same at the pose that robot and answer give. "
-    } else {
-        ""
-    };
     let content = format!(
-        "{}{}<p class=\"note\">What is left out stands first, then the largest residuals. {explained}Residual: by how much \
-         robot and camera disagree on where the target's {} is. Held out: the same with an answer that has not seen the \
-         capture.</p>",
+        "{}{}<p class=\"note\">Rejected captures first, then the largest residuals. {explained}Residual: by how much \
+         robot and camera disagree on the position of the target's {}. Held out: the same with an answer that has not \
+         seen the capture.</p>",
         wide(&plot::bars(&bars, "mm", ("residual", "held out"))),
         folded("captures", &head, rows),
         if has_board(c) { "first corner" } else { "origin" }
     );
     section("Captures", "long", &content)
+}
+
+/// Columns of captures with images, and what they are.
+const OF_IMAGES: (&str, &str) = (
+    "<th>corners</th><th>own pose,<br>px</th><th>through the<br>robot, px</th>",
+    "Corners: how many were found. Own pose: RMS distance of the corners from the target at the pose that this image \
+     alone gives. Through the robot: the same at the pose that robot and answer give. ",
+);
+
+/// A capture in the table of captures.
+fn capture_row(k: &CaptureResult, has_images: bool) -> Row {
+    let of_image = format!(
+        "<td>{}</td><td>{}</td><td>{}</td>",
+        k.corners,
+        mm(k.residual_px),
+        mm(k.reprojection_px)
+    );
+    let cells = format!(
+        "<td>{}</td>{}<td>{}</td><td>{}</td><td>{}</td><td class=\"words\">{}</td>",
+        escape(&k.id),
+        if has_images { of_image } else { String::new() },
+        mm(k.residual_mm),
+        deg(k.residual_deg),
+        mm(k.held_out_mm),
+        k.reason.as_deref().map_or(String::new(), escape)
+    );
+    let residual = k.held_out_mm.or(k.residual_mm).unwrap_or(0.0);
+    let (class, worse) = if k.used { ("", residual) } else { ("out", f64::INFINITY) };
+    Row { class, cells, worse }
 }
 
 /// A plot that keeps its size on a narrow screen, and scrolls.
@@ -490,4 +489,39 @@ fn view(report: &Report) -> String {
         return String::new();
     };
     section("The cell", "", &scene.html("robot base, flange poses, camera and targets"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(count: usize) -> Vec<Row> {
+        let row = |k: usize| Row { class: "", cells: format!("<td>{k}</td>"), worse: k as f64 };
+        (0..count).map(row).collect()
+    }
+
+    #[test]
+    fn of_many_rows_the_worst_are_shown_and_the_others_on_demand() {
+        let table = folded("captures", "<th>capture</th>", rows(20));
+        assert_eq!(table.matches("<tr class=\" more\">").count(), 10);
+        let worst = table.find("<td>19</td>").unwrap();
+        assert!(worst < table.find(" more").unwrap() && worst < table.find("<td>3</td>").unwrap());
+        assert!(table.contains("for=\"all-captures\">all 20, not only the worst 10<"));
+    }
+
+    #[test]
+    fn few_rows_are_all_shown() {
+        let table = folded("captures", "<th>capture</th>", rows(14));
+        assert!(!table.contains("checkbox") && !table.contains(" more"));
+    }
+
+    #[test]
+    fn one_notation_is_chosen_and_all_can_be_copied() {
+        let all = ["ur", "kuka"].map(|name| (name.to_owned(), format!("<{name}>")));
+        let tabs = in_notations(&all);
+        assert_eq!(tabs.matches(" checked").count(), 1);
+        assert_eq!(tabs.matches("class=\"copy\"").count(), 2);
+        assert!(tabs.contains("<pre>&lt;kuka&gt;</pre>"));
+        assert!(in_notations(&[]).is_empty());
+    }
 }

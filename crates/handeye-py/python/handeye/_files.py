@@ -1,4 +1,4 @@
-"""Commands of the program, and files for what they are told of arrays."""
+"""Commands of the program, and temporary files that hold arrays for them."""
 
 from __future__ import annotations
 

@@ -108,7 +108,7 @@ def register(
     :param initial: ``target_from_source`` to begin from, a :class:`Pose` or 4 x 4; right to some centimetres and
         10 degrees. Without it both are taken to lie as they are.
     :param method: ``symmetric``, ``point-to-point``, ``point-to-plane`` or ``gicp``.
-    :param max_distance_mm: what is farther apart does not belong together; 50 where it is left out.
+    :param max_distance_mm: what is farther apart does not belong together [default: 50].
     :param max_distance_m: the same in metres.
     :param max_iterations: most rounds.
     :param search: look for a beginning everywhere, and take no ``initial`` (``--global`` of the program).

@@ -1,4 +1,4 @@
-"""Calibrations of a folder, of pictures, of poses; and poses as robots write them."""
+"""Calibrations of a folder, of images, of poses; and poses as robots write them."""
 
 from __future__ import annotations
 
@@ -72,9 +72,9 @@ def calibrate(
     :param setup: ``"eye-in-hand"``: the camera is on the flange; ``"eye-to-hand"``: beside the robot.
     :param target: what the camera sees, as for :func:`detect`.
     :param intrinsics: the camera's matrix, 3 x 3 as OpenCV has it; or the keys of ``[camera]`` of a manifest
-        (``fx``, ``fy``, ``cx``, ``cy``, ``distortion`` ...); or a file that such a section may name. Left out, they are
+        (``fx``, ``fy``, ``cx``, ``cy``, ``distortion`` ...); or a file that such a section may name. Without it, they are
         calibrated from the images.
-    :param distortion: OpenCV's coefficients (4, 5, 8 or 12) of that matrix; none where it is left out.
+    :param distortion: OpenCV's coefficients (4, 5, 8 or 12) of that matrix; none where it is not given.
     :param scans: a scan for each image, or None where there is none: H x W x 3 (m) with one point for each pixel, N x 3,
         or the path of a file.
     :param ids: names of the captures. Else ``0``, ``1`` ...
@@ -161,38 +161,6 @@ def _camera(intrinsics: Any, distortion: Optional[Sequence[float]]) -> Optional[
     return {**camera, "distortion_model": "plumb_bob", "distortion": coefficients}
 
 
-@overload
-def solve(
-    base_from_flange: Any,
-    camera_from_target: Any,
-    *,
-    setup: str,
-    ids: Optional[Sequence[str]] = None,
-    method: Optional[str] = None,
-    robot_rotation_deg: Optional[float] = None,
-    robot_position_mm: Optional[float] = None,
-    unknown_scale: bool = False,
-    known_position: Optional[Tuple[Sequence[float], float, float]] = None,
-    robot_times_s: Optional[Sequence[float]] = None,
-    camera_times_s: Optional[Sequence[float]] = None,
-) -> Calibration: ...
-@overload
-def solve(
-    base_from_flange: Any,
-    camera_from_target: Any,
-    r_target2cam: Any,
-    t_target2cam: Any,
-    *,
-    setup: str,
-    ids: Optional[Sequence[str]] = None,
-    method: Optional[str] = None,
-    robot_rotation_deg: Optional[float] = None,
-    robot_position_mm: Optional[float] = None,
-    unknown_scale: bool = False,
-    known_position: Optional[Tuple[Sequence[float], float, float]] = None,
-    robot_times_s: Optional[Sequence[float]] = None,
-    camera_times_s: Optional[Sequence[float]] = None,
-) -> Calibration: ...
 def solve(
     base_from_flange: Any,
     camera_from_target: Any,
