@@ -37,8 +37,8 @@ class Browser:
         ]  # fmt: skip
         self.process = subprocess.Popen([program, *flags, page.as_uri()], stderr=subprocess.DEVNULL, start_new_session=True)
         self.count, self.said = 0, []
-        told = pathlib.Path(work) / "profile" / "DevToolsActivePort"
-        port = until(lambda: told.is_file() and told.read_text().split("\n")[0], "the browser starts")
+        port_file = pathlib.Path(work) / "profile" / "DevToolsActivePort"
+        port = until(lambda: port_file.is_file() and port_file.read_text().split("\n")[0], "the browser starts")
         targets = until(
             lambda: [t for t in get(f"http://127.0.0.1:{port}/json") if t["type"] == "page"], "the page opens"
         )

@@ -32,10 +32,10 @@ pub(super) fn image_plane(corners: &[MarkedCorner], size: Option<(u32, u32)>) ->
         |of: fn(&MarkedCorner) -> f64| corners.iter().map(of).sum::<f64>() / corners.len() as f64;
     let (fields, covered) = covered(corners, (width, height));
     let content = format!(
-        "<div class=\"plane\">{}{}{}</div><p class=\"note\">All {} corners of the captures that are used. Left: where they \
+        "<div class=\"plane\">{}{}{}</div><p class=\"note\">All {} corners of the used captures. Left: where they \
          lie in the image of {width:.0} x {height:.0} pixels; distortion is known only where there are corners. Middle and \
          right: found minus predicted, from the target's own pose in each image; the rings are one and two times the RMS \
-         of {rms:.3} px per axis, the mean is ({:.3}, {:.3}) px, the curve is that of a normal distribution.</p>",
+         of {rms:.3} px per axis, the mean is ({:+.3}, {:+.3}) px, the curve is that of a normal distribution.</p>",
         coverage(&shown, (width, height), &fields, covered),
         scatter(&shown, rms),
         histogram(corners, rms),
