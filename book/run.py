@@ -16,6 +16,7 @@ Blocks of a page run in order, in one fresh folder:
     ```rust             compiled and run by rustdoc, against the library that lies beside the program
     ```toml             a manifest, or a part of one: the program must know every key
     ```json             must be JSON
+    ```math             a formula in LaTeX; $`x`$ within a line
     ``` ... file=NAME   is written into the page's folder under that name
     ``` ... norun       is neither run nor parsed
 
@@ -23,8 +24,8 @@ Blocks of a page run in order, in one fresh folder:
     ...
     -->
 
-Beside that: links between pages, pages missing in SUMMARY.md, and warning codes of the program that the
-page of codes does not explain.
+Beside that: links between pages, pages missing in SUMMARY.md, warning codes of the program that the page of
+codes does not explain, and DOIs that references.bib and the page of references do not both have.
 """
 
 import argparse
@@ -38,6 +39,7 @@ import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from urllib.parse import unquote
 
 BOOK = Path(__file__).resolve().parent
 ROOT = BOOK.parent
@@ -173,7 +175,7 @@ class Page:
             except ValueError as error:
                 self.problem(block.line, f"no JSON: {error}")
             return
-        elif block.language in ("text", "rust", "csv", "cpp", "ini", "xml", "yaml", ""):
+        elif block.language in ("text", "math", "rust", "csv", "cpp", "ini", "xml", "yaml", "bibtex", ""):
             return
         else:
             return self.problem(block.line, f"blocks of {block.language!r} are not known")
@@ -334,6 +336,19 @@ def links():
     return problems
 
 
+def references():
+    """DOIs of the pages that references.bib does not have, and its DOIs that the page of references does not show."""
+    known = re.findall(r"^\s*doi\s*=\s*\{(.+)\},?$", (SOURCE / "references.bib").read_text(encoding="utf-8"), re.MULTILINE)
+    problems = []
+    for page in sorted(SOURCE.rglob("*.md")):
+        name, text = page.relative_to(SOURCE), page.read_text(encoding="utf-8")
+        linked = {unquote(doi) for doi in re.findall(r"\]\(https://doi\.org/([^)\s]+)\)", text)}
+        problems += [f"{name}: not in references.bib: {doi}" for doi in sorted(linked - set(known))]
+        if page == SOURCE / "references.md":
+            problems += [f"{name}: the DOI {doi} of references.bib is missing" for doi in known if doi not in linked]
+    return problems
+
+
 def keys_of_the_manifest():
     """Keys of the schema that neither the page of the manifest nor that of joint values names."""
     page, joints = SOURCE / "files" / "manifest.md", SOURCE / "robots" / "joints.md"
@@ -399,7 +414,7 @@ def main():
         pages = list(pool.map(Page.run, [Page(p, program) for p in wanted]))
     problems = [problem for page in pages for problem in page.problems]
     if not args.pages:
-        problems += links() + codes()
+        problems += links() + codes() + references()
     if args.write:
         for page in pages:
             page.write()

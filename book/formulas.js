@@ -1,0 +1,44 @@
+// Formulas: a code span between dollar signs, $`R_X`$, and a block of the language `math` are LaTeX. KaTeX lies
+// beside the pages and is loaded where a page has formulas. Where it cannot be loaded, the LaTeX stays.
+(function () {
+    "use strict";
+    const spans = Array.from(document.querySelectorAll("main code")).filter(function (code) {
+        const before = code.previousSibling, after = code.nextSibling;
+        return code.parentElement.tagName !== "PRE" && before && after
+            && before.nodeType === Node.TEXT_NODE && before.data.endsWith("$")
+            && after.nodeType === Node.TEXT_NODE && after.data.startsWith("$");
+    });
+    const blocks = Array.from(document.querySelectorAll("main pre > code.language-math"));
+    if (spans.length + blocks.length === 0) {
+        return;
+    }
+
+    function render(latex, place, displayMode) {
+        katex.render(latex, place, { displayMode, throwOnError: false, strict: "error" });
+    }
+
+    function renderAll() {
+        for (const code of spans) {
+            const place = document.createElement("span");
+            render(code.textContent, place, false);
+            code.previousSibling.data = code.previousSibling.data.slice(0, -1);
+            code.nextSibling.data = code.nextSibling.data.slice(1);
+            code.replaceWith(place);
+        }
+        for (const code of blocks) {
+            const place = document.createElement("div");
+            place.className = "formula";
+            place.tabIndex = 0; // a wide one is scrolled by keys as well
+            render(code.textContent, place, true);
+            code.parentElement.replaceWith(place);
+        }
+    }
+
+    const style = document.createElement("link");
+    style.rel = "stylesheet";
+    style.href = path_to_root + "katex/katex.min.css";
+    const script = document.createElement("script");
+    script.src = path_to_root + "katex/katex.min.js";
+    script.onload = renderAll;
+    document.head.append(style, script);
+})();
