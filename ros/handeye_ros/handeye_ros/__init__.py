@@ -1,0 +1,1 @@
+"""Hand-eye calibration of ROS bags by the program handeye."""
