@@ -7,7 +7,7 @@ setup(
     version='0.1.0',
     description='Hand-eye calibration of a ROS bag by the program handeye',
     maintainer='The handeye authors',
-    maintainer_email='handeye@localhost',
+    maintainer_email='handeye@example.org',
     license='MIT OR Apache-2.0',
     packages=[NAME],
     data_files=[
@@ -16,6 +16,7 @@ setup(
         ('share/' + NAME + '/launch', ['launch/calibration.launch.py']),
     ],
     install_requires=['setuptools'],
+    extras_require={'test': ['pytest']},
     zip_safe=True,
     entry_points={'console_scripts': ['calibrate = handeye_ros.calibrate:main']},
 )
