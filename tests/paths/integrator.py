@@ -31,6 +31,8 @@ ANSWERS = {
     "direction": ["base_from_flange"],
     "frame": ["flange"],
 }
+# what the program may find in the images by itself
+FROM_IMAGES = {"kind", "columns", "rows"}
 PROMPT = re.compile(r"(\w+) \(such as [^\n]*> $")
 SLOW = 30  # seconds until a prompt is missing
 
@@ -75,8 +77,8 @@ def answer_on_terminal(words, answers):
             os.write(ours, ((typed.pop(0) if typed else "") + "\n").encode())
     os.close(ours)
     holds(child.wait() == 0, f"exit code of handeye {' '.join(words)} is 0", screen)
-    unasked = [key for key, values in left.items() if values]
-    holds(not unasked, "every answer was asked for", f"{screen}\nnot asked: {unasked}")
+    unasked = [key for key, values in left.items() if values and key not in FROM_IMAGES]
+    holds(not unasked, "every answer was asked for that images and table cannot give", f"{screen}\nnot asked: {unasked}")
     return screen
 
 
@@ -99,7 +101,7 @@ def main():
     holds("next: handeye check cell" in screen, "the next command is named", screen)
     manifest = pathlib.Path("cell/handeye.toml").read_text()
     holds("# QUESTION" not in manifest, "no question is left open in the manifest", manifest)
-    for line in ['setup = "eye-in-hand"', "square_mm = 30.0", 'notation = "kuka"', 'length_unit = "mm"']:
+    for line in ['setup = "eye-in-hand"', "columns = 9", "rows = 6", "square_mm = 30.0", 'notation = "kuka"', 'length_unit = "mm"']:
         holds(line in manifest, f"the manifest has {line}", manifest)
 
     print("3. check")
