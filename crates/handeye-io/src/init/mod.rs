@@ -1,5 +1,6 @@
 //! A first manifest for a folder: what its files prove is filled in, the rest is asked.
 
+mod board;
 mod fields;
 mod groups;
 mod kind;

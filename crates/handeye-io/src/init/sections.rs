@@ -5,7 +5,7 @@ use std::path::Path;
 use handeye::TargetModel;
 
 use super::{
-    Known,
+    Known, board,
     groups::Group,
     kind::{self, Kind, Notation, Touches},
     robot,
@@ -41,7 +41,7 @@ pub(super) fn draft(kinds: &Kinds, folder: &Path, known: &Known) -> Draft {
     let placements = touched.map_or(vec![], |(_, t)| t.placements.clone());
     let captures = captures(kinds, &placements);
     if seen {
-        target(kinds, known, &mut draft);
+        target(kinds, folder, &placements, known, &mut draft);
         camera(kinds, &mut draft);
     }
     robot::robot(kinds, captures, known, &mut draft);
@@ -94,17 +94,21 @@ fn files(key: &str, groups: &[&Group], draft: &mut Draft) -> Option<String> {
 
 // ---------------------------------------------------------------- target, camera
 
-fn target(kinds: &Kinds, known: &Known, draft: &mut Draft) {
+fn target(kinds: &Kinds, folder: &Path, placements: &[String], known: &Known, draft: &mut Draft) {
     if let Some(target) = &known.target {
         return draft.set_target(target.clone());
     }
-    let known: Vec<(&Group, &TargetModel)> = kinds
+    let said: Vec<(&Group, &TargetModel)> = kinds
         .iter()
         .filter_map(|(g, k)| if let Kind::Target(t) = k { Some((g, t)) } else { None })
         .collect();
-    if let [(group, target)] = known[..] {
+    if let [(group, target)] = said[..] {
         draft.set_target(target.clone());
         return draft.note("target.kind", format!("as {} says", group.pattern));
+    }
+    let pictures = of_kind(kinds, placements, |k| matches!(k, Kind::Pictures));
+    if let Some(seen) = pictures.first().and_then(|group| board::seen(group, folder)) {
+        return board::propose(&seen, draft);
     }
     draft.set_target(EXAMPLE_TARGET);
     draft.ask(

@@ -22,6 +22,7 @@ mod outcome;
 mod partial;
 pub(crate) mod planar_pose;
 mod pyramid;
+mod recognise;
 pub mod residuals;
 mod saturated;
 mod several;
@@ -40,6 +41,7 @@ pub use planar_pose::{
     PosedTarget, target_poses, target_poses_with, typical_excess, with_symmetries,
 };
 pub(crate) use planar_pose::{relabelled, symmetry_turn, typical_excess_near};
+pub use recognise::{Recognised, recognise};
 pub use several::detect_several;
 pub(crate) use sight::{Sight, sighted};
 pub use surface::{Missing, lift};

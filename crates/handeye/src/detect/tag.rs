@@ -217,6 +217,28 @@ impl<'a> Levels<'a> {
         Self { all: Scaled::halves(image, small).collect() }
     }
 
+    /// The markers that are read without a wrong bit, in any of the images, for each way of printing; px of the
+    /// original. All ways touch other squares, or none does.
+    pub fn read_each(&self, prints: &[Print]) -> Vec<Vec<SeenTag>> {
+        let Some(touching) = prints.first().map(|print| print.touching) else { return vec![] };
+        let cell = if touching { LEAST_TOUCHING_CELL_PX } else { LEAST_CELL_PX };
+        let fewest = prints.iter().map(Print::cells).min().unwrap_or(0);
+        let mut all: Vec<Vec<SeenTag>> = prints.iter().map(|_| vec![]).collect();
+        for level in (0..self.all.len()).map(|at| Level { levels: self, at }) {
+            let found = quads(level.image(), cell * fewest as f64, touching);
+            for (print, seen) in prints.iter().zip(&mut all) {
+                let ids = 0..print.dictionary.len() as u32;
+                let read =
+                    found.iter().filter_map(|quad| print.read(level.image(), quad, ids.clone()));
+                let right = read.filter(|tag| tag.errors == 0);
+                seen.extend(
+                    right.map(|tag| SeenTag { quad: level.approached(&tag.quad, print), ..tag }),
+                );
+            }
+        }
+        all.iter().map(|seen| without_copies(seen)).collect()
+    }
+
     /// What is found first: in the smallest image, or else in a larger one, or else with the
     /// images smoothed and stretched, where patches are looked for in the second image.
     pub fn search<T>(&self, mut find: impl FnMut(&Level, &GrayImage) -> Option<T>) -> Option<T> {
@@ -311,6 +333,21 @@ fn nearer(quad: &Quad, levels: &[Scaled], print: &Print) -> Quad {
         near.map_or(quad, |near| near.each_ref().map(|p| level.original(p)))
     };
     levels.iter().fold(*quad, step)
+}
+
+/// Each tag once where several patches show it; the best come first.
+pub(super) fn without_copies(seen: &[SeenTag]) -> Vec<SeenTag> {
+    let mut kept: Vec<SeenTag> = vec![];
+    for tag in seen {
+        let centre = |tag: &SeenTag| tag.quad.iter().sum::<Vector2<f64>>() / 4.0;
+        let copy = |other: &SeenTag| {
+            other.id == tag.id && (centre(other) - centre(tag)).norm_squared() < 0.25 * tag.area()
+        };
+        if !kept.iter().any(copy) {
+            kept.push(*tag);
+        }
+    }
+    kept
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::{
     fits::sorted,
     homography,
-    tag::{Level, Levels, Print, Quad, SeenTag},
+    tag::{Level, Levels, Print, Quad, SeenTag, without_copies},
     view::{Sighting, View},
 };
 use crate::{
@@ -336,21 +336,6 @@ impl<'a> Board<'a> {
         let worst = tags.values().map(off).max_by(|a, b| a.0.total_cmp(&b.0))?;
         (!(worst.0 < IN_PLACE)).then_some(worst.1)
     }
-}
-
-/// Each tag once where several patches show it; the best come first.
-fn without_copies(seen: &[SeenTag]) -> Vec<SeenTag> {
-    let mut kept: Vec<SeenTag> = vec![];
-    for tag in seen {
-        let centre = |tag: &SeenTag| tag.quad.iter().sum::<Vector2<f64>>() / 4.0;
-        let copy = |other: &SeenTag| {
-            other.id == tag.id && (centre(other) - centre(tag)).norm_squared() < 0.25 * tag.area()
-        };
-        if !kept.iter().any(copy) {
-            kept.push(*tag);
-        }
-    }
-    kept
 }
 
 #[cfg(test)]
