@@ -25,18 +25,19 @@ if words[0] == 'export':
 sys.exit({codes!r}.get(words[0], 0))
 """
 CAMERA_LINK = {'name': 'camera_link', 'body_from_camera': {}}
-RESULT = {'setup': 'eye-in-hand', 'frames': {'mount': 'tool0', 'camera': 'optical', 'bodies': [CAMERA_LINK]}}
+RESULT = {'frames': {'mount': 'tool0', 'camera': 'optical', 'bodies': [CAMERA_LINK]}}
 OPTIONS = ['--target', 'board.toml', '--setup', 'eye-in-hand', '--base', 'base_link', '--flange', 'tool0']
 
 
 @pytest.fixture
 def fake(tmp_path, monkeypatch):
-    """Puts a fake program in place; calls(codes) makes it, and returns a list of its calls so far."""
+    """fake(setup, step=exit code) puts a fake program in place; what it returns lists the calls so far."""
     log = tmp_path / 'log'
 
-    def make(**codes):
+    def make(setup='eye-in-hand', **codes):
         path = tmp_path / 'fake-handeye'
-        path.write_text(FAKE.format(python=sys.executable, log=str(log), result=json.dumps(RESULT), codes=codes))
+        result = json.dumps({**RESULT, 'setup': setup})
+        path.write_text(FAKE.format(python=sys.executable, log=str(log), result=result, codes=codes))
         path.chmod(0o755)
         monkeypatch.setenv('HANDEYE', str(path))
         monkeypatch.chdir(tmp_path)
@@ -57,6 +58,12 @@ def test_a_bag_becomes_captures_then_a_result_then_a_launch_file(fake, capsys):
     printed = capsys.readouterr().out
     assert f'result:={os.getcwd()}/result\n' in printed
     assert 'give child:=camera_link' in printed
+
+
+def test_of_a_camera_beside_the_robot_the_parent_is_the_base(fake):
+    fake(setup='eye-to-hand')
+    assert calibrate.main(['session', *OPTIONS]) == 0
+    assert Path('result/base_from_camera.launch.py').exists()
 
 
 def test_frames_go_to_the_export(fake, capsys):
