@@ -14,6 +14,7 @@ trap 'rm -rf "$work"' EXIT
 
 # HANDEYE is what handeye_ros takes as the program; the paths take the one beside their Python
 program=$(dirname "$python")/handeye
+"$program" --version
 unset HANDEYE HANDEYE_ROS_INSTALL HANDEYE_ROS_PYTHON
 
 pip_install() { "$tools/bin/pip" install -q --disable-pip-version-check -r "$1" 2>"$work/pip.log"; }
