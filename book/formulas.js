@@ -13,22 +13,35 @@
         return;
     }
 
+    // what KaTeX cannot read stays as it is written, and the console says why
     function render(latex, place, displayMode) {
-        katex.render(latex, place, { displayMode, throwOnError: false, strict: "error" });
+        try {
+            katex.render(latex, place, { displayMode, strict: "error" });
+        } catch (error) {
+            console.error(String(error));
+            place.textContent = latex;
+            place.classList.add("katex-error");
+        }
     }
 
     function renderAll() {
         for (const code of spans) {
-            const place = document.createElement("span");
-            render(code.textContent, place, false);
+            const place = document.createElement("span"), formula = document.createElement("span");
+            render(code.textContent, formula, false);
+            place.append(formula);
             code.previousSibling.data = code.previousSibling.data.slice(0, -1);
             code.nextSibling.data = code.nextSibling.data.slice(1);
+            const mark = /^[.,;:)]+/.exec(code.nextSibling.data);
+            if (mark) { // no line begins with the mark behind a formula
+                code.nextSibling.data = code.nextSibling.data.slice(mark[0].length);
+                place.append(mark[0]);
+                place.style.whiteSpace = "nowrap";
+            }
             code.replaceWith(place);
         }
         for (const code of blocks) {
             const place = document.createElement("div");
             place.className = "formula";
-            place.tabIndex = 0; // a wide one is scrolled by keys as well
             render(code.textContent, place, true);
             code.parentElement.replaceWith(place);
         }

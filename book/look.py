@@ -4,8 +4,8 @@
     book/look.py [FOLDER]       the built book [target/book]
 
 On every page with formulas, and on some others: all formulas are rendered, and none with an error; each output below a
-command is marked as one and has no button to copy it; nothing is wider than a phone. The search finds "Shah". No script
-fails, and nothing is loaded from elsewhere.
+command is marked as one and has no button to copy it; no page and no formula is wider than a phone. The search finds
+"Shah". No script fails, and nothing is loaded from elsewhere.
 """
 
 import json
@@ -38,11 +38,11 @@ SHOWN = """(async () => {
     const copied = outputs.filter((pre) => Array.from(pre.querySelectorAll("button")).some((b) => b.offsetParent));
     return {
         formulas: main.querySelectorAll(".katex").length,
-        errors: Array.from(main.querySelectorAll(".katex-error"), (e) => e.title),
+        errors: Array.from(main.querySelectorAll(".katex-error"), (e) => e.textContent),
         unseen: Array.from(main.querySelectorAll(".katex-html")).filter((e) => !e.getClientRects().length).length,
         outputs: outputs.length,
         copied: copied.length,
-        wide: document.querySelector(".content").scrollWidth - document.querySelector(".content").clientWidth,
+        wide: Math.max(...Array.from(document.querySelectorAll(".content, .formula"), (e) => e.scrollWidth - e.clientWidth)),
     };
 })()"""
 
