@@ -7,7 +7,7 @@ use handeye::{Calibration, Config, Method, solve::Form};
 use handeye_io::{
     PosesFile,
     calibrate::{made_from_file, write_run},
-    is_pairs_table, read_pairs_table, read_poses,
+    is_pairs_table, read_motions_table, read_pairs_table, read_poses,
     report::calibration_html,
 };
 
@@ -55,19 +55,27 @@ time_offset_s):\n\
 \x20  \"robot\":  [{\"time_s\": 0.00, \"base_from_flange\": {...}}, ...],\n\
 \x20  \"camera\": [{\"time_s\": 0.01, \"camera_from_target\": {...}}, ...]\n\
 \n\
+or relative motions, A X = X B, of what carries the camera (eye-in-hand flange1_from_flange2, eye-to-hand \
+base_from_flange1 flange2_from_base) and of the camera (camera_from_target1 target_from_camera2); the answer is \
+judged `distance_m` (0.5) in front of it:\n\
+\x20  \"motions\": [{\"A\": {...}, \"B\": {...}}, ...]\n\
+\n\
 Set `\"unknown_scale\": true` if the target distances have an unknown common scale (measured = \
 scale * metric). Set `\"noise\": {\"robot_rotation_deg\": ..., \"robot_position_mm\": ...}` if you \
 know the standard deviations of the robot, per axis.\n\
 \n\
 CSV, NPY and NPZ need --setup. A line of a CSV: base_from_flange and camera_from_target, each as \
 x y z (m) and quaternion x y z w, or as the 16 numbers of a matrix, row by row; an id may come \
-first. NPY: N x 2 x 4 x 4; NPZ: two arrays of N x 4 x 4 with these names.")]
+first. NPY: N x 2 x 4 x 4; NPZ: two arrays of N x 4 x 4 with these names. With --motions they hold A and B.")]
 pub struct SolveArgs {
-    /// JSON file with `setup` and `pairs`, or `robot` and `camera`; or CSV, NPY or NPZ with pairs.
+    /// JSON file with `setup` and `pairs`, `motions`, or `robot` and `camera`; or CSV, NPY or NPZ with pairs.
     pub pairs: PathBuf,
     /// Where the camera is mounted, for CSV, NPY and NPZ.
     #[arg(long, value_enum)]
     pub setup: Option<SetupArg>,
+    /// CSV, NPY and NPZ hold relative motions A and B of A X = X B, not poses.
+    #[arg(long)]
+    pub motions: bool,
     /// Run published methods as published, by their names.
     #[arg(long, value_delimiter = ',', help = published_methods())]
     pub method: Vec<String>,
@@ -110,7 +118,13 @@ pub fn run(args: &SolveArgs, global: &GlobalArgs) -> Result<u8, Failure> {
 
 /// JSON says of its setup itself; tables and arrays cannot.
 fn read(args: &SolveArgs) -> Result<PosesFile, Failure> {
-    match (is_pairs_table(&args.pairs), args.setup) {
+    let is_table = is_pairs_table(&args.pairs);
+    if args.motions && !is_table {
+        let what = "--motions is for CSV, TXT, NPY and NPZ; a JSON file has `motions`";
+        return Err(Failure::Usage(what.into()));
+    }
+    match (is_table, args.setup) {
+        (true, Some(setup)) if args.motions => Ok(read_motions_table(&args.pairs, setup.into())?),
         (true, Some(setup)) => Ok(read_pairs_table(&args.pairs, setup.into())?),
         (true, None) => {
             let what =

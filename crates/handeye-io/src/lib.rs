@@ -62,7 +62,7 @@ pub use import::{Declared, Direction, Imported, import};
 pub use init::{FirstManifest, Known, first_manifest};
 pub use mesh::{is_mesh, points_on, read_mesh, spacing_on};
 pub use pairs_file::{MeasuredPoses, PosesFile, poses_from_json, read_poses};
-pub use pairs_table::{is_pairs_table, read_pairs_table};
+pub use pairs_table::{is_pairs_table, read_motions_table, read_pairs_table};
 pub use problem::Problem;
 pub use registration::{FoundPlace, RegistrationResult, Transform};
 pub use result_file::{pose_file, read_result};

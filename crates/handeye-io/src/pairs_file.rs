@@ -1,10 +1,11 @@
-//! Poses of robot and target as JSON: pairs, or two streams.
+//! Poses of robot and target as JSON: pairs, motions, or two streams.
 
 use std::{collections::HashSet, path::Path};
 
 use handeye::{
-    Base, Calibration, Camera, Config, Flange, Frame, Observation, Pose, Session, Setup, Stamped,
-    Streams, Target, calibrate, estimate::KnownNoise, solve::FEWEST_POSES,
+    Base, Calibration, Camera, Config, Flange, Frame, Mount, Observation, Pose, RelativeMotion,
+    Session, Setup, Stamped, Streams, Target, calibrate, estimate::KnownNoise,
+    model::relative::START, solve::FEWEST_POSES,
 };
 use serde::{
     Deserialize, Deserializer,
@@ -21,7 +22,7 @@ use crate::{
 /// What was measured.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MeasuredPoses {
-    /// Both at the same moments.
+    /// Both at the same moments; motions become such pairs.
     Pairs(Box<Session>),
     /// Each by its own clock.
     Streams(Streams),
@@ -57,6 +58,8 @@ impl PosesFile {
 struct Document {
     setup: Setup,
     pairs: Option<Vec<Pair>>,
+    motions: Option<Vec<MotionEntry>>,
+    distance_m: Option<f64>,
     robot: Option<Vec<RobotSample>>,
     camera: Option<Vec<CameraSample>>,
     #[serde(default)]
@@ -77,6 +80,17 @@ struct Pair {
     base_from_flange: Pose<Base, Flange>,
     #[serde(deserialize_with = "of_target")]
     camera_from_target: Pose<Camera, Target>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object with `A`, `B` and perhaps `id`")]
+struct MotionEntry {
+    #[serde(default)]
+    id: Option<String>,
+    #[serde(rename = "A", deserialize_with = "of_mount")]
+    mount: Pose<Mount, Mount>,
+    #[serde(rename = "B", deserialize_with = "of_camera")]
+    camera: Pose<Camera, Camera>,
 }
 
 #[derive(Deserialize)]
@@ -104,6 +118,14 @@ fn of_robot<'de, D: Deserializer<'de>>(d: D) -> Result<Pose<Base, Flange>, D::Er
 
 fn of_target<'de, D: Deserializer<'de>>(d: D) -> Result<Pose<Camera, Target>, D::Error> {
     within(d, MOST_SCALE, "camera")
+}
+
+fn of_mount<'de, D: Deserializer<'de>>(d: D) -> Result<Pose<Mount, Mount>, D::Error> {
+    within(d, 1.0, "robot")
+}
+
+fn of_camera<'de, D: Deserializer<'de>>(d: D) -> Result<Pose<Camera, Camera>, D::Error> {
+    within(d, 1.0, "camera")
 }
 
 /// A pose that is not beyond any robot or camera.
@@ -148,6 +170,27 @@ pub fn poses_from_json(text: &str, path: &Path) -> Result<PosesFile, Error> {
     let document: Document = serde_json::from_str(text).map_err(|e| broken(path, text, &e))?;
     let noise = noise(document.noise, path)?;
     let (unknown_scale, setup) = (document.unknown_scale, document.setup);
+    if document.distance_m.is_some() && document.motions.is_none() {
+        return Err(unusable(
+            path,
+            "`distance_m` goes with `motions`: of pairs the target is where it was seen",
+        ));
+    }
+    if let Some(motions) = document.motions {
+        let with =
+            document.pairs.is_some() || document.robot.is_some() || document.camera.is_some();
+        if with || unknown_scale {
+            let what = "`motions` stand alone, without `pairs`, streams and `unknown_scale`";
+            return Err(unusable(path, what));
+        }
+        let motions = motions.into_iter().enumerate().map(|(k, m)| RelativeMotion {
+            id: m.id.unwrap_or_else(|| (k + 1).to_string()),
+            mount_motion: m.mount,
+            camera_motion: m.camera,
+        });
+        let session = of_motions(setup, motions.collect(), document.distance_m, path)?;
+        return Ok(PosesFile { measured: MeasuredPoses::Pairs(Box::new(session)), noise });
+    }
     let measured = match (document.pairs, document.robot, document.camera) {
         (Some(pairs), None, None) if pairs.is_empty() => {
             let what = format!("`pairs` is empty: at least {FEWEST_POSES} are needed, {MORE}");
@@ -167,7 +210,7 @@ pub fn poses_from_json(text: &str, path: &Path) -> Result<PosesFile, Error> {
             MeasuredPoses::Streams(streams(setup, robot, camera, unknown_scale))
         }
         (None, None, None) => {
-            let what = "neither `pairs` nor the streams `robot` and `camera`: give one or the other; \
+            let what = "neither `pairs`, nor `motions`, nor the streams `robot` and `camera`: give one of them; \
                         `handeye solve --help` shows both";
             return Err(unusable(path, what));
         }
@@ -239,7 +282,7 @@ fn broken(path: &Path, text: &str, error: &serde_json::Error) -> Error {
 }
 
 /// What is wrong with a file that holds a list, a number or the like.
-const NO_OBJECT: &str = "the file must hold one JSON object, with `setup` and either `pairs`, or \
+const NO_OBJECT: &str = "the file must hold one JSON object, with `setup` and either `pairs`, or `motions`, or \
                          `robot` and `camera`; `handeye solve --help` shows both";
 
 /// What to do about text that is no JSON.
@@ -264,7 +307,8 @@ fn broken_element(whole: &Value, error: &serde_json::Error) -> Option<Element> {
         T::deserialize(value).err().map(|e| e.to_string())
     }
     type Own = fn(&Value) -> Option<String>;
-    let lists: [(&str, &'static str, Own); 3] = [
+    let lists: [(&str, &'static str, Own); 4] = [
+        ("motions", "motion", of::<MotionEntry>),
         ("pairs", "pair", of::<Pair>),
         ("robot", "robot sample", of::<RobotSample>),
         ("camera", "camera sample", of::<CameraSample>),
@@ -278,6 +322,36 @@ fn broken_element(whole: &Value, error: &serde_json::Error) -> Option<Element> {
         };
         error.to_string().starts_with(&message).then_some(Element { kind, number: k + 1, id })
     })
+}
+
+/// The session of motions, in a file that names them.
+pub(crate) fn of_motions(
+    setup: Setup,
+    motions: Vec<RelativeMotion>,
+    distance_m: Option<f64>,
+    path: &Path,
+) -> Result<Session, Error> {
+    let distance_m = distance_m.unwrap_or(RelativeMotion::DISTANCE_M);
+    if !(distance_m.is_finite() && distance_m > 0.0) {
+        return Err(unusable(
+            path,
+            "`distance_m` must be positive: how far in front of the camera the work is",
+        ));
+    }
+    let mut seen = HashSet::from([START]);
+    for (k, motion) in motions.iter().enumerate() {
+        if !seen.insert(&motion.id) {
+            let what = match motion.id == START {
+                true => format!(
+                    "motion {}: the id {START:?} is that of the pose from which all begin",
+                    k + 1
+                ),
+                false => format!("motion {}: the id {:?} is there twice", k + 1, motion.id),
+            };
+            return Err(unusable(path, what).in_capture(&motion.id));
+        }
+    }
+    Ok(Session::of_motions(setup, motions, distance_m))
 }
 
 fn session(

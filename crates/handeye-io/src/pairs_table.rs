@@ -1,18 +1,20 @@
 //! Pairs of poses in tables and arrays: what a spreadsheet, NumPy or MATLAB saves.
 //!
 //! A record holds `base_from_flange` and `camera_from_target`, each as a position (m) and a quaternion x y z w, or as a
-//! matrix of 4 x 4, row by row. An archive holds two arrays with these names.
+//! matrix of 4 x 4, row by row. An archive holds two arrays with these names. Relative motions are written alike: `A`
+//! and `B`.
 
 use std::path::Path;
 
 use handeye::{
-    Base, Camera, Flange, Observation, Pose, Session, Setup, Target, estimate::KnownNoise,
+    Base, Camera, Flange, Mount, Observation, Pose, RelativeMotion, Session, Setup, Target,
+    estimate::KnownNoise,
 };
 
 use crate::{
     error::{Error, malformed, unusable},
     files,
-    pairs_file::{MeasuredPoses, PosesFile},
+    pairs_file::{MeasuredPoses, PosesFile, of_motions},
     robot::Notation,
     table::{self, Cell, Layout, Record, is_id_name, plain},
     units::{farthest, too_far},
@@ -20,6 +22,8 @@ use crate::{
 
 /// What the two poses of a record are called.
 const NAMES: [&str; 2] = ["base_from_flange", "camera_from_target"];
+/// The same of two motions.
+const MOTIONS: [&str; 2] = ["A", "B"];
 
 /// Whether a file holds pairs as [`read_pairs_table`] reads them, by its name; a text that begins as JSON does not.
 pub fn is_pairs_table(path: &Path) -> bool {
@@ -35,10 +39,7 @@ pub fn is_pairs_table(path: &Path) -> bool {
 /// # Errors
 /// Files that cannot be read, numbers that are no poses, ids that are there twice; with the line or row.
 pub fn read_pairs_table(path: &Path, setup: Setup) -> Result<PosesFile, Error> {
-    let [robot, camera] = match files::extension(path).as_str() {
-        "npz" => apart(path)?,
-        _ => halves(table::records(path, &Layout::default())?)?,
-    };
+    let [robot, camera] = both(path, NAMES)?;
     let mut seen = std::collections::HashSet::new();
     let mut observations = vec![];
     for (k, (robot, camera)) in robot.iter().zip(&camera).enumerate() {
@@ -60,17 +61,46 @@ pub fn read_pairs_table(path: &Path, setup: Setup) -> Result<PosesFile, Error> {
     })
 }
 
+/// Reads relative motions from such a file: `A`, what carries the camera, and `B`, the camera.
+///
+/// # Errors
+/// As [`read_pairs_table`].
+pub fn read_motions_table(path: &Path, setup: Setup) -> Result<PosesFile, Error> {
+    let [mounts, cameras] = both(path, MOTIONS)?;
+    let motion = |(k, (a, b)): (usize, (&Record, &Record))| {
+        let mount_motion: Pose<Mount, Mount> = pose(a, MOTIONS[0])?;
+        let camera_motion: Pose<Camera, Camera> = pose(b, MOTIONS[1])?;
+        let id = a.id.clone().unwrap_or_else(|| (k + 1).to_string());
+        Ok(RelativeMotion { id, mount_motion, camera_motion })
+    };
+    let motions: Result<Vec<_>, Error> =
+        mounts.iter().zip(&cameras).enumerate().map(motion).collect();
+    let session = of_motions(setup, motions?, None, path)?;
+    Ok(PosesFile {
+        measured: MeasuredPoses::Pairs(Box::new(session)),
+        noise: KnownNoise::default(),
+    })
+}
+
+/// The first and the second poses of all records.
+fn both(path: &Path, names: [&str; 2]) -> Result<[Vec<Record>; 2], Error> {
+    match files::extension(path).as_str() {
+        "npz" => apart(path, names),
+        _ => halves(table::records(path, &Layout::default())?),
+    }
+}
+
 /// The two arrays of an archive.
-fn apart(path: &Path) -> Result<[Vec<Record>; 2], Error> {
+fn apart(path: &Path, names: [&str; 2]) -> Result<[Vec<Record>; 2], Error> {
     let read = |name: &str| {
         table::records(path, &Layout { fields: vec![name.into()], ..Layout::default() })
     };
-    let [robot, camera] = [read(NAMES[0])?, read(NAMES[1])?];
+    let [robot, camera] = [read(names[0])?, read(names[1])?];
     if robot.len() == camera.len() {
         return Ok([robot, camera]);
     }
     let what =
-        format!("holds {} poses of the robot but {} of the target", robot.len(), camera.len());
+        format!("holds {} of {} but {} of {}", robot.len(), names[0], camera.len(), names[1]);
     Err(unusable(path, format!("{what}: each pair needs both")))
 }
 

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use handeye::{
-    Base, Calibration, Config, Flange, Observation, Pose, Session, Stamped, Streams,
-    estimate::noise::KnownNoise, model::session::KnownPosition,
+    Base, Calibration, Config, Flange, Observation, Pose, RelativeMotion, Session, Stamped,
+    Streams, estimate::noise::KnownNoise, model::session::KnownPosition,
 };
 use handeye_io::{
     Dataset,
@@ -141,7 +141,7 @@ fn known_position((axis, value_mm, sigma_mm): Known) -> PyResult<KnownPosition> 
 
 /// From poses of the same moments.
 #[pyfunction]
-#[pyo3(signature = (setup_name, base_from_flange, camera_from_target, *, ids, method_name=None, robot_rotation_deg=None, robot_position_mm=None, unknown_scale=false, known=None))]
+#[pyo3(signature = (setup_name, base_from_flange, camera_from_target, *, ids, method_name=None, robot_rotation_deg=None, robot_position_mm=None, unknown_scale=false, known=None, motions_m=None))]
 #[allow(clippy::too_many_arguments, reason = "each is one of Python's keywords")]
 pub fn solve(
     py: Python<'_>,
@@ -154,18 +154,29 @@ pub fn solve(
     robot_position_mm: Option<f64>,
     unknown_scale: bool,
     known: Option<Known>,
+    motions_m: Option<f64>,
 ) -> PyResult<Calibrated> {
     let robot = arrays::poses(base_from_flange, "base_from_flange")?;
     let camera = arrays::poses(camera_from_target, "camera_from_target")?;
     same_length(robot.len(), camera.len())?;
     check_ids(&ids, robot.len())?;
     let poses = ids.into_iter().zip(robot).zip(camera);
-    let observation = |((id, (r, t)), (q, s)): ((String, (_, _)), (_, _))| {
-        Observation::bare(id, Pose::from_parts(&r, t), Pose::from_parts(&q, s))
+    let setup = setup(setup_name)?;
+    let mut session = if let Some(distance_m) = motions_m {
+        let motion = |((id, (r, t)), (q, s)): ((String, (_, _)), (_, _))| RelativeMotion {
+            id,
+            mount_motion: Pose::from_parts(&r, t),
+            camera_motion: Pose::from_parts(&q, s),
+        };
+        Session::of_motions(setup, poses.map(motion).collect(), distance_m)
+    } else {
+        let observation = |((id, (r, t)), (q, s)): ((String, (_, _)), (_, _))| {
+            Observation::bare(id, Pose::from_parts(&r, t), Pose::from_parts(&q, s))
+        };
+        let session = Session::of_captures(setup, poses.map(observation).collect());
+        Session { unknown_scale, in_sequence: true, ..session }
     };
-    let mut session = Session::of_captures(setup(setup_name)?, poses.map(observation).collect());
     session.known_position = known.map(known_position).transpose()?;
-    (session.unknown_scale, session.in_sequence) = (unknown_scale, true);
     check_distances(&session)?;
     let config = Config {
         method: method_name.map(method).transpose()?,

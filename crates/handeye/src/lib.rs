@@ -66,6 +66,7 @@ pub use model::observation::{
     Correspondence, HandEye, ImageCorner, Observation, Placement, PosePair, Setup, SurfaceCorner,
     TargetPose, Touch, Workspace,
 };
+pub use model::relative::RelativeMotion;
 pub use model::scan::Scan;
 pub use model::session::{KnownPosition, LensSigma, Motion, Session, Stamped, Streams, TargetSize};
 pub use model::target::TargetModel;

@@ -249,7 +249,7 @@ fn bad_files_are_refused_with_the_place_and_what_to_do() {
         ),
         (text(half), "p.json: the stream `robot` is missing beside the other"),
         (text(both), "p.json: `pairs` and streams: give `pairs`"),
-        (text(json!({ "setup": "eye-in-hand" })), "p.json: neither `pairs` nor the streams"),
+        (text(json!({ "setup": "eye-in-hand" })), "p.json: neither `pairs`, nor `motions`"),
         (text(turned), ": robot sample 3 (time_s 0.02): rotation_xyzw has length 2, not 1"),
         (text(no_time), ": camera sample 2: missing field `time_s` (column "),
         (text(far), ": pair 4: base_from_flange lies 1.0e300 m away, beyond any robot: correct"),
@@ -306,4 +306,73 @@ fn streams_that_do_not_move_end_with_a_verdict() {
     assert!(answer["time_offset_s"].is_null());
     let named = answer["undetermined"].as_array().unwrap();
     assert!(named.contains(&"time offset between camera and robot".into()), "{named:?}");
+}
+
+/// Motions between the moments of a robot that sees the target, each with noise of its own.
+fn motions(setup: &str) -> Vec<(Isometry3<f64>, Isometry3<f64>)> {
+    let x = pose([0.1, -0.2, 1.5], CAMERA);
+    (0..12)
+        .map(|k| f64::from(k) * 1.3)
+        .map(|t| {
+            let (from, to) = (robot(t), robot(t + 0.9));
+            let mount =
+                if setup == "eye-in-hand" { from.inverse() * to } else { from * to.inverse() };
+            let noise = |n: f64| 1e-4 * (t * 1e3 * n + n).sin();
+            let error =
+                pose([noise(1.1), noise(2.3), noise(3.7)], [noise(4.1), noise(5.3), noise(6.7)]);
+            (mount, x.inverse() * mount * x * error)
+        })
+        .collect()
+}
+
+#[test]
+fn relative_motions_are_solved_in_both_setups_from_json_and_tables() {
+    for setup in ["eye-in-hand", "eye-to-hand"] {
+        let folder = Folder::new();
+        let all = motions(setup);
+        let entry = |(a, b): &(_, _)| json!({ "A": stored(a, 1.0), "B": stored(b, 1.0) });
+        let document =
+            json!({ "setup": setup, "motions": all.iter().map(entry).collect::<Vec<_>>() });
+        folder.put("motions.json", &document.to_string());
+        let run = handeye(&folder, &["solve", "motions.json", "--json"]);
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        let answer = run.json();
+        let off = (position(&answer) - Vector3::from(CAMERA)).norm();
+        assert!(off < 1e-3, "{setup}: {off}");
+        assert!(answer["predicted_tre_mm"]["p95"].as_f64().unwrap() < 1.5, "{answer}");
+        let row = |pose: &Isometry3<f64>| {
+            let (t, q) = (pose.translation.vector, pose.rotation.coords);
+            format!("{},{},{},{},{},{},{}", t.x, t.y, t.z, q.x, q.y, q.z, q.w)
+        };
+        let table: Vec<String> =
+            all.iter().map(|(a, b)| format!("{},{}", row(a), row(b))).collect();
+        folder.put("motions.csv", &table.join("\n"));
+        let run =
+            handeye(&folder, &["solve", "motions.csv", "--motions", "--setup", setup, "--json"]);
+        assert!((position(&run.json()) - position(&answer)).norm() < 1e-9, "{}", run.stderr);
+    }
+}
+
+#[test]
+fn motions_that_cannot_be_used_are_named() {
+    let folder = Folder::new();
+    let said = |document: Value| {
+        folder.put("motions.json", &document.to_string());
+        let run = handeye(&folder, &["solve", "motions.json"]);
+        assert_eq!(run.code, 1, "{}", run.stdout);
+        run.stderr
+    };
+    let one = stored(&robot(0.0), 1.0);
+    let setup = "eye-in-hand";
+    let half = said(json!({ "setup": setup, "motions": [{ "A": one }] }));
+    assert!(half.contains("motion 1") && half.contains("`B`"), "{half}");
+    let named = json!({ "id": "start", "A": one, "B": one });
+    let start = said(json!({ "setup": setup, "motions": [named] }));
+    assert!(start.contains("is that of the pose from which all begin"), "{start}");
+    let with = said(json!({ "setup": setup, "motions": [], "pairs": [] }));
+    assert!(with.contains("`motions` stand alone"), "{with}");
+    let near = json!({ "setup": setup, "distance_m": -1.0, "motions": [{ "A": one, "B": one }] });
+    assert!(said(near).contains("`distance_m` must be positive"));
+    let run = handeye(&folder, &["solve", "motions.json", "--motions"]);
+    assert!(run.stderr.contains("a JSON file has `motions`"), "{}", run.stderr);
 }

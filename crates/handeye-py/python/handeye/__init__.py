@@ -21,7 +21,7 @@ from ._core import (
 )
 from ._functions import Corners, Registration, detect, register, simulate
 from ._pose import Pose
-from ._solving import calibrate, closed_form, poses_from, poses_to, solve
+from ._solving import calibrate, closed_form, poses_from, poses_to, solve, solve_motions
 
 # what only errors in files have
 for _name in ("code", "file", "line", "capture"):
@@ -60,6 +60,7 @@ __all__ = [
     "register",
     "simulate",
     "solve",
+    "solve_motions",
     "target",
     "tool_tip",
     "verify",

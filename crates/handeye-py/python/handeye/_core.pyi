@@ -136,6 +136,7 @@ def solve(
     robot_position_mm: Optional[float] = None,
     unknown_scale: bool = False,
     known: Optional[Tuple[Sequence[float], float, float]] = None,
+    motions_m: Optional[float] = None,
 ) -> Calibrated: ...
 def solve_streams(
     setup_name: str,

@@ -236,6 +236,51 @@ def solve(
     )
 
 
+def solve_motions(
+    a: Any,
+    b: Any,
+    *,
+    setup: str,
+    distance_m: float = 0.5,
+    ids: Optional[Sequence[str]] = None,
+    method: Optional[str] = None,
+    robot_rotation_deg: Optional[float] = None,
+    robot_position_mm: Optional[float] = None,
+) -> Calibration:
+    """Hand-eye calibration from relative motions, ``A X = X B``.
+
+    :param a: the motions of what carries the camera, N x 4 x 4 (m): eye-in-hand ``flange1_from_flange2``, eye-to-hand
+        ``base_from_flange1 @ flange2_from_base``.
+    :param b: the camera's, between the same moments: ``camera_from_target1 @ target_from_camera2``.
+    :param setup: ``"eye-in-hand"`` or ``"eye-to-hand"``.
+    :param distance_m: the answer is judged so far in front of the camera; motions do not tell where it works.
+    :param ids: names of the motions. Else ``0``, ``1`` ...
+    :param method: a published method to run as published; see ``METHODS``.
+    :param robot_rotation_deg: standard deviation of the rotations in ``a``, per axis, where it is known.
+    :param robot_position_mm: of its positions.
+    :returns: ``mount_from_camera`` is X. All motions are taken to begin at one start, the capture ``start``.
+    :raises InputError: arrays of another shape or length, numbers that are not finite, rotations that are none.
+    """
+    if not 0.0 < distance_m < float("inf"):
+        raise InputError(f"distance_m is {distance_m}: how far in front of the camera the work is, in metres")
+    mounts = poses_of(a, "mount", "mount")
+    names = names_of(ids, len(mounts))
+    if "start" in names:
+        raise InputError('the id "start" is that of the pose from which all motions begin')
+    return Calibration(
+        _core.solve(
+            setup,
+            mounts,
+            poses_of(b, "camera", "camera"),
+            ids=names,
+            method_name=method,
+            robot_rotation_deg=robot_rotation_deg,
+            robot_position_mm=robot_position_mm,
+            motions_m=distance_m,
+        )
+    )
+
+
 def closed_form(
     base_from_flange: Any, camera_from_target: Any, *, setup: str, method: str = "shah"
 ) -> Tuple[Pose, Pose]:

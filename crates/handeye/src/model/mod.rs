@@ -8,6 +8,7 @@ pub mod mesh;
 pub mod names;
 pub mod observation;
 pub mod print;
+pub mod relative;
 pub mod residual;
 pub mod scan;
 pub mod session;
