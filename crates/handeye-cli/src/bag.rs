@@ -87,6 +87,9 @@ pub enum StampsArg {
 }
 
 pub fn run(args: &BagArgs, global: &GlobalArgs) -> Result<u8, Failure> {
+    // a name that is mistyped is said before what options lack
+    std::fs::metadata(&args.bag)
+        .map_err(|source| handeye_io::Error::Read { path: args.bag.clone(), source })?;
     let Some(out) = &args.out else {
         show(&bag::contents(&args.bag, &|| ())?, global);
         return Ok(0);

@@ -39,7 +39,7 @@ pub fn run(args: &CalibrateArgs, global: &GlobalArgs) -> Result<u8, Failure> {
         let unseen = calibration.captures.iter().all(|c| c.camera_from_target.is_none());
         let refused = calibration.verdict == Verdict::Rejected
             || calibration.verdict == Verdict::Undetermined && unseen;
-        if refused && can_be_checked(&dataset) {
+        if refused && !is_too_inaccurate_alone(&calibration) && can_be_checked(&dataset) {
             output::print(&format!("\nnext: handeye check {}\n", output::word(&args.dataset)));
         }
     }
@@ -100,6 +100,14 @@ fn export_accepted(
         crate::output::note!("nothing exported: the verdict is not `accepted`");
     }
     Ok(vec![])
+}
+
+/// Whether nothing speaks against the answer but that it may be wrong by more than is allowed.
+fn is_too_inaccurate_alone(calibration: &Calibration) -> bool {
+    let predicted =
+        calibration.predicted_tre_mm.as_ref().map(|tre| tre.at_task_p95.unwrap_or(tre.p95));
+    let limit = calibration.max_error_mm;
+    calibration.reasons.len() == 1 && predicted.zip(limit).is_some_and(|(mm, limit)| mm > limit)
 }
 
 fn config(args: &CalibrateArgs) -> Result<Config, Failure> {

@@ -10,7 +10,7 @@ use clap::Args;
 use handeye::model::target::KINDS;
 use handeye_io::{
     Dataset, Known, MANIFEST, OpenKey, OpenQuestion, Question, answered_with, first_manifest,
-    open_questions, read_target, robot::Notation, write_atomically,
+    open_questions, read_target, robot::Notation, without_request, write_atomically,
 };
 use serde_json::json;
 
@@ -134,7 +134,7 @@ fn dialogue(mut text: String, input: &mut impl BufRead) -> String {
             None => left_open += 1,
         }
     }
-    text
+    if open_questions(&text).is_empty() { without_request(&text) } else { text }
 }
 
 /// A line for every key; `None` where one stays open.

@@ -59,7 +59,7 @@ pub use error::{Error, Place};
 pub use files::{process, temporary_folder, write_atomically};
 pub use image::{image_size, read_image};
 pub use import::{Declared, Direction, Imported, import};
-pub use init::{FirstManifest, Known, first_manifest};
+pub use init::{FirstManifest, Known, first_manifest, without_request};
 pub use mesh::{is_mesh, points_on, read_mesh, spacing_on};
 pub use pairs_file::{MeasuredPoses, PosesFile, poses_from_json, read_poses};
 pub use pairs_table::{is_pairs_table, read_motions_table, read_pairs_table};

@@ -108,6 +108,67 @@ fn init_finds_everything_that_a_simulation_wrote() {
     fs::remove_dir_all(out).unwrap();
 }
 
+#[test]
+fn init_recognises_the_board_and_a_program_of_the_robot() {
+    let out = folder("recognised");
+    let name = out.to_str().unwrap();
+    let cell = [
+        "simulate",
+        name,
+        "--captures",
+        "3",
+        "--width",
+        "800",
+        "--height",
+        "600",
+        "--charuco",
+        "9x6",
+    ];
+    assert_eq!(handeye(&cell).0, 0);
+    for file in ["handeye.toml", "robot.csv", "touches.csv"] {
+        fs::remove_file(out.join(file)).unwrap();
+    }
+    let points: String = (0..3)
+        .map(|k| {
+            format!("DECL E6POS XP{k}={{X {k}.5,Y -20.1,Z 700.0,A 90.0,B 0.5,C 180.0,S 2,T 10}}\n")
+        })
+        .collect();
+    fs::write(out.join("points.dat"), format!("DEFDAT POINTS\n{points}ENDDAT\n")).unwrap();
+    let (code, told, _) = handeye(&["init", name, "--setup", "eye-in-hand"]);
+    assert_eq!(code, 0, "{told}");
+    let text = fs::read_to_string(out.join("handeye.toml")).unwrap();
+    for part in [
+        "# seen in 3 of 3 images that were looked at: 9 x 6 squares with markers of\n",
+        "kind = \"charuco\"\nsquares_x = 9\nsquares_y = 6\n# QUESTION: how long are the sides",
+        "\n# square_mm = 30.0\n# marker_mm = ",
+        "poses = \"points.dat\"  # 3 poses in 1 file\nnotation = \"kuka\"\ndirection = \"base_from_flange\"",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    // a table says its units in its header, and whose names these are
+    fs::remove_file(out.join("points.dat")).unwrap();
+    fs::remove_file(out.join("handeye.toml")).unwrap();
+    let row = |k: u32| format!("{k};{k},5;-20,1;700;3;0,5;1,5\n");
+    let table =
+        format!("Punkt;X [mm];Y [mm];Z [mm];A [°];B [°];C [°]\n{}{}{}", row(1), row(2), row(3));
+    fs::write(out.join("points.csv"), table).unwrap();
+    let (_, told, _) = handeye(&["init", name, "--setup", "eye-in-hand"]);
+    assert!(told.contains("called as \"kuka\" and \"doosan\" have them"), "{told}");
+    let text = fs::read_to_string(out.join("handeye.toml")).unwrap();
+    assert!(text.contains("length_unit = \"mm\"  # as the header says"), "{text}");
+    let as_fanuc = text
+        .replace("# notation = \"kuka\"", "notation = \"fanuc\"")
+        .replace("length_unit = \"mm\"", "");
+    let mut as_fanuc = as_fanuc.replace("30.0", "28.0");
+    for line in ["square_mm", "marker_mm", "direction", "frame"] {
+        as_fanuc = as_fanuc.replace(&format!("# {line} "), &format!("{line} "));
+    }
+    fs::write(out.join("handeye.toml"), as_fanuc).unwrap();
+    let (_, _, said) = handeye(&["calibrate", name]);
+    assert!(said.contains("are not those of fanuc, but those of kuka and of doosan"), "{said}");
+    fs::remove_dir_all(out).unwrap();
+}
+
 /// An arm of Denavit-Hartenberg parameters as a URDF whose joints are counted from `first`: each joint turns in its own
 /// frame, its link is a fixed joint.
 fn as_urdf(arm: &Value, first: usize) -> String {

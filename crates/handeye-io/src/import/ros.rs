@@ -153,7 +153,10 @@ fn published(layout: &'static str, words: &[String], source: &Path) -> Result<Fo
     let [parent, child] = frames;
     let is_cameras = !is_camera(&parent) || is_camera(&child);
     let (body, camera) = if is_cameras { (&parent, &child) } else { (&child, &parent) };
-    let mut notes = vec![format!("{body} is taken as the body that carries the camera {camera}")];
+    let mut notes = vec![
+        format!("{body} is taken as the body that carries the camera {camera}"),
+        format!("the names of frames are not kept: export with --parent {body} --child {camera}"),
+    ];
     if !is_cameras {
         notes.push(format!(
             "{camera} is the parent: the pose is that of {body} in the camera, and is inverted"

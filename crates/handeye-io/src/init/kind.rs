@@ -16,6 +16,7 @@ use crate::{
     camera::read_intrinsics,
     dataset::without_labels,
     image::image_size,
+    robot,
     table::{self, Cell, Layout, Record},
     target_file::read_target,
     tree::Tree,
@@ -44,6 +45,8 @@ pub(super) enum Kind {
 pub(super) struct Poses {
     pub(super) count: usize,
     pub(super) notation: Notation,
+    /// Makers' notations whose numbers are called as in the file's header.
+    pub(super) called_as: Vec<&'static str>,
     /// The unit of the positions and why it must be that.
     pub(super) unit: Option<(LengthUnit, String)>,
 }
@@ -75,7 +78,8 @@ pub(super) struct Touches {
 
 const PICTURES: [&str; 6] = ["png", "jpg", "jpeg", "bmp", "tif", "tiff"];
 const CLOUDS: [&str; 7] = ["ply", "pcd", "e57", "zdf", "xyz", "asc", "pts"];
-const TABLES: [&str; 7] = ["csv", "txt", "json", "yaml", "yml", "npy", "npz"];
+const TABLES: [&str; 13] =
+    ["csv", "txt", "json", "yaml", "yml", "npy", "npz", "dat", "src", "mod", "prg", "ls", "jbi"];
 const CAMERAS: [&str; 5] = ["yaml", "yml", "json", "xml", "npz"];
 /// Words in names of depth images.
 const DEPTH: [&str; 5] = ["depth", "scan", "range", "disp", "xyz"];
@@ -176,11 +180,22 @@ fn poses_in(paths: &[PathBuf]) -> Option<Poses> {
                 several => table::record_per_file(several, &layout),
             };
             if let Some(poses) = records.ok().and_then(|r| poses(&r)) {
-                return Some(poses);
+                return Some(as_program(poses, paths));
             }
         }
     }
     None
+}
+
+/// Poses in a program are written as its language has it.
+fn as_program(poses: Poses, paths: &[PathBuf]) -> Poses {
+    let program = paths.first().and_then(|path| table::program(path).ok().flatten());
+    match program {
+        Some((language, _)) => {
+            Poses { notation: Notation::Is(language.notation()), unit: None, ..poses }
+        }
+        None => poses,
+    }
 }
 
 // ---------------------------------------------------------------- corners, touches
@@ -253,7 +268,8 @@ fn poses(records: &[Record]) -> Option<Poses> {
         Notation::SomeAngles { .. } if all_named(&records[0], &["x", "y", "z"]) => unit(records),
         _ => None,
     };
-    Some(Poses { count: records.len(), notation, unit })
+    let called_as = robot::notations_called(&records[0]);
+    Some(Poses { count: records.len(), notation, called_as, unit })
 }
 
 fn notation(record: &Record) -> Option<Notation> {
@@ -299,7 +315,11 @@ fn too_large(angle: f64) -> bool {
 
 fn some_angles(record: &Record) -> Option<Notation> {
     let angles = ["a", "b", "c", "rx", "ry", "rz", "roll", "pitch", "yaw"];
-    let degrees = angles.iter().any(|n| record.number_named(&[n]).is_some_and(too_large));
+    let says_so = |name: &String| {
+        ["[°]", "[deg]", "(°)", "(deg)", "_deg"].iter().any(|unit| name.ends_with(unit))
+    };
+    let degrees = record.names.iter().any(says_so)
+        || angles.iter().any(|n| record.number_named(&[n]).is_some_and(too_large));
     Some(Notation::SomeAngles { degrees })
 }
 

@@ -28,6 +28,19 @@ pub struct FirstManifest {
     pub questions: Vec<Question>,
 }
 
+/// What stands at the top of a manifest that waits for answers.
+const REQUEST: &str = "What the files prove is filled in. Answer every QUESTION: correct the lines below it and remove their #.";
+
+/// A manifest of which all questions are answered, without the request for answers at its top.
+pub fn without_request(manifest: &str) -> String {
+    let first = REQUEST.split('.').next().unwrap_or_default();
+    if !manifest.trim_start_matches(['#', ' ']).starts_with(first) {
+        return manifest.into();
+    }
+    let below = manifest.lines().skip_while(|line| line.starts_with('#'));
+    below.skip_while(|line| line.is_empty()).map(|line| format!("{line}\n")).collect()
+}
+
 /// What somebody says of a folder before it is looked at.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Known {

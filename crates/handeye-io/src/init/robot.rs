@@ -44,12 +44,12 @@ pub(super) fn robot(kinds: &Kinds, captures: Option<usize>, known: &Known, draft
     let mut spec = RobotSpec { poses: group.pattern.clone(), ..RobotSpec::default() };
     match &known.robot {
         Some(name) => spec.notation = Some(name.clone()),
-        None => notation(poses.notation, &mut spec, draft),
+        None => notation(poses.notation, &poses.called_as, &mut spec, draft),
     }
     if !known.has_maker() {
         spec.length_unit = unit(poses, draft);
     }
-    spec.direction = Some(direction(known, draft));
+    spec.direction = Some(direction(known.has_maker() || is_of_maker(poses.notation), draft));
     if poses.notation != Notation::Joints {
         spec.frame = Some(flange_or_tool(draft));
     }
@@ -96,7 +96,7 @@ fn unknown_poses(kinds: &Kinds, known: &Known, draft: &mut Draft) {
     }
     match &known.robot {
         Some(name) => spec.notation = Some(name.clone()),
-        None => notation(Notation::SomeAngles { degrees: false }, &mut spec, draft),
+        None => notation(Notation::SomeAngles { degrees: false }, &[], &mut spec, draft),
     }
     if !known.has_maker() {
         spec.length_unit = Some(LengthUnit::Millimetre);
@@ -105,7 +105,7 @@ fn unknown_poses(kinds: &Kinds, known: &Known, draft: &mut Draft) {
             "are the positions in \"m\" or in \"mm\"? (generic notations only)",
         );
     }
-    spec.direction = Some(direction(known, draft));
+    spec.direction = Some(direction(known.has_maker(), draft));
     spec.frame = Some(flange_or_tool(draft));
     draft.manifest.robot = Some(spec);
 }
@@ -141,11 +141,12 @@ fn possible_poses(kinds: &Kinds) -> Vec<Candidate> {
 }
 
 /// The notation, as far as the numbers prove it; the rest is asked.
-fn notation(notation: Notation, spec: &mut RobotSpec, draft: &mut Draft) {
+fn notation(notation: Notation, called_as: &[&str], spec: &mut RobotSpec, draft: &mut Draft) {
     let name = match notation {
         Notation::Is(name) => name,
         Notation::SomeQuaternion => "quaternion-xyzw",
         Notation::Joints => "joints",
+        Notation::SomeAngles { .. } if !called_as.is_empty() => called_as[0],
         Notation::SomeAngles { degrees: true } => "kuka",
         Notation::SomeAngles { degrees: false } => "ur",
     };
@@ -166,6 +167,13 @@ fn notation(notation: Notation, spec: &mut RobotSpec, draft: &mut Draft) {
             let of_arm =
                 "which file holds the Denavit-Hartenberg parameters of the arm? (or urdf = {...})";
             return draft.ask(&["robot.dh"], of_arm);
+        }
+        Notation::SomeAngles { .. } if !called_as.is_empty() => {
+            let quoted: Vec<String> = called_as.iter().map(|name| quoted(name)).collect();
+            format!(
+                "the numbers are called as {} have them: whose robot is it? (or euler-zyx-intrinsic and the like)",
+                quoted.join(" and ")
+            )
         }
         Notation::SomeAngles { degrees: true } => format!(
             "a position and three angles in degrees: whose robot, or in which order? {}, or \
@@ -247,8 +255,16 @@ fn flange_or_tool(draft: &mut Draft) -> PoseFrame {
     PoseFrame::Flange
 }
 
-fn direction(known: &Known, draft: &mut Draft) -> RobotDirection {
-    if known.has_maker() {
+/// Whether the file itself proves a maker's notation, as its controller writes it.
+fn is_of_maker(notation: Notation) -> bool {
+    match notation {
+        Notation::Is(name) => robot::Notation::named(name).is_ok_and(|n| n.length_unit.is_some()),
+        _ => false,
+    }
+}
+
+fn direction(is_controllers: bool, draft: &mut Draft) -> RobotDirection {
+    if is_controllers {
         draft.note_behind("robot.direction", "what controllers show");
         return RobotDirection::BaseFromFlange;
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use handeye::TargetModel;
 
 use super::{
-    Known, board,
+    Known, REQUEST, board,
     groups::Group,
     kind::{self, Kind, Notation, Touches},
     robot,
@@ -29,7 +29,7 @@ pub(super) type Kinds = [(Group, Kind)];
 
 pub(super) fn draft(kinds: &Kinds, folder: &Path, known: &Known) -> Draft {
     let mut draft = Draft::new();
-    draft.head("What the files prove is filled in. Answer every QUESTION: correct the lines below it and remove their #.");
+    draft.head(REQUEST);
     draft.set_setup(
         known.setup,
         "does the robot carry the camera (\"eye-in-hand\"), or the board (\"eye-to-hand\")?",

@@ -102,6 +102,14 @@ pub(crate) fn names_in_degrees() -> String {
     makers::in_degrees().collect::<Vec<_>>().join(", ")
 }
 
+/// Makers' notations all of whose numbers are called as in a record.
+pub(crate) fn notations_called(record: &Record) -> Vec<&'static str> {
+    let is_called = |name: &&str| {
+        makers::named(name).is_some_and(|notation| notation.names_in(record).is_some())
+    };
+    makers::reported().filter(is_called).collect()
+}
+
 impl Notation {
     /// The notation of a name, such as `kuka` or `euler-zyx-intrinsic`, in capitals or not; `Err` says which there are.
     pub fn named(name: &str) -> Result<Notation, String> {
@@ -150,7 +158,23 @@ impl Notation {
             return Ok(numbers);
         }
         let names: Vec<_> = self.columns.iter().map(|c| c.names).collect();
-        record.numbers_in_any_language(&names, &self.name)
+        let found = record.numbers_in_any_language(&names, &self.name);
+        let others = notations_called(record);
+        match found {
+            Err(_) if self.names_in(record).is_none() && !others.is_empty() => {
+                let what = format!(
+                    "the names {} are not those of {}, but those of {}",
+                    record.names.join(", "),
+                    self.name,
+                    others.join(" and of ")
+                );
+                Err(record.refuse(
+                    what,
+                    "is the notation another one? Or say which columns = [..] are meant",
+                ))
+            }
+            found => found,
+        }
     }
 
     /// What a file calls these numbers, in the notation's order; `None` where it does not name them.

@@ -91,8 +91,7 @@ fn without_comment(line: &str) -> &str {
 fn cells(line: &str, commas: Commas) -> Vec<(Option<String>, Cell)> {
     let line = without_comment(line);
     let line = line.strip_prefix("p[").unwrap_or(line);
-    let mut bare: String =
-        line.chars().map(|c| if "[]{}()".contains(c) { ' ' } else { c }).collect();
+    let mut bare = without_brackets(line);
     if commas == Commas::InNumbers {
         bare = with_points(&bare);
     }
@@ -106,6 +105,32 @@ fn cells(line: &str, commas: Commas) -> Vec<(Option<String>, Cell)> {
     };
     let parts = bare.trim().trim_end_matches(separator).split(separator);
     parts.flat_map(part).collect()
+}
+
+/// The text without brackets around values; those around a unit behind a name stay: `X [mm]`.
+fn without_brackets(line: &str) -> String {
+    let ends = |at: usize, open: char| {
+        let close = match open {
+            '[' => ']',
+            '(' => ')',
+            _ => return None,
+        };
+        let length = line[at + 1..].find(close)?;
+        let is_unit = |c: char| c.is_alphabetic() || "°/%".contains(c);
+        let content = line[at + 1..at + 1 + length].trim();
+        let is_behind_name = line[..at].trim_end().ends_with(|c: char| c.is_alphanumeric());
+        let is_one = !content.is_empty() && content.chars().all(is_unit) && is_behind_name;
+        is_one.then_some(at + 1 + length)
+    };
+    let mut end = None;
+    let keep = |(at, c): (usize, char)| {
+        if end.is_some_and(|end| at <= end) {
+            return c;
+        }
+        end = ends(at, c);
+        if end.is_none() && "[]{}()".contains(c) { ' ' } else { c }
+    };
+    line.char_indices().map(keep).collect()
 }
 
 fn is_decimal_comma(cell: &str) -> bool {
@@ -278,6 +303,16 @@ mod tests {
         let names: Vec<Cell> =
             cells("Pose Nr\tX", Commas::BetweenValues).into_iter().map(|c| c.1).collect();
         assert_eq!(names, ["Pose Nr", "X"].map(|n| Cell::Text(n.into())));
+    }
+
+    #[test]
+    fn units_in_brackets_stay_with_their_names() {
+        let names = |line: &str| {
+            let cells = cells(line, Commas::InNumbers).into_iter();
+            cells.map(|(_, cell)| cell.text()).collect::<Vec<_>>()
+        };
+        assert_eq!(names("Punkt;X [mm];A [°];t(s)"), ["Punkt", "X [mm]", "A [°]", "t(s)"]);
+        assert_eq!(names("[x; y; z]"), ["x", "y", "z"]);
     }
 
     #[test]

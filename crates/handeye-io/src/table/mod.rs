@@ -5,6 +5,7 @@ mod array;
 mod field;
 pub(crate) mod halcon;
 mod lines;
+pub(crate) mod programs;
 
 use std::path::{Path, PathBuf};
 
@@ -12,6 +13,7 @@ use crate::{
     error::{Error, Place, malformed},
     files,
 };
+use programs::Language;
 
 /// One value of a record.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,7 +87,10 @@ pub(crate) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error
         "json" | "yaml" | "yml" | "calib" | "samples" | "xml" => field::records(path, layout)?,
         "npy" | "npz" => array::records(path, layout)?,
         "dat" if let Some(text) = pose_of_halcon(path)? => vec![halcon::record(&text, path)?],
-        _ => lines::records(path, layout)?,
+        _ => match program(path)? {
+            Some((language, text)) => language.records(&text, path)?,
+            None => lines::records(path, layout)?,
+        },
     };
     let records = select_rows(records, layout, path)?;
     records.into_iter().map(|r| r.select_columns(&layout.columns)).collect()
@@ -94,6 +99,18 @@ pub(crate) fn records(path: &Path, layout: &Layout) -> Result<Vec<Record>, Error
 /// The text of a file, where it is a pose that HALCON wrote.
 fn pose_of_halcon(path: &Path) -> Result<Option<String>, Error> {
     files::table_text(path).map(|text| Some(text).filter(|text| halcon::is_pose(text)))
+}
+
+/// Names of files that hold programs of robots, or perhaps tables.
+const PROGRAMS: [&str; 7] = ["dat", "src", "mod", "prg", "ls", "jbi", "txt"];
+
+/// The language and the text of a robot's program.
+pub(crate) fn program(path: &Path) -> Result<Option<(Language, String)>, Error> {
+    if !PROGRAMS.contains(&files::extension(path).as_str()) {
+        return Ok(None);
+    }
+    let text = files::table_text(path)?;
+    Ok(Language::of(&text).map(|language| (language, text)))
 }
 
 /// The single record of each of several files, named after its file.

@@ -238,6 +238,8 @@ def _check(matrix: Array) -> None:
         raise InputError("a pose holds a number that is NaN or infinite")
     rotation = matrix[:3, :3]
     off = float(np.abs(rotation @ rotation.T - np.eye(3)).max())
+    if off <= _ROUNDED and np.linalg.det(rotation) < 0:
+        raise InputError("the matrix mirrors: its determinant is -1, that of a rotation is 1; is an axis reversed?")
     if off > _ROUNDED or np.linalg.det(rotation) < 0 or matrix[3].tolist() != [0, 0, 0, 1]:
         raise InputError(
             "the matrix is no rigid transform: three rows of rotation and translation (m), then 0 0 0 1"
