@@ -263,7 +263,8 @@ def solve_motions(
     """
     if not 0.0 < distance_m < float("inf"):
         raise InputError(f"distance_m is {distance_m}: how far in front of the camera the work is, in metres")
-    mounts = poses_of(a, "mount", "mount")
+    mount = "base" if setup == "eye-to-hand" else "flange"
+    mounts = poses_of(a, mount, mount)
     names = names_of(ids, len(mounts))
     if "start" in names:
         raise InputError('the id "start" is that of the pose from which all motions begin')
