@@ -193,4 +193,5 @@ def look(browser, cell, work, page):
           f" in {seconds:.1f} s, off the program's result by {off:.0e}; commands, questions and files work")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -313,6 +313,7 @@ pub struct Reading {
 \x20 handeye view scan.ply\n\
 \x20 handeye view scan.zdf part.stl --length-unit mm --out both.html\n\
 \x20 handeye view scan.ply result/calibration.json\n\
+\x20 handeye view dataset result\n\
 \x20 handeye register a.ply b.ply --json > found.json\n\
 \x20 handeye view a.ply b.ply found.json\n\
 \n\
@@ -320,9 +321,10 @@ The page needs neither a network nor anything beside it. Every file is a layer t
 switched off. Scans lie in their own frame, which is the camera's. Two kinds of JSON files \
 move them, and the page says so: an answer of `handeye register --json` moves the first scan \
 into the second, and one eye-to-hand calibration.json moves all scans into the frame of the \
-robot's base. At most 150 000 points of a scan are shown, and 500 000 of all, evenly spread.")]
+robot's base; one of a camera on the flange moves scans that have the names of its captures. The \
+folder of a dataset is shown with its result: target, arm, and all scans in the frame of the base. At most 150 000 points of a scan are shown, and 500 000 of all, evenly spread.")]
 pub struct ViewArgs {
-    /// Scans and meshes as `register` reads them, a calibration.json or a pose that `import` wrote, an
+    /// Scans and meshes as `register` reads them, the folder of a dataset, a calibration.json or a pose that `import` wrote, an
     /// answer of `handeye register --json`.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,

@@ -1,14 +1,15 @@
 //! `handeye view`: a page that shows scans, calibrations and registrations in 3D.
 
 use std::{
+    collections::BTreeMap,
     fs,
     path::{Path, PathBuf},
 };
 
 use handeye::{Calibration, Scan, Setup, TriangleMesh, Verdict, Warning};
 use handeye_io::{
-    is_mesh, read_result,
-    report::{Shown, Thing, ThingCount, shown_html},
+    Dataset, is_mesh, read_result,
+    report::{CellData, Shown, Thing, ThingCount, base_from_camera, shown_html},
     write_atomically,
 };
 use nalgebra::Isometry3;
@@ -29,7 +30,7 @@ const SCANS: [&str; 14] = [
 /// What other files are told.
 const KINDS: &str = "what can be viewed is scans (PLY, PCD, E57, ZDF, XYZ, TXT, CSV, ASC, PTS, NPY, NPZ, depth in \
                      PNG and TIFF), meshes (STL, OBJ, PLY with faces), the calibration.json of `handeye \
-                     calibrate`, and an answer of `handeye register --json`";
+                     calibrate`, the folder of a dataset beside it, and an answer of `handeye register --json`";
 
 /// What a file, or the folder of a result, holds.
 enum Content {
@@ -37,6 +38,7 @@ enum Content {
     Mesh(TriangleMesh),
     Calibration(Box<Calibration>),
     Registration(Found),
+    Dataset(Box<Dataset>),
 }
 
 /// The part of an answer of `register` that moves a scan.
@@ -74,25 +76,30 @@ pub fn run(args: &ViewArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     for path in &args.files {
         contents.push(read(path, &args.reading, &mut warnings)?);
     }
+    let data = cell_data(&contents)?;
     let frames = Frames::of(&args.files, &contents)?;
     let names = names(&args.files);
-    let mut things = vec![];
+    let (mut things, mut data) = (vec![], data);
     for (name, content) in names.iter().zip(&contents) {
         let name = name.clone();
         match content {
             Content::Scan(scan) => {
-                let place = frames.place(things.iter().all(is_calibration));
+                let place = frames.place(&name, things.iter().all(is_calibration));
                 things.push(Thing::Cloud { name, points: scan.points(), place });
             }
             Content::Mesh(mesh) => {
-                let place = frames.place(things.iter().all(is_calibration));
+                let place = frames.place(&name, things.iter().all(is_calibration));
                 let (vertices, triangles) = (mesh.vertices(), mesh.triangles());
                 things.push(Thing::Mesh { name, vertices, triangles, place });
             }
             Content::Calibration(calibration) => {
-                things.push(Thing::Calibration { name, calibration });
+                let data = data.take().unwrap_or_else(|| CellData {
+                    camera: calibration.camera.as_ref().map(|c| c.intrinsics),
+                    ..CellData::default()
+                });
+                things.push(Thing::Calibration { name, calibration, data });
             }
-            Content::Registration(_) => {}
+            Content::Registration(_) | Content::Dataset(_) => {}
         }
     }
     let (title, notes) = (names.join(", "), frames.notes);
@@ -104,6 +111,28 @@ pub fn run(args: &ViewArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let layers = counts.into_iter().map(layer).collect();
     tell(&Told { page: &args.out, layers, notes: &notes, warnings: &warnings }, global);
     Ok(0)
+}
+
+/// What a dataset adds to the one calibration beside it, with all its scans.
+fn cell_data(contents: &[Content]) -> Result<Option<CellData>, Failure> {
+    let mut datasets = contents.iter().filter_map(|c| match c {
+        Content::Dataset(dataset) => Some(dataset),
+        _ => None,
+    });
+    let Some(first) = datasets.next() else { return Ok(None) };
+    let calibrations: Vec<_> =
+        contents.iter().filter(|c| matches!(c, Content::Calibration(_))).collect();
+    let ([Content::Calibration(calibration)], 1) = (
+        calibrations.as_slice(),
+        contents.iter().filter(|c| matches!(c, Content::Dataset(_))).count(),
+    ) else {
+        return Err(Failure::Usage(
+            "a dataset is shown with its result: name one dataset and one calibration.json, or the folder of the \
+             result"
+                .into(),
+        ));
+    };
+    Ok(Some(CellData::of(first, calibration).with_scans(first, calibration)?))
 }
 
 fn is_calibration(thing: &Thing) -> bool {
@@ -131,6 +160,9 @@ fn read(path: &Path, reading: &Reading, warnings: &mut Vec<Warning>) -> Result<C
     let result = path.join("calibration.json");
     if result.is_file() {
         return read_json(&result);
+    }
+    if path.is_dir() {
+        return Ok(Content::Dataset(Box::new(Dataset::open(path)?)));
     }
     let kind = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if kind == "json" {
@@ -188,6 +220,8 @@ struct Frames {
     target_from_source: Isometry3<f64>,
     /// Of all scans.
     base_from_camera: Isometry3<f64>,
+    /// Of each scan by its name, where the robot carried the camera.
+    base_from_moving: BTreeMap<String, Isometry3<f64>>,
     /// Whether the view is that of a robot's base.
     is_in_base: bool,
     /// What was moved where.
@@ -199,6 +233,7 @@ impl Frames {
         let mut frames = Self {
             target_from_source: Isometry3::identity(),
             base_from_camera: Isometry3::identity(),
+            base_from_moving: BTreeMap::new(),
             is_in_base: false,
             notes: vec![],
         };
@@ -222,7 +257,7 @@ impl Frames {
             .collect();
         frames.register(&found, &scans)?;
         let has_mesh = contents.iter().any(|c| matches!(c, Content::Mesh(_)));
-        frames.calibrate(&calibrations, scans.len(), has_mesh);
+        frames.calibrate(&calibrations, &scans, has_mesh);
         if frames.notes.is_empty() && scans.len() > 1 {
             frames.notes.push(
                 "every scan lies in its own frame: they show one scene only where the camera stood still, or \
@@ -261,14 +296,14 @@ impl Frames {
     fn calibrate(
         &mut self,
         calibrations: &[(&String, &Calibration)],
-        scans: usize,
+        scans: &[&String],
         has_mesh: bool,
     ) {
         self.is_in_base = !calibrations.is_empty();
         for (name, c) in calibrations.iter().filter(|(_, c)| c.verdict != Verdict::Accepted) {
             self.notes.push(format!("{name} is shown{}", doubt(c.verdict, &c.reasons)));
         }
-        if scans == 0 || calibrations.is_empty() {
+        if scans.is_empty() || calibrations.is_empty() {
             return;
         }
         match calibrations {
@@ -285,21 +320,38 @@ impl Frames {
                     "scans were moved from the frame of the camera into that of the robot's base, by {name}"
                 ));
             }
+            [(name, c)] if self.move_by_captures(c, scans) => self.notes.push(format!(
+                "each scan was moved into the frame of the robot's base by {name} and the robot pose of its capture \
+                 of the same name: this holds for scans of the dataset of {name} only"
+            )),
             _ => self.notes.push(
                 "scans lie in their own frame, calibrations in that of the robot's base: how they lie to one \
-                 another means nothing. One eye-to-hand calibration moves them; of a camera on the flange it is \
-                 not known where the robot was"
+                 another means nothing. One eye-to-hand calibration moves them; one of a camera on the \
+                 flange does where the scans are named as its captures are, which tell where the robot was"
                     .into(),
             ),
         }
     }
 
-    fn place(&self, is_first: bool) -> Isometry3<f64> {
-        if is_first {
-            self.base_from_camera * self.target_from_source
-        } else {
-            self.base_from_camera
+    /// Whether all scans have the names of captures, and are then moved to where the robot held the camera.
+    fn move_by_captures(&mut self, c: &Calibration, scans: &[&String]) -> bool {
+        let place = |name: &&String| {
+            let stem = Path::new(name.as_str()).file_stem()?.to_str()?;
+            let capture = c.captures.iter().find(|k| k.id == stem)?;
+            let mount_from_camera = c.hand_eye.mount_from_camera?;
+            let pose = base_from_camera(c.setup, mount_from_camera.iso(), capture);
+            Some((name.to_string(), *pose.iso()))
+        };
+        match scans.iter().map(place).collect() {
+            Some(all) => self.base_from_moving = all,
+            None => return false,
         }
+        true
+    }
+
+    fn place(&self, name: &str, is_first: bool) -> Isometry3<f64> {
+        let base_from_camera = self.base_from_moving.get(name).unwrap_or(&self.base_from_camera);
+        if is_first { base_from_camera * self.target_from_source } else { *base_from_camera }
     }
 }
 

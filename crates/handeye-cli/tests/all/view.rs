@@ -154,6 +154,56 @@ fn a_registration_moves_the_first_scan_and_an_eye_to_hand_calibration_all() {
     assert_eq!(notes(&["in-hand.json"]), "[]");
 }
 
+/// A small simulated dataset with scans, and its result.
+fn with_result(setup: &str) -> Folder {
+    let folder = Folder::new();
+    let size = ["--captures", "8", "--width", "640", "--height", "400", "--scans"];
+    let mut simulate = vec!["simulate", "cell", "--setup", setup, "--scan-format", "ply"];
+    simulate.extend(size);
+    assert_eq!(handeye(&folder, &simulate).code, 0);
+    let run = handeye(&folder, &["calibrate", "cell", "--out", "result"]);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    folder
+}
+
+#[test]
+fn a_dataset_is_viewed_with_its_result_and_its_scans_in_the_base_frame() {
+    for setup in ["eye-in-hand", "eye-to-hand"] {
+        let folder = with_result(setup);
+        let run = handeye(&folder, &["view", "cell", "result", "--json"]);
+        assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+        let page = folder.read("view.html");
+        assert_eq!(page.matches("scans, brought together by the result").count(), 1);
+        assert!(page.contains("board by the result") && page.contains("residual of a capture"));
+        assert!(page.len() < 8_000_000, "{}", page.len());
+        handeye(&folder, &["view", "cell", "result", "--out", "again.html"]);
+        assert!(page == folder.read("again.html"), "the same page again");
+        let report = folder.read("result/report.html");
+        assert!(report.contains("scans, brought together by the result"));
+        assert!(report.contains("<tr class=\"\" data-capture=\""), "rows name their captures");
+    }
+}
+
+#[test]
+fn scans_with_the_names_of_captures_are_moved_to_where_the_robot_held_the_camera() {
+    let folder = with_result("eye-in-hand");
+    let files = ["view", "cell/scans/001.ply", "cell/scans/002.ply", "result", "--json"];
+    let run = handeye(&folder, &files);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let notes = run.json()["notes"].to_string();
+    assert!(notes.contains("robot pose of its capture of the same name"), "{notes}");
+}
+
+#[test]
+fn a_dataset_without_its_result_is_refused() {
+    let folder = with_result("eye-in-hand");
+    for files in [&["view", "cell"][..], &["view", "cell", "cell", "result"]] {
+        let run = handeye(&folder, files);
+        assert_eq!(run.code, 2, "{}", run.stderr);
+        assert!(run.stderr.contains("one dataset and one calibration.json"), "{}", run.stderr);
+    }
+}
+
 #[test]
 fn a_mesh_is_viewed_as_triangles_in_the_unit_that_was_said() {
     let folder = Folder::new();

@@ -18,12 +18,32 @@ pub const STEPS: usize = 64;
 const LEAST: [f64; 3] = [0.44, 0.17, 277.0];
 const LARGEST: [f64; 3] = [0.90, 0.17, 98.0];
 
+/// The same of residuals of captures: grey where they are within noise, and an orange red for the worst.
+const QUIET_RESIDUAL: [f64; 3] = [0.74, 0.025, 60.0];
+const WORST_RESIDUAL: [f64; 3] = [0.60, 0.22, 36.0];
+/// Captures that were rejected.
+pub const REJECTED: &str = "#9a5fd0";
+
 /// Steps in which chroma is taken off.
 const FADING: f64 = 5e-4;
 
 /// Colours from the least to the largest number.
 pub fn scale() -> Vec<[u8; 3]> {
-    (0..STEPS).map(|k| at(k as f64 / (STEPS - 1) as f64)).collect()
+    steps(LEAST, LARGEST)
+}
+
+/// Colours of residuals, from none to the worst.
+pub fn residual_scale() -> Vec<[u8; 3]> {
+    steps(QUIET_RESIDUAL, WORST_RESIDUAL)
+}
+
+/// The colour of a residual by its share of the scale.
+pub fn residual(share: f64) -> String {
+    hex(at(share.clamp(0.0, 1.0), QUIET_RESIDUAL, WORST_RESIDUAL))
+}
+
+fn steps(least: [f64; 3], largest: [f64; 3]) -> Vec<[u8; 3]> {
+    (0..STEPS).map(|k| at(k as f64 / (STEPS - 1) as f64, least, largest)).collect()
 }
 
 /// As style sheets write it.
@@ -31,9 +51,9 @@ pub fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn at(share: f64) -> [u8; 3] {
+fn at(share: f64, least: [f64; 3], largest: [f64; 3]) -> [u8; 3] {
     let [lightness, mut chroma, hue] =
-        std::array::from_fn(|k| LEAST[k] + (LARGEST[k] - LEAST[k]) * share);
+        std::array::from_fn(|k| least[k] + (largest[k] - least[k]) * share);
     // towards grey, until a screen can show it
     loop {
         let linear = linear_rgb(lightness, chroma, hue.to_radians());
@@ -64,6 +84,14 @@ fn gamma(v: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn residuals_are_pale_within_noise_and_the_worst_is_saturated() {
+        let spread = |c: &[u8; 3]| c.iter().max().unwrap() - c.iter().min().unwrap();
+        let all = residual_scale();
+        assert!(spread(&all[0]) < 30 && spread(&all[STEPS - 1]) > 150, "{all:?}");
+        assert_eq!(residual(2.0), hex(all[STEPS - 1]));
+    }
 
     #[test]
     fn white_is_white_and_larger_numbers_are_lighter() {

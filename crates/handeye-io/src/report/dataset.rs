@@ -6,7 +6,7 @@ use handeye::{
     model::names::natural,
 };
 
-use super::{MarkedCorner, Picture, Report, html};
+use super::{CellData, MarkedCorner, Picture, Report, html};
 use crate::{
     CaptureSource, Dataset,
     export::{self, CameraPose, Format},
@@ -20,9 +20,8 @@ pub fn dataset_html(dataset: &Dataset, calibration: &Calibration, session: &Sess
     html(&Report {
         title: dataset.title(),
         calibration,
-        target: session.target.as_ref(),
         camera: session.camera.as_ref(),
-        touched: session.touches.iter().map(|t| t.in_base).collect(),
+        cell: cell(dataset, calibration, session),
         notations: notations(dataset.notation.as_deref(), calibration),
         pictures: pictures(dataset, calibration, session),
         corners: corners(calibration, session),
@@ -34,13 +33,22 @@ pub fn calibration_html(title: &str, calibration: &Calibration) -> String {
     html(&Report {
         title: title.into(),
         calibration,
-        target: None,
         camera: None,
-        touched: vec![],
+        cell: CellData::default(),
         notations: notations(None, calibration),
         pictures: vec![],
         corners: vec![],
     })
+}
+
+/// The cell with the target and the camera that the calibration used, and with its scans if they can be read again.
+fn cell(dataset: &Dataset, calibration: &Calibration, session: &Session) -> CellData {
+    let bare = || CellData {
+        target: session.target.clone(),
+        camera: session.camera,
+        ..CellData::of(dataset, calibration)
+    };
+    bare().with_scans(dataset, calibration).unwrap_or_else(|_| bare())
 }
 
 /// Notations of the transform, those that most programs read first.

@@ -26,7 +26,7 @@ mod touch_test;
 use std::fmt::Write;
 
 use handeye::{
-    Base, Calibration, Intrinsics, Point, Setup, TargetModel, Verdict,
+    Calibration, Intrinsics, Setup, Verdict,
     calibrate::{
         findings::{self},
         result::{Candidate, CaptureResult},
@@ -34,6 +34,7 @@ use handeye::{
     findings::severity::Severity,
 };
 
+pub use cell::{CaptureScan, CellData, base_from_camera};
 pub use dataset::{calibration_html, dataset_html};
 pub use picture::{MarkedCorner, Picture};
 pub use registration::{NamedCloud, Registration, registration_html};
@@ -48,12 +49,10 @@ pub struct Report<'a> {
     pub title: String,
     /// The result.
     pub calibration: &'a Calibration,
-    /// What the camera looked at.
-    pub target: Option<&'a TargetModel>,
     /// The camera that was used.
     pub camera: Option<&'a Intrinsics>,
-    /// Where the tip was.
-    pub touched: Vec<Point<Base>>,
+    /// What stands in the cell.
+    pub cell: CellData,
     /// The transform in notations the user knows: name and text.
     pub notations: Vec<(String, String)>,
     /// Images with their corners.
@@ -279,7 +278,11 @@ fn folded(id: &str, head: &str, mut rows: Vec<Row>) -> String {
     let has_more = count > FEW_ROWS;
     let row = |(k, row): (usize, &Row)| {
         let more = if has_more && k >= SHOWN_ROWS { " more" } else { "" };
-        format!("<tr class=\"{}{more}\">{}</tr>", row.class, row.cells)
+        let capture = row
+            .capture
+            .as_ref()
+            .map_or(String::new(), |id| format!(" data-capture=\"{}\"", escape(id)));
+        format!("<tr class=\"{}{more}\"{capture}>{}</tr>", row.class, row.cells)
     };
     let all: String = rows.iter().enumerate().map(row).collect();
     let switch = if has_more {
@@ -296,6 +299,8 @@ fn folded(id: &str, head: &str, mut rows: Vec<Row>) -> String {
 
 /// A row of a table.
 struct Row {
+    /// The capture that it is of.
+    capture: Option<String>,
     class: &'static str,
     cells: String,
     /// What it is sorted by: larger is worse.
@@ -435,7 +440,7 @@ fn capture_row(k: &CaptureResult, has_images: bool) -> Row {
     );
     let residual = k.held_out_mm.or(k.residual_mm).unwrap_or(0.0);
     let (class, worse) = if k.used { ("", residual) } else { ("out", f64::INFINITY) };
-    Row { class, cells, worse }
+    Row { capture: Some(k.id.clone()), class, cells, worse }
 }
 
 /// A plot that keeps its size on a narrow screen, and scrolls.
@@ -467,7 +472,7 @@ fn touches(c: &Calibration) -> String {
             d.y,
             d.z
         );
-        Row { class: "", cells, worse: t.residual_mm }
+        Row { capture: None, class: "", cells, worse: t.residual_mm }
     };
     let head = "<th>placement</th><th>corner</th><th>distance, mm</th><th>x, mm</th><th>y, mm</th><th>z, mm</th>";
     let content = format!(
@@ -485,7 +490,7 @@ fn touches(c: &Calibration) -> String {
 
 fn view(report: &Report) -> String {
     let c = report.calibration;
-    let Some(scene) = cell::scene(c, report.target, report.camera, &report.touched) else {
+    let Some(scene) = cell::scene(c, &report.cell) else {
         return String::new();
     };
     section("The cell", "", &scene.html("robot base, flange poses, camera and targets"))
@@ -496,7 +501,12 @@ mod tests {
     use super::*;
 
     fn rows(count: usize) -> Vec<Row> {
-        let row = |k: usize| Row { class: "", cells: format!("<td>{k}</td>"), worse: k as f64 };
+        let row = |k: usize| Row {
+            capture: None,
+            class: "",
+            cells: format!("<td>{k}</td>"),
+            worse: k as f64,
+        };
         (0..count).map(row).collect()
     }
 

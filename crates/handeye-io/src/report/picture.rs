@@ -112,9 +112,9 @@ impl Picture {
         );
         let class = if self.used { "" } else { "out" };
         format!(
-            "<figure class=\"{class}\">{svg}<figcaption><b>{}</b> {}</figcaption></figure>",
-            escape(&self.id),
-            escape(&self.caption)
+            "<figure class=\"{class}\" data-capture=\"{id}\">{svg}<figcaption><b>{id}</b> {}</figcaption></figure>",
+            escape(&self.caption),
+            id = escape(&self.id)
         )
     }
 }

@@ -157,10 +157,9 @@ fn view(r: &Registration, gaps: &Gaps) -> String {
         .with(Packed::valued(&gaps.points, gaps.of, &shares))
         .placed(&[r.start, r.found.target_from_source]);
     let scene = Scene {
-        axes: Axes::Camera,
-        layers: vec![target, source],
         states: vec!["before", "after"],
         values: Some(values),
+        ..Scene::new(Axes::Camera, vec![target, source])
     };
     scene.html("the target, and the source before and after")
 }

@@ -4,7 +4,7 @@ use handeye::{Calibration, Warning};
 use nalgebra::Isometry3;
 
 use super::{
-    cell, colours, escape, page,
+    CellData, cell, colours, escape, page,
     scene::{Axes, Layer, MOST_OF_ALL, MOST_POINTS, Packed, Scene, grouped},
     section, warnings,
 };
@@ -37,6 +37,8 @@ pub enum Thing<'a> {
         name: String,
         /// With an answer.
         calibration: &'a Calibration,
+        /// What its dataset adds, if that is known.
+        data: CellData,
     },
 }
 
@@ -69,13 +71,15 @@ pub struct ThingCount {
 
 /// The whole page, and how much of clouds and meshes is drawn.
 pub fn shown_html(shown: &Shown) -> (String, Vec<ThingCount>) {
-    let (mut layers, mut counts) = (vec![], vec![]);
+    let mut scene = Scene::new(if shown.is_in_base { Axes::Base } else { Axes::Camera }, vec![]);
+    let mut counts = vec![];
     let several =
         shown.things.iter().filter(|t| matches!(t, Thing::Calibration { .. })).count() > 1;
     let clouds = shown.things.iter().filter(|t| matches!(t, Thing::Cloud { .. })).count();
     let most = MOST_POINTS.min(MOST_OF_ALL / clouds.max(1));
     for (k, thing) in shown.things.iter().enumerate() {
-        let made = thing.layers(colours::LAYERS[k % colours::LAYERS.len()], several, most);
+        let colour = colours::LAYERS[k % colours::LAYERS.len()];
+        let made = thing.layers(colour, several, most, &mut scene);
         let count = |layer: &Layer| {
             layer.count().map(|(of, shown)| ThingCount {
                 name: thing.name().into(),
@@ -87,10 +91,12 @@ pub fn shown_html(shown: &Shown) -> (String, Vec<ThingCount>) {
         if !matches!(thing, Thing::Calibration { .. }) {
             counts.extend(made.iter().filter_map(count));
         }
-        layers.extend(made);
+        scene.layers.extend(made);
     }
-    let axes = if shown.is_in_base { Axes::Base } else { Axes::Camera };
-    let scene = Scene { axes, layers, states: vec![], values: None };
+    if several {
+        // each has a scale of its own
+        scene.residuals = None;
+    }
     let notes: String = shown
         .notes
         .iter()
@@ -121,7 +127,8 @@ impl Thing<'_> {
         if matches!(self, Self::Mesh { .. }) { "triangles" } else { "points" }
     }
 
-    fn layers(&self, colour: &str, is_named: bool, most: usize) -> Vec<Layer> {
+    /// Its layers; the captures of a calibration go into the scene.
+    fn layers(&self, colour: &str, is_named: bool, most: usize, scene: &mut Scene) -> Vec<Layer> {
         match self {
             Self::Cloud { name, points, place } => {
                 vec![Layer::new(name, colour).with(Packed::cloud(points, most)).placed(&[*place])]
@@ -130,9 +137,12 @@ impl Thing<'_> {
                 let mesh = Packed::mesh(vertices, triangles);
                 vec![Layer::new(name, colour).with(mesh).placed(&[*place])]
             }
-            Self::Calibration { name, calibration } => {
-                let camera = calibration.camera.as_ref().map(|c| &c.intrinsics);
-                let mut layers = cell::layers(calibration, None, camera, &[]).unwrap_or_default();
+            Self::Calibration { name, calibration, data } => {
+                let first = scene.captures.len();
+                let Some(cell) = cell::cell(calibration, data, first) else { return vec![] };
+                scene.captures.extend(cell.captures);
+                (scene.residuals, scene.link_m) = (cell.residuals, cell.link_m);
+                let mut layers = cell.layers;
                 if is_named {
                     layers.iter_mut().for_each(|layer| layer.name_after(name));
                 }

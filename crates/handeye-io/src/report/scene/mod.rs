@@ -1,14 +1,17 @@
 //! The 3D view: layers of lines, clouds and meshes, their data and the page's part that draws them.
 
+mod body;
+mod layer;
 mod pack;
 mod thin;
 
 use std::fmt::Write;
 
-use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
 
 pub use self::{
+    body::{Body, Mark},
+    layer::Layer,
     pack::{MOST_OF_ALL, MOST_POINTS, Packed},
     thin::thin,
 };
@@ -18,7 +21,17 @@ use super::{
     escape,
 };
 
-const VIEW: &str = include_str!("view.js");
+/// Files that run one after the other for each figure, in one scope.
+const VIEW: &str = concat!(
+    "document.querySelectorAll(\"figure.scene\").forEach(function (figure) {\n\"use strict\";\n",
+    include_str!("shaders.js"),
+    include_str!("buffers.js"),
+    include_str!("draw.js"),
+    include_str!("labels.js"),
+    include_str!("select.js"),
+    include_str!("move.js"),
+    "});\n"
+);
 
 /// Which way is up, and what front, top and side are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,6 +78,21 @@ pub struct Scene {
     pub states: Vec<&'static str>,
     /// What the values of clouds mean.
     pub values: Option<Values>,
+    /// The captures that bodies and clouds belong to; each can be selected.
+    pub captures: Vec<Mark>,
+    /// What the colours of captures mean.
+    pub residuals: Option<Residuals>,
+    /// Radius of the links of a robot's arm, m.
+    pub link_m: f64,
+}
+
+/// What the colours of captures mean.
+#[derive(Clone, Copy)]
+pub struct Residuals {
+    /// The residual at the end of the scale.
+    pub top: f64,
+    /// Its unit.
+    pub unit: &'static str,
 }
 
 /// Numbers that colours tell.
@@ -74,138 +102,6 @@ pub struct Values {
     pub most_mm: f64,
     /// Where the colours end at first, mm.
     pub top_mm: f64,
-}
-
-/// Something that can be switched off.
-#[derive(Serialize)]
-pub struct Layer {
-    #[serde(skip)]
-    name: String,
-    /// Said beside the name.
-    #[serde(skip)]
-    note: String,
-    colour: String,
-    lines: Vec<Line>,
-    labels: Vec<Label>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    shape: Option<Packed>,
-    /// Of points that stand for something, px.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pixels: Option<f64>,
-    /// Where it lies in each state, if not at the origin.
-    places: Vec<Place>,
-    is_shown: bool,
-}
-
-#[derive(Serialize)]
-struct Line {
-    points: Vec<[f64; 3]>,
-    colour: String,
-    width: f64,
-    alpha: f64,
-}
-
-#[derive(Serialize)]
-struct Label {
-    at: [f64; 3],
-    text: String,
-}
-
-#[derive(Serialize)]
-struct Place {
-    translation: [f64; 3],
-    rotation: [f64; 4],
-}
-
-/// Colours of the axes x, y and z.
-const AXES: [&str; 3] = ["#d0433a", "#2e9f55", "#3d74d8"];
-
-impl Layer {
-    /// Without anything in it.
-    pub fn new(name: &str, colour: &str) -> Self {
-        Self {
-            name: name.into(),
-            note: String::new(),
-            colour: colour.into(),
-            lines: vec![],
-            labels: vec![],
-            shape: None,
-            pixels: None,
-            places: vec![],
-            is_shown: true,
-        }
-    }
-
-    /// With points or triangles, and how many of them are shown.
-    pub fn with(mut self, shape: Option<Packed>) -> Self {
-        if let Some(shape) = &shape {
-            let what = if shape.is_mesh() { "triangles" } else { "points" };
-            let (shown, of) = (grouped(shape.shown()), grouped(shape.of));
-            self.note = if shape.shown() == shape.of {
-                format!("{of} {what}")
-            } else {
-                format!("{shown} of {of} {what} shown")
-            };
-        }
-        Self { shape, ..self }
-    }
-
-    /// Lying there, in each state.
-    pub fn placed(self, places: &[Isometry3<f64>]) -> Self {
-        let place = |pose: &Isometry3<f64>| Place {
-            translation: pose.translation.vector.into(),
-            rotation: pose.rotation.coords.into(),
-        };
-        Self { places: places.iter().map(place).collect(), ..self }
-    }
-
-    /// Points that stand for something, as discs of so many pixels.
-    pub fn dots(&mut self, points: &[[f32; 3]], pixels: f64) {
-        (self.shape, self.pixels) = (Packed::cloud(points, MOST_POINTS), Some(pixels));
-    }
-
-    /// A line through points, m.
-    pub fn line(&mut self, points: &[Vector3<f64>], width: f64, alpha: f64) {
-        let colour = self.colour.clone();
-        self.coloured_line(points, &colour, width, alpha);
-    }
-
-    fn coloured_line(&mut self, points: &[Vector3<f64>], colour: &str, width: f64, alpha: f64) {
-        let points = points.iter().map(|p| (*p).into()).collect();
-        self.lines.push(Line { points, colour: colour.into(), width, alpha });
-    }
-
-    /// Axes x red, y green, z blue, with a name at their origin if there is one.
-    pub fn axes(&mut self, pose: &Isometry3<f64>, length: f64, name: &str) {
-        let origin = pose.translation.vector;
-        let (width, alpha) = if name.is_empty() { (1.4, 0.8) } else { (3.0, 1.0) };
-        for (k, colour) in AXES.into_iter().enumerate() {
-            let tip = origin + pose.rotation * Vector3::ith(k, length);
-            self.coloured_line(&[origin, tip], colour, width, alpha);
-        }
-        if !name.is_empty() {
-            self.labels.push(Label { at: origin.into(), text: name.into() });
-        }
-    }
-
-    /// Named after a file, where there are several of the kind.
-    pub fn name_after(&mut self, file: &str) {
-        self.name = format!("{}, {file}", self.name);
-    }
-
-    /// Nothing to draw.
-    pub fn is_empty(&self) -> bool {
-        self.lines.is_empty() && self.shape.is_none()
-    }
-
-    /// How many points or triangles there are, and how many of them are drawn.
-    pub fn count(&self) -> Option<(usize, usize)> {
-        self.shape.as_ref().map(|shape| (shape.of, shape.shown()))
-    }
-
-    fn is_cloud(&self) -> bool {
-        self.pixels.is_none() && self.shape.as_ref().is_some_and(|shape| !shape.is_mesh())
-    }
 }
 
 /// Digits in groups of three.
@@ -236,9 +132,25 @@ struct Data<'a> {
     most_mm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     top_mm: Option<f64>,
+    #[serde(skip_serializing_if = "<[Mark]>::is_empty")]
+    captures: &'a [Mark],
+    link_m: f64,
 }
 
 impl Scene {
+    /// These layers, without states, values and captures.
+    pub fn new(axes: Axes, layers: Vec<Layer>) -> Self {
+        Self {
+            axes,
+            layers,
+            states: vec![],
+            values: None,
+            captures: vec![],
+            residuals: None,
+            link_m: 0.0,
+        }
+    }
+
     /// The view as a part of a page, with its buttons and its legend.
     pub fn html(&self, described: &str) -> String {
         let data = Data {
@@ -251,20 +163,23 @@ impl Scene {
             missing: colours::MISSING,
             most_mm: self.values.map(|v| v.most_mm),
             top_mm: self.values.map(|v| v.top_mm),
+            captures: &self.captures,
+            link_m: self.link_m,
         };
         let Ok(json) = serde_json::to_string(&data) else { return String::new() };
         format!(
             "<figure class=\"scene\"><div class=\"stage\"><canvas class=\"solid\" tabindex=\"0\" role=\"img\" \
-             aria-label=\"{}\"></canvas><canvas class=\"marks\" aria-hidden=\"true\"></canvas>{}{}\
+             aria-label=\"{}\"></canvas><canvas class=\"marks\" aria-hidden=\"true\"></canvas>{}{}{}\
              <p class=\"missing\">The 3D view needs a browser with scripts and WebGL 2, which this one does not \
              offer; everything else on this page is complete without it.</p></div>{}{}{}\
              <script type=\"application/json\" class=\"data\">{}</script></figure><script>{VIEW}</script>",
             escape(described),
             self.states(),
             self.buttons(),
-            self.ramp(),
+            if self.captures.is_empty() { "" } else { CARD },
+            self.ramp() + &self.residual_ramp(),
             self.legend(),
-            HELP,
+            self.help(),
             json.replace("</", "<\\/")
         )
     }
@@ -287,7 +202,11 @@ impl Scene {
     fn buttons(&self) -> String {
         let mut bars = VIEWS.to_owned();
         if self.layers.iter().any(Layer::is_cloud) {
-            let own = if self.values.is_some() { "distance" } else { "layer" };
+            let own = match (self.values, self.captures.as_slice()) {
+                (Some(_), _) => "distance",
+                (None, []) => "layer",
+                (None, _) => "capture",
+            };
             let _ = write!(
                 bars,
                 "<div class=\"bar\"><button type=\"button\" data-size=\"0.8\" title=\"Smaller points (,)\">&minus;</button>\
@@ -317,33 +236,100 @@ impl Scene {
         )
     }
 
-    fn legend(&self) -> String {
-        let entry = |(k, layer): (usize, &Layer)| {
-            let note = match layer.note.as_str() {
-                "" => String::new(),
-                note => format!(" <small>{}</small>", escape(note)),
-            };
-            format!(
-                "<label><input type=\"checkbox\" data-layer=\"{k}\" {}><i style=\"background:{}\"></i>\
-                 <span>{}{note}</span></label>",
-                if layer.is_shown { "checked" } else { "" },
-                layer.colour,
-                escape(&layer.name)
-            )
+    /// The scale of the residuals of captures.
+    fn residual_ramp(&self) -> String {
+        let Some(Residuals { top, unit }) = self.residuals else { return String::new() };
+        let rejected = if self.captures.iter().all(|k| k.is_used) {
+            ""
+        } else {
+            "<span><i class=\"dash\"></i>rejected capture</span>"
         };
-        let entries: String = self.layers.iter().enumerate().map(entry).collect();
+        format!(
+            "<div class=\"values residuals\"><span class=\"name\">residual of a capture</span>\
+             <span class=\"ramp\"><i style=\"background:{}\"></i><span class=\"ticks\"><span>0</span>\
+             <span>{}</span><span>{} {unit}</span></span></span><span>pale: within noise</span>{rejected}</div>",
+            residual_gradient(),
+            rounded(0.5 * top),
+            rounded(top),
+        )
+    }
+
+    /// One switch for all layers of a name.
+    fn legend(&self) -> String {
+        let mut entries = String::new();
+        for (k, layer) in self.layers.iter().enumerate() {
+            let same = |other: &&Layer| other.name == layer.name;
+            if self.layers[..k].iter().any(|other| same(&other)) {
+                continue;
+            }
+            let numbers: Vec<String> = (k..self.layers.len())
+                .filter(|&n| same(&&self.layers[n]))
+                .map(|n| n.to_string())
+                .collect();
+            let all: Vec<&Layer> = self.layers.iter().filter(same).collect();
+            let note = match layer::note(&all) {
+                note if note.is_empty() => note,
+                note => format!(" <small>{}</small>", escape(&note)),
+            };
+            let swatch =
+                if layer.is_by_residual { residual_gradient() } else { layer.colour.clone() };
+            let _ = write!(
+                entries,
+                "<label><input type=\"checkbox\" data-layer=\"{}\" {}><i style=\"background:{swatch}\"></i>\
+                 <span>{}{note}</span></label>",
+                numbers.join(" "),
+                if layer.is_shown { "checked" } else { "" },
+                escape(&layer.name)
+            );
+        }
         format!("<div class=\"layers\">{entries}</div>")
     }
+
+    /// What can be done by pointer and keys.
+    fn help(&self) -> String {
+        let (click, arrows) = if self.captures.is_empty() {
+            ("", "arrows turn")
+        } else {
+            (
+                "Click on a capture to select it, or on its row or image. ",
+                "arrows select the next or the previous capture, Esc none, w a s d turn",
+            )
+        };
+        format!(
+            "<p class=\"note keys\">{click}Drag to turn, shift-drag or two fingers to move, wheel or pinch to zoom, \
+             double-click to fit, or on a point of a cloud to turn about it. Keys: {arrows}, + and &minus; zoom, \
+             1 2 3 views, f fit, p perspective. The small axes show x red, y green, z blue.</p>"
+        )
+    }
 }
+
+/// From no residual to the largest one.
+fn residual_gradient() -> String {
+    let stops: Vec<String> = colours::residual_scale().into_iter().step_by(9).map(hex).collect();
+    format!("linear-gradient(90deg,{})", stops.join(","))
+}
+
+/// With two digits that count.
+fn rounded(value: f64) -> String {
+    if !(value > 0.0) {
+        return "0".into();
+    }
+    let digits = (1.0 - value.log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.digits$}")
+}
+
+/// The capture that is selected: its name, its residual, its image, and the ways to its row.
+const CARD: &str = "<div class=\"card\" aria-live=\"polite\" hidden><button type=\"button\" class=\"close\" title=\"Select none (Esc)\" \
+aria-label=\"Select none\">&times;</button><b></b><span class=\"text\"></span><div class=\"thumb\"></div><div class=\"go\">\
+<button type=\"button\" data-step=\"-1\" title=\"Previous capture (left arrow)\" aria-label=\"Previous capture\">&lsaquo;</button>\
+<button type=\"button\" data-step=\"1\" title=\"Next capture (right arrow)\" aria-label=\"Next capture\">&rsaquo;</button>\
+<button type=\"button\" data-to=\"tr\">Table row</button><button type=\"button\" data-to=\"figure\">Image</button></div></div>";
 
 const VIEWS: &str = "<div class=\"bar\"><button type=\"button\" data-view=\"front\" title=\"From the front (1)\">Front</button>\
 <button type=\"button\" data-view=\"top\" title=\"From above (2)\">Top</button>\
 <button type=\"button\" data-view=\"side\" title=\"From the right (3)\">Side</button></div>\
 <div class=\"bar\"><button type=\"button\" data-view=\"fit\" title=\"All of it (f)\">Fit</button>\
 <button type=\"button\" data-view=\"perspective\" aria-pressed=\"true\" title=\"Near things larger (p)\">Perspective</button></div>";
-
-const HELP: &str = "<p class=\"note keys\">Drag to turn, shift-drag or two fingers to move, wheel or pinch to zoom, double-click on a \
-point to turn about it. Keys: arrows, + and &minus;, 1 2 3, f, p. The small axes show x red, y green, z blue.</p>";
 
 #[cfg(test)]
 mod tests {
@@ -355,7 +341,7 @@ mod tests {
     }
 
     fn scene(layers: Vec<Layer>) -> Scene {
-        Scene { axes: Axes::Camera, layers, states: vec![], values: None }
+        Scene::new(Axes::Camera, layers)
     }
 
     #[test]

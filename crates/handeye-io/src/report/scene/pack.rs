@@ -63,6 +63,11 @@ impl Packed {
         Self::places(&kept, of)
     }
 
+    /// A cloud that was thinned from so many points.
+    pub fn thinned(points: &[[f32; 3]], of: usize) -> Option<Self> {
+        Self::places(points, of)
+    }
+
     /// A cloud that was thinned, with a number from 0 to 1 for each point in each state; NaN is none.
     pub fn valued(points: &[[f32; 3]], of: usize, values: &[Vec<f32>]) -> Option<Self> {
         let packed = |share: &f32| match share {

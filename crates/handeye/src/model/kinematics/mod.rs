@@ -249,6 +249,23 @@ impl Arm {
         self.places(&[]).iter().map(|place| place.turning).collect()
     }
 
+    /// Points of the base along the links for joint values, from the base to the flange: along each axis, then
+    /// along the link to the next one.
+    pub fn along_links(&self, values: &[f64]) -> Vec<Vector3<f64>> {
+        let mut all = vec![Vector3::zeros()];
+        for place in self.places(values) {
+            all.extend(
+                match self.convention {
+                    DhConvention::Standard => [&place.turning, &place.linking, &place.linked],
+                    DhConvention::Modified => [&place.linking, &place.linked, &place.turning],
+                }
+                .map(|frame| frame.translation.vector),
+            );
+        }
+        all.push(self.base_from_flange(values).translation());
+        all
+    }
+
     /// The same arm with these parameters larger by these values.
     pub fn moved(&self, which: &[Deviation], by: &[f64]) -> Arm {
         let mut arm = self.clone();
@@ -405,6 +422,19 @@ pub(crate) mod tests {
             let eigen = information.symmetric_eigen().eigenvalues;
             assert!(eigen.min() > 1e-5 * eigen.max(), "{convention:?} {eigen}");
             assert_eq!(which.len(), 18, "{which:?}");
+        }
+    }
+
+    #[test]
+    fn links_lead_from_the_base_to_the_flange_in_steps_along_axes_and_links() {
+        for convention in [DhConvention::Standard, DhConvention::Modified] {
+            let (arm, q) = (arm(convention), values(&mut Random::new(3)));
+            let path = arm.along_links(&q);
+            let flange = arm.base_from_flange(&q).translation();
+            assert!(path[0].norm() < 1e-12 && (path[path.len() - 1] - flange).norm() < 1e-12);
+            let long: f64 = path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+            let parts: f64 = arm.joints.iter().map(|j| j.a.abs() + j.d.abs()).sum();
+            assert!((long - parts).abs() < 1e-9, "{convention:?} {long} {parts}");
         }
     }
 
