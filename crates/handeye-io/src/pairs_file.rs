@@ -170,25 +170,7 @@ pub fn poses_from_json(text: &str, path: &Path) -> Result<PosesFile, Error> {
     let document: Document = serde_json::from_str(text).map_err(|e| broken(path, text, &e))?;
     let noise = noise(document.noise, path)?;
     let (unknown_scale, setup) = (document.unknown_scale, document.setup);
-    if document.distance_m.is_some() && document.motions.is_none() {
-        return Err(unusable(
-            path,
-            "`distance_m` goes with `motions`: of pairs the target is where it was seen",
-        ));
-    }
-    if let Some(motions) = document.motions {
-        let with =
-            document.pairs.is_some() || document.robot.is_some() || document.camera.is_some();
-        if with || unknown_scale {
-            let what = "`motions` stand alone, without `pairs`, streams and `unknown_scale`";
-            return Err(unusable(path, what));
-        }
-        let motions = motions.into_iter().enumerate().map(|(k, m)| RelativeMotion {
-            id: m.id.unwrap_or_else(|| (k + 1).to_string()),
-            mount_motion: m.mount,
-            camera_motion: m.camera,
-        });
-        let session = of_motions(setup, motions.collect(), document.distance_m, path)?;
+    if let Some(session) = session_of_motions(&document, path)? {
         return Ok(PosesFile { measured: MeasuredPoses::Pairs(Box::new(session)), noise });
     }
     let measured = match (document.pairs, document.robot, document.camera) {
@@ -322,6 +304,29 @@ fn broken_element(whole: &Value, error: &serde_json::Error) -> Option<Element> {
         };
         error.to_string().starts_with(&message).then_some(Element { kind, number: k + 1, id })
     })
+}
+
+/// The session of a file's motions; `None` where it has none.
+fn session_of_motions(document: &Document, path: &Path) -> Result<Option<Session>, Error> {
+    let Some(motions) = &document.motions else {
+        if document.distance_m.is_some() {
+            let what = "`distance_m` goes with `motions`: of pairs the target is where it was seen";
+            return Err(unusable(path, what));
+        }
+        return Ok(None);
+    };
+    let has_others =
+        document.pairs.is_some() || document.robot.is_some() || document.camera.is_some();
+    if has_others || document.unknown_scale {
+        let what = "`motions` stand alone, without `pairs`, streams and `unknown_scale`";
+        return Err(unusable(path, what));
+    }
+    let motions = motions.iter().enumerate().map(|(k, motion)| RelativeMotion {
+        id: motion.id.clone().unwrap_or_else(|| (k + 1).to_string()),
+        mount_motion: motion.mount,
+        camera_motion: motion.camera,
+    });
+    of_motions(document.setup, motions.collect(), document.distance_m, path).map(Some)
 }
 
 /// The session of motions, in a file that names them.
