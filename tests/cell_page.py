@@ -3,14 +3,11 @@
 cell_page.py REPORT.html
 """
 
-import os
 import pathlib
-import shutil
-import signal
 import sys
 import tempfile
 
-from web_page import NAMES, Browser
+import devtools
 
 # what the page keeps for this: the selected capture, and where in the view it is (px)
 FIGURE = "document.querySelector('figure.scene')"
@@ -20,21 +17,14 @@ SELECTED = f"{FIGURE}.dataset.selected"
 
 def main():
     page = pathlib.Path(sys.argv[1]).resolve()
-    program = next(filter(None, map(shutil.which, NAMES)), None)
-    if program is None:
+    if devtools.program() is None:
         print("SKIPPED: no chromium to open the report with")
         return
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work:
-        browser = Browser(program, work, page)
-        try:
-            browser.wait(f"document.readyState == 'complete' && !!{FIGURE} && !!{FIGURE}.dataset.drawn", "the view is drawn")
-            # without the way between two looks, which a page cannot be asked to end
-            browser.call(
-                "Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}]
-            )
-            count = look(browser)
-        finally:
-            os.killpg(browser.process.pid, signal.SIGKILL)
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work, devtools.Browser(work, page.as_uri()) as browser:
+        browser.wait(f"document.readyState == 'complete' && !!{FIGURE} && !!{FIGURE}.dataset.drawn", "the view is drawn")
+        # without the way between two looks, which a page cannot be asked to end
+        browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+        count = look(browser)
     print(f"{page.name}: {count} captures are selected by row, by image, in 3D and by keys")
 
 
@@ -62,7 +52,7 @@ def look(browser):
     browser.call("Emulation.setDeviceMetricsOverride", width=420, height=800, deviceScaleFactor=2, mobile=True)
     browser.wait(f"{CANVAS}.clientWidth <= 420", "the view fits on a phone")
     assert browser.value("document.documentElement.scrollWidth") <= 420, "the page is wider than a phone"
-    browser.close()
+    assert not list(browser.troubles()), list(browser.troubles())
     return len(rows)
 
 

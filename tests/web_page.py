@@ -12,60 +12,16 @@ import math
 import os
 import pathlib
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
 import time
-import urllib.request
 
-import websocket
-
-NAMES = ["chromium", "chromium-browser", "google-chrome"]
-SLOW = 120  # seconds until a step has failed
+import devtools
 
 
-class Browser:
-    """One page of a browser that has no network, by its own protocol."""
-
-    def __init__(self, program, work, page, size=(1400, 1000)):
-        flags = [
-            "--headless", "--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-sync",
-            "--disable-component-update", "--host-resolver-rules=MAP * ~NOTFOUND", "--remote-debugging-port=0",
-            "--remote-allow-origins=*", f"--user-data-dir={work}/profile", f"--window-size={size[0]},{size[1]}",
-            "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-        ]  # fmt: skip
-        self.process = subprocess.Popen([program, *flags, page.as_uri()], stderr=subprocess.DEVNULL, start_new_session=True)
-        self.count, self.said = 0, []
-        port_file = pathlib.Path(work) / "profile" / "DevToolsActivePort"
-        port = until(lambda: port_file.is_file() and port_file.read_text().split("\n")[0], "the browser starts")
-        targets = until(
-            lambda: [t for t in get(f"http://127.0.0.1:{port}/json") if t["type"] == "page"], "the page opens"
-        )
-        self.socket = websocket.create_connection(targets[0]["webSocketDebuggerUrl"], timeout=SLOW)
-        for domain in ("Runtime", "Page", "Network", "Log"):
-            self.call(f"{domain}.enable")
-
-    def call(self, method, **given):
-        """A command and its result; what the page said in the meantime is kept."""
-        self.count += 1
-        self.socket.send(json.dumps({"id": self.count, "method": method, "params": given}))
-        while True:
-            answer = json.loads(self.socket.recv())
-            if answer.get("id") == self.count:
-                assert "error" not in answer, answer
-                return answer["result"]
-            self.said.append(answer)
-
-    def value(self, expression):
-        """What an expression of JavaScript is."""
-        found = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
-        assert "exceptionDetails" not in found, found
-        return found["result"].get("value")
-
-    def wait(self, expression, what):
-        """Until an expression is true."""
-        return until(lambda: self.value(expression), what, lambda: self.value("document.body.innerText")[:3000])
+class Page(devtools.Browser):
+    """The page, as a person uses it, and its disk."""
 
     def drop(self, folder):
         """Drops a folder on the page."""
@@ -78,40 +34,6 @@ class Browser:
         code = f"""ask("read", {{ path: {json.dumps(path)} }}).then((bytes) => {{
             let all = ""; for (const b of bytes) all += String.fromCharCode(b); return btoa(all); }})"""
         return base64.b64decode(self.value(code))
-
-    def picture(self, path):
-        """A picture of the whole page."""
-        height = self.value("document.documentElement.scrollHeight")
-        width = self.value("innerWidth")
-        clip = {"x": 0, "y": 0, "width": width, "height": min(height, 6000), "scale": 1}
-        data = self.call("Page.captureScreenshot", clip=clip, captureBeyondViewport=True)["data"]
-        pathlib.Path(path).write_bytes(base64.b64decode(data))
-
-    def close(self):
-        """Ends it; what went wrong in the page meanwhile is an error."""
-        self.value("1")
-        for event in self.said:
-            kind, about = event["method"], event["params"]
-            assert kind != "Runtime.exceptionThrown", about
-            assert kind != "Log.entryAdded" or about["entry"]["level"] != "error", about
-            if kind == "Network.requestWillBeSent":
-                url = about["request"]["url"]
-                assert url.split(":")[0] in ("file", "blob", "data", "about"), f"loads {url}"
-
-
-def get(url):
-    with urllib.request.urlopen(url, timeout=10) as answer:
-        return json.load(answer)
-
-
-def until(is_done, what, state=lambda: ""):
-    end = time.monotonic() + SLOW
-    while time.monotonic() < end:
-        found = is_done()
-        if found:
-            return found
-        time.sleep(0.05)
-    sys.exit(f"failed: {what}\n{state()}")
 
 
 def same(a, b, path=""):
@@ -132,8 +54,7 @@ def same(a, b, path=""):
 
 def main():
     page, handeye = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
-    program = next(filter(None, map(shutil.which, NAMES)), None)
-    if program is None:
+    if devtools.program() is None:
         print("SKIPPED: no chromium to open the page with")
         return
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work:
@@ -142,11 +63,8 @@ def main():
         subprocess.run([handeye, "demo", "--out", work / "demo"], **quiet)
         cell = work / "demo" / "dataset"
         subprocess.run([handeye, "calibrate", cell, "--out", work / "native"], **quiet)
-        browser = Browser(program, work, page)
-        try:
+        with Page(work, page.as_uri()) as browser:
             look(browser, cell, work, page)
-        finally:
-            os.killpg(browser.process.pid, signal.SIGKILL)
 
 
 def look(browser, cell, work, page):
@@ -187,7 +105,7 @@ def look(browser, cell, work, page):
     browser.value("document.querySelector('#calibrate').click()")
     browser.wait("!document.querySelector('#report').hidden", "answered, it is calibrated")
     assert json.loads(browser.read("bare-result/calibration.json"))["hand_eye"]["mount_from_camera"]
-    browser.close()
+    assert not list(browser.troubles()), list(browser.troubles())
     megabytes = os.path.getsize(page) / 1e6
     print(f"{page.name} ({megabytes:.1f} MB): a folder dropped without a network, {len(native['captures'])} captures"
           f" in {seconds:.1f} s, off the program's result by {off:.0e}; commands, questions and files work")
