@@ -76,10 +76,10 @@ pub fn run(args: &ViewArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     for path in &args.files {
         contents.push(read(path, &args.reading, &mut warnings)?);
     }
-    let data = cell_data(&contents)?;
+    let mut data = cell_data(&contents)?;
     let frames = Frames::of(&args.files, &contents)?;
     let names = names(&args.files);
-    let (mut things, mut data) = (vec![], data);
+    let mut things = vec![];
     for (name, content) in names.iter().zip(&contents) {
         let name = name.clone();
         match content {
@@ -115,24 +115,25 @@ pub fn run(args: &ViewArgs, global: &GlobalArgs) -> Result<u8, Failure> {
 
 /// What a dataset adds to the one calibration beside it, with all its scans.
 fn cell_data(contents: &[Content]) -> Result<Option<CellData>, Failure> {
-    let mut datasets = contents.iter().filter_map(|c| match c {
-        Content::Dataset(dataset) => Some(dataset),
-        _ => None,
-    });
-    let Some(first) = datasets.next() else { return Ok(None) };
-    let calibrations: Vec<_> =
-        contents.iter().filter(|c| matches!(c, Content::Calibration(_))).collect();
-    let ([Content::Calibration(calibration)], 1) = (
-        calibrations.as_slice(),
-        contents.iter().filter(|c| matches!(c, Content::Dataset(_))).count(),
-    ) else {
-        return Err(Failure::Usage(
-            "a dataset is shown with its result: name one dataset and one calibration.json, or the folder of the \
-             result"
-                .into(),
-        ));
-    };
-    Ok(Some(CellData::of(first, calibration).with_scans(first, calibration)?))
+    let (mut datasets, mut calibrations) = (vec![], vec![]);
+    for content in contents {
+        match content {
+            Content::Dataset(dataset) => datasets.push(dataset),
+            Content::Calibration(calibration) => calibrations.push(calibration),
+            _ => {}
+        }
+    }
+    match (&datasets[..], &calibrations[..]) {
+        ([], _) => Ok(None),
+        ([dataset], [calibration]) => {
+            Ok(Some(CellData::of(dataset, calibration).with_scans(dataset, calibration)?))
+        }
+        _ => {
+            let what = "a dataset is shown with its result: name one dataset and one calibration.json, or the folder \
+                        of the result";
+            Err(Failure::Usage(what.into()))
+        }
+    }
 }
 
 fn is_calibration(thing: &Thing) -> bool {

@@ -188,6 +188,27 @@ fn texts() {
     let identity: Vec<u8> =
         (0..16).flat_map(|k| f64::from(u8::from(k % 5 == 0)).to_le_bytes()).collect();
     put("poses", "npy", &[&[4, 5][..], &npy("'<f8'", "1, 4, 4", &identity)].concat());
+    // programs of robots, in files of any text
+    for (notation, name, text) in [
+        (
+            1,
+            "krl",
+            "DEFDAT P\nDECL E6POS XP1={X 514.8,Y -20.1,Z 700,A 90,B 0.5,C 180,S 2,T 10}\nENDDAT\n",
+        ),
+        (
+            2,
+            "tp",
+            "/POS\nP[1:\"a\"]{\n GP1:\n UF : 0,\tX = 514.8 mm,\tY = -20.1 mm,\tZ = 700 mm,\n W = 0 deg,\tP = 0.5 deg,\tR = 90 deg\n};\n/END\n",
+        ),
+        (
+            3,
+            "rapid",
+            "CONST robtarget p10:=[[514.8,-20.1,700],[0,0.7071068,0.7071068,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n",
+        ),
+        (7, "inform", "//POS\n///POSTYPE BASE\nC00001=514.8,-20.1,700,180,0.5,90\n"),
+    ] {
+        put("poses", name, &[&[notation, 1][..], text.as_bytes()].concat());
+    }
     put("touches", "csv", &[&[0][..], b"corner,x,y,z\n0,1,2,3\n5,4,5,6\n"].concat());
     let target = "[target]\nkind = \"checkerboard\"\ncolumns = 4\nrows = 3\nsquare_mm = 10.0\n";
     put("touches", "target", &[&[3][..], target.as_bytes()].concat());

@@ -19,4 +19,7 @@ pub fn run(data: &[u8]) {
         assert!((corner.id as usize) < target.len());
         assert!(corner.pixel.iter().chain(corner.covariance.iter()).all(|x| x.is_finite()));
     }
+    if let Some(found) = detect::recognise(&[image]) {
+        assert!(!found.target.is_empty() && found.images == 1);
+    }
 }

@@ -42,10 +42,11 @@ const COARSEST: usize = 450;
 /// Checkerboards, ChArUco boards, AprilGrids, grids of tags and of circles, and single tags are known. A few images
 /// from all over the session are enough.
 pub fn recognise(images: &[GrayImage]) -> Option<Recognised> {
-    best(images, layout::boards(images))
+    let markers = layout::read_all(images);
+    best(images, layout::boards(&markers, images))
         .or_else(|| best(images, circle_grids(images)))
         .or_else(|| best(images, checkerboards(images)))
-        .or_else(|| best(images, layout::single_tags(images)))
+        .or_else(|| best(images, layout::single_tags(&markers, LEAST_IMAGES * images.len() as f64)))
 }
 
 /// The proposal of which most corners are found, if it is in enough images.

@@ -161,7 +161,7 @@ impl<'a> Drawing<'a> {
 
     fn base(&self) -> Layer {
         let mut layer = Layer::new("robot base", BASE);
-        let mut foot = shapes::foot(0.055 * self.size, 0.025 * self.size, BASE);
+        let mut foot = shapes::disc(0.055 * self.size, 0.025 * self.size, BASE);
         foot.copy(&Isometry3::identity(), None);
         layer.body(foot);
         layer.axes(&Isometry3::identity(), 0.18 * self.size);

@@ -44,14 +44,7 @@ fn closed(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     points.iter().chain(points.first()).copied().collect()
 }
 
-/// What a robot stands on.
-pub fn foot(radius: f64, height: f64, colour: &str) -> Body {
-    let mut body = Body::default();
-    body.prism(&circle(radius), -height, 0.0, Some(colour));
-    body
-}
-
-/// A flange as a solid disc behind its face.
+/// A solid disc behind its face: a flange, and what a robot stands on.
 pub fn disc(radius: f64, height: f64, colour: &str) -> Body {
     let mut body = Body::default();
     body.prism(&circle(radius), -height, 0.0, Some(colour));

@@ -4,7 +4,10 @@
 //! ChArUco board, straight on a grid of tags. Every number of columns gives each marker a place; the right one explains
 //! these steps.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    cmp::Reverse,
+    collections::{BTreeMap, BTreeSet},
+};
 
 use nalgebra::{Matrix3, Vector2};
 
@@ -67,9 +70,9 @@ struct Dictionary {
 }
 
 /// What the markers of one dictionary show in all images.
-struct Shown {
+struct Shown<'a> {
     /// Of each image.
-    tags: Vec<Vec<SeenTag>>,
+    tags: &'a [Vec<SeenTag>],
     is_diagonal: bool,
     /// From marker to marker, in sides of a marker.
     step: f64,
@@ -83,30 +86,37 @@ struct Step {
     by: (i32, i32),
 }
 
-/// Boards that the markers in the images may belong to, at most one for each dictionary.
-pub(super) fn boards(images: &[GrayImage]) -> Vec<TargetModel> {
-    let read = |(dictionary, tags)| board(&dictionary, tags, images);
-    read_all(images).into_iter().filter_map(read).collect()
+/// The markers of one dictionary that are read in each image.
+pub(super) struct Markers {
+    dictionary: Dictionary,
+    tags: Vec<Vec<SeenTag>>,
 }
 
-/// Tags that stand alone in the images.
-pub(super) fn single_tags(images: &[GrayImage]) -> Vec<TargetModel> {
+/// Boards that the markers in the images may belong to, at most one for each dictionary.
+pub(super) fn boards(markers: &[Markers], images: &[GrayImage]) -> Vec<TargetModel> {
+    markers.iter().filter_map(|markers| board(markers, images)).collect()
+}
+
+/// Tags that stand alone in the images: those that enough of them show.
+pub(super) fn single_tags(markers: &[Markers], least_images: f64) -> Vec<TargetModel> {
     let mut all = vec![];
-    for (dictionary, tags) in read_all(images) {
-        if dictionary.border_bits != 1 {
-            continue;
+    for Markers { dictionary, tags } in markers.iter().filter(|m| m.dictionary.border_bits == 1) {
+        let mut images: BTreeMap<u32, usize> = BTreeMap::new();
+        for seen in tags {
+            let ids: BTreeSet<u32> = seen.iter().map(|tag| tag.id).collect();
+            ids.into_iter().for_each(|id| *images.entry(id).or_default() += 1);
         }
-        let ids: BTreeSet<u32> = tags.iter().flatten().map(|tag| tag.id).collect();
-        for id in ids {
+        let shown = images.into_iter().filter(|(_, count)| *count as f64 >= least_images);
+        all.extend(shown.map(|(id, _)| {
             let dictionary = named(dictionary.name, id);
-            all.push(TargetModel::Tag { dictionary, id, size_mm: 1.0 });
-        }
+            TargetModel::Tag { dictionary, id, size_mm: 1.0 }
+        }));
     }
     all
 }
 
 /// The markers of every dictionary that are read without a wrong bit.
-fn read_all(images: &[GrayImage]) -> Vec<(Dictionary, Vec<Vec<SeenTag>>)> {
+pub(super) fn read_all(images: &[GrayImage]) -> Vec<Markers> {
     let plain = DICTIONARIES.map(|name| (name, None, 1)).into_iter();
     let tags = FAMILIES.into_iter().flat_map(|family| {
         [1, 2].map(|border_bits| (family.dictionary(), Some(family), border_bits))
@@ -127,17 +137,16 @@ fn read_all(images: &[GrayImage]) -> Vec<(Dictionary, Vec<Vec<SeenTag>>)> {
             all.push(without_copies(&[apart, touching].concat()));
         }
     }
-    let named =
-        |((name, family, border_bits), tags)| (Dictionary { name, family, border_bits }, tags);
-    ways.iter().copied().zip(all).map(named).collect()
+    let of = |((name, family, border_bits), tags)| Markers {
+        dictionary: Dictionary { name, family, border_bits },
+        tags,
+    };
+    ways.iter().copied().zip(all).map(of).collect()
 }
 
 /// The board that the markers of a dictionary belong to.
-fn board(
-    dictionary: &Dictionary,
-    tags: Vec<Vec<SeenTag>>,
-    images: &[GrayImage],
-) -> Option<TargetModel> {
+fn board(markers: &Markers, images: &[GrayImage]) -> Option<TargetModel> {
+    let Markers { dictionary, tags } = markers;
     let shown = Shown::of(tags)?;
     let steps = shown.steps();
     let ids: BTreeSet<u32> = steps.iter().map(|step| step.from).collect();
@@ -152,28 +161,20 @@ fn board(
         (false, None) => &[Numbering::FromTop],
     };
     let (least, most) = (*ids.first()?, *ids.last()?);
-    let firsts = if least > 0 { vec![0, least] } else { vec![0] };
-    let mut best: Option<(usize, Placed)> = None;
-    for &numbering in numberings {
-        for columns in 1..=MOST_COLUMNS {
-            for &first in &firsts {
-                let Some(placed) = Placed::new(numbering, columns, first, most) else { continue };
-                let explained = steps.iter().filter(|step| placed.explains(step)).count();
-                // a board that begins with a higher number than 0 leaves no empty rows above
-                let is_better = best.as_ref().is_none_or(|(most, other)| {
-                    explained > *most
-                        || explained == *most
-                            && other.columns == columns
-                            && other.numbering == numbering
-                            && other.row(least) > 0
-                });
-                if is_better {
-                    best = Some((explained, placed));
-                }
-            }
-        }
-    }
-    let (explained, placed) = best?;
+    let firsts = &BTreeSet::from([0, least]);
+    let ways = numberings.iter().flat_map(|numbering| {
+        let columns = 1..=MOST_COLUMNS;
+        columns
+            .flat_map(move |columns| firsts.iter().map(move |first| (*numbering, columns, *first)))
+    });
+    let placings = ways.filter_map(|(numbering, columns, first)| {
+        let placed = Placed::new(numbering, columns, first, most)?;
+        let explained = steps.iter().filter(|step| placed.explains(step)).count();
+        // of equals the one without empty rows above
+        Some(((explained, Reverse(placed.row(least))), placed))
+    });
+    let best = placings.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    let ((explained, _), placed) = best?;
     if (explained as f64) < LEAST_EXPLAINED * steps.len() as f64 {
         return None;
     }
@@ -186,8 +187,8 @@ fn board(
     Some(target)
 }
 
-impl Shown {
-    fn of(tags: Vec<Vec<SeenTag>>) -> Option<Self> {
+impl<'a> Shown<'a> {
+    fn of(tags: &'a [Vec<SeenTag>]) -> Option<Self> {
         let nearest: Vec<Vector2<f64>> = tags.iter().flat_map(|tags| neighbours(tags)).collect();
         let diagonal = |v: &Vector2<f64>| v.abs().min() > DIAGONAL * v.abs().max();
         let is_diagonal = 2 * nearest.iter().filter(|v| diagonal(v)).count() > nearest.len();
@@ -201,7 +202,7 @@ impl Shown {
     fn has_corner_squares(&self, images: &[GrayImage]) -> bool {
         let tags = images
             .iter()
-            .zip(&self.tags)
+            .zip(self.tags)
             .flat_map(|(image, tags)| tags.iter().map(move |tag| (image, tag)));
         let said = tags.filter_map(|(image, tag)| has_corner_square(image, tag, self.step - 1.0));
         let (yes, no): (Vec<bool>, Vec<bool>) = said.partition(|is_black| *is_black);
@@ -211,7 +212,7 @@ impl Shown {
     /// Whole steps between markers that are near one another.
     fn steps(&self) -> Vec<Step> {
         let mut all = vec![];
-        for tags in &self.tags {
+        for tags in self.tags {
             for (a, b) in pairs(tags) {
                 let Some(by) = offset(a, b).map(|v| v / self.step) else { continue };
                 let whole = by.map(f64::round);
