@@ -84,3 +84,20 @@ pub fn first_manifest(folder: &Path, known: &Known) -> Result<FirstManifest, Err
     let (text, questions) = sections::draft(&kinds, folder, known).written();
     Ok(FirstManifest { text, questions })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answered_manifest_asks_for_no_answers() {
+        let mut draft = crate::dataset::Draft::new();
+        draft.head(REQUEST);
+        draft.note("setup", "as the folder says");
+        let (text, _) = draft.written();
+        assert!(text.starts_with("# What the files prove is filled in."), "{text}");
+        let without = without_request(&text);
+        assert!(without.starts_with("# as the folder says\nsetup = "), "{without}");
+        assert_eq!(without_request(&without), without);
+    }
+}
