@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// Smallest side of an image (px) with a board of 2 x 2 corners in it.
-const SMALLEST_IMAGE: usize = 24;
+pub(super) const SMALLEST_IMAGE: usize = 24;
 
 /// The target's corners in an image, in the order of their ids. Pixels; the centre of the top-left
 /// pixel is (0, 0).
@@ -308,6 +308,9 @@ mod tests {
             let noise = (0..width * height).map(|_| random.between(0.0, 255.0) as f32).collect();
             assert!(detect(&GrayImage::new(width, height, noise).unwrap(), &target).is_err());
         }
+        // halves of a strip end before nothing is left of them
+        let strip = GrayImage::new(24, 60_000, vec![128.0; 24 * 60_000]).unwrap();
+        assert_eq!(detect(&strip, &target), Err(NotFound::NoCorners));
         let broken = GrayImage::new(64, 64, vec![f32::NAN; 4096]).unwrap();
         assert!(detect(&broken, &charuco(7, 5, false)).is_err());
     }

@@ -34,8 +34,8 @@ impl<'a> Scaled<'a> {
         Self { image: Cow::Owned(image), factor: 2.0 * self.factor }
     }
 
-    /// The image and its halves, halves of these and so on, until one is `small_enough`; the
-    /// smallest first.
+    /// The image and its halves, halves of these and so on, until one is `small_enough`, or so narrow that its half is
+    /// none; the smallest first.
     pub fn halves(
         image: &'a GrayImage,
         small_enough: impl Fn(&GrayImage) -> bool,
@@ -43,6 +43,7 @@ impl<'a> Scaled<'a> {
         let mut all = vec![Self::same(image)];
         while let Some(last) = all.last()
             && !small_enough(&last.image)
+            && last.image.width().min(last.image.height()) > 1
         {
             all.push(last.halved());
         }

@@ -42,6 +42,9 @@ const COARSEST: usize = 450;
 /// Checkerboards, ChArUco boards, AprilGrids, grids of tags and of circles, and single tags are known. A few images
 /// from all over the session are enough.
 pub fn recognise(images: &[GrayImage]) -> Option<Recognised> {
+    // smaller ones show no board
+    let is_large = |image: &&GrayImage| image.width().min(image.height()) >= board::SMALLEST_IMAGE;
+    let images: &[&GrayImage] = &images.iter().filter(is_large).collect::<Vec<_>>();
     let markers = layout::read_all(images);
     best(images, layout::boards(&markers, images))
         .or_else(|| best(images, circle_grids(images)))
@@ -50,7 +53,7 @@ pub fn recognise(images: &[GrayImage]) -> Option<Recognised> {
 }
 
 /// The proposal of which most corners are found, if it is in enough images.
-fn best(images: &[GrayImage], proposals: Vec<TargetModel>) -> Option<Recognised> {
+fn best(images: &[&GrayImage], proposals: Vec<TargetModel>) -> Option<Recognised> {
     let counted = proposals.into_iter().filter_map(|target| {
         let least = LEAST_CORNERS * target.len() as f64;
         let found = images.iter().filter_map(|image| board::detect(image, &target).ok());
@@ -64,7 +67,7 @@ fn best(images: &[GrayImage], proposals: Vec<TargetModel>) -> Option<Recognised>
 }
 
 /// Checkerboards of the sizes that grids of corners have, the most frequent first; columns along the longer side.
-fn checkerboards(images: &[GrayImage]) -> Vec<TargetModel> {
+fn checkerboards(images: &[&GrayImage]) -> Vec<TargetModel> {
     let mut sizes: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for image in images {
         for size in grid_sizes(image) {
@@ -96,12 +99,12 @@ fn grid_sizes(image: &GrayImage) -> Vec<(u32, u32)> {
 }
 
 /// Grids of circles, of the size that a search for another one names in the first image that shows one whole.
-fn circle_grids(images: &[GrayImage]) -> Vec<TargetModel> {
+fn circle_grids(images: &[&GrayImage]) -> Vec<TargetModel> {
     let kinds: [fn(u32, u32) -> TargetModel; 2] = [
         |columns, rows| TargetModel::CircleGrid { columns, rows, pitch_mm: 1.0 },
         |columns, rows| TargetModel::AsymmetricCircleGrid { columns, rows, pitch_mm: 1.0 },
     ];
-    let shown = |image: &GrayImage| {
+    let shown = |image: &&GrayImage| {
         let size = |kind: &fn(u32, u32) -> TargetModel| {
             let tried = kind(FEWEST + 1, FEWEST + 1);
             match circles::detect_with(image, &tried, None) {

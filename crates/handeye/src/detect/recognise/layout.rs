@@ -93,7 +93,7 @@ pub(super) struct Markers {
 }
 
 /// Boards that the markers in the images may belong to, at most one for each dictionary.
-pub(super) fn boards(markers: &[Markers], images: &[GrayImage]) -> Vec<TargetModel> {
+pub(super) fn boards(markers: &[Markers], images: &[&GrayImage]) -> Vec<TargetModel> {
     markers.iter().filter_map(|markers| board(markers, images)).collect()
 }
 
@@ -116,7 +116,7 @@ pub(super) fn single_tags(markers: &[Markers], least_images: f64) -> Vec<TargetM
 }
 
 /// The markers of every dictionary that are read without a wrong bit.
-pub(super) fn read_all(images: &[GrayImage]) -> Vec<Markers> {
+pub(super) fn read_all(images: &[&GrayImage]) -> Vec<Markers> {
     let plain = DICTIONARIES.map(|name| (name, None, 1)).into_iter();
     let tags = FAMILIES.into_iter().flat_map(|family| {
         [1, 2].map(|border_bits| (family.dictionary(), Some(family), border_bits))
@@ -145,7 +145,7 @@ pub(super) fn read_all(images: &[GrayImage]) -> Vec<Markers> {
 }
 
 /// The board that the markers of a dictionary belong to.
-fn board(markers: &Markers, images: &[GrayImage]) -> Option<TargetModel> {
+fn board(markers: &Markers, images: &[&GrayImage]) -> Option<TargetModel> {
     let Markers { dictionary, tags } = markers;
     let shown = Shown::of(tags)?;
     let steps = shown.steps();
@@ -199,7 +199,7 @@ impl<'a> Shown<'a> {
     }
 
     /// Whether the gaps of a grid of tags cross in black squares, as most tags say.
-    fn has_corner_squares(&self, images: &[GrayImage]) -> bool {
+    fn has_corner_squares(&self, images: &[&GrayImage]) -> bool {
         let tags = images
             .iter()
             .zip(self.tags)

@@ -81,7 +81,9 @@ fn pictures_without_a_board_show_none() {
     let noise: Vec<f32> = (0..640 * 480).map(|_| random.between(0.0, 255.0) as f32).collect();
     let noise = GrayImage::new(640, 480, noise).unwrap();
     let flat = GrayImage::new(640, 480, vec![90.0; 640 * 480]).unwrap();
-    assert_eq!(recognise(&[noise, flat]), None);
+    let strip =
+        |width: usize, height| GrayImage::new(width, height, vec![90.0; width * height]).unwrap();
+    assert_eq!(recognise(&[noise, flat, strip(1, 3000), strip(24, 60_000), strip(0, 0)]), None);
     assert_eq!(recognise(&[]), None);
 }
 
