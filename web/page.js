@@ -269,9 +269,8 @@ async function saveFormat() {
   for (const [path] of await ask("list", { path: "exported" })) await saveFile(path);
 }
 async function listFormats() {
-  const names = (said) => (document_(said).error.message.match(/there are (.*)$/) || ["", ""])[1].split(", ");
-  for (const name of names(await run("export", "-", "--format", "?", "--out", "-", "--json"))) {
-    if (name) $("format").add(new Option(name, name));
+  for (const name of document_(await run("export", "--format", "list", "--json")).formats) {
+    $("format").add(new Option(name, name));
   }
   for (const name of ["abb", "denso", "doosan", "fanuc", "kawasaki", "kuka", "staubli", "ur", "yaskawa"]) {
     $("robot").add(new Option(name, name));

@@ -138,6 +138,8 @@ pub struct CalibrateArgs {
 #[command(after_help = "Examples:\n\
 \x20 handeye export result/calibration.json --format kuka\n\
 \x20 handeye export result/calibration.json -f urdf,ros2-launch,npy --out exports\n\
+\x20 handeye export result -f urdf --child camera_link --urdf d435.urdf \\\n\
+\x20     --optical camera_color_optical_frame\n\
 \x20 handeye export --format list")]
 pub struct ExportArgs {
     /// The calibration.json of a result, or its folder; or a pose that `import` wrote.
@@ -155,6 +157,13 @@ pub struct ExportArgs {
     /// camera_link [default: that of the result, or camera].
     #[arg(long)]
     pub child: Option<String>,
+    /// URDF with the camera's links: where --child, a link of the camera's body, lies to the optical frame.
+    #[arg(long, value_name = "FILE", requires = "child")]
+    pub urdf: Option<PathBuf>,
+    /// The URDF's link that is the camera's optical frame (x right, y down, z forward) [default: the frame that the
+    /// result names].
+    #[arg(long, value_name = "LINK", requires = "urdf")]
+    pub optical: Option<String>,
     /// Export a result that was not accepted, too.
     #[arg(long)]
     pub force: bool,

@@ -7,7 +7,7 @@ use std::{
 
 use handeye::{Calibration, Verdict};
 use handeye_io::{
-    export::{CameraPose, Format, render},
+    export::{CameraPose, Format, render, with_body},
     read_result, write_atomically,
 };
 use serde_json::json;
@@ -28,7 +28,7 @@ pub fn run(args: &ExportArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let path = args.calibration.as_ref().ok_or_else(|| {
         Failure::Usage("which calibration? Name the calibration.json of a result".into())
     })?;
-    let calibration = read_result(path)?;
+    let calibration = of_body(read_result(path)?, args)?;
     check_verdict(path, &calibration, args.force, global)?;
     let frames = Frames { parent: args.parent.as_deref(), child: args.child.as_deref() };
     match &args.out {
@@ -42,6 +42,18 @@ pub fn run(args: &ExportArgs, global: &GlobalArgs) -> Result<u8, Failure> {
         }
     }
     Ok(0)
+}
+
+/// With the body of the camera that the arguments name a URDF for.
+fn of_body(calibration: Calibration, args: &ExportArgs) -> Result<Calibration, Failure> {
+    let (Some(urdf), Some(body)) = (&args.urdf, &args.child) else { return Ok(calibration) };
+    let named = calibration.frames.as_ref().and_then(|frames| frames.camera.clone());
+    let optical = args.optical.clone().or(named).ok_or_else(|| {
+        let question = "which link of the URDF is the camera's optical frame (x right, y down, z forward)? Name it with \
+                        --optical, such as camera_color_optical_frame";
+        Failure::Usage(question.into())
+    })?;
+    Ok(with_body(calibration, urdf, body, &optical)?)
 }
 
 /// Names and contents of a calibration in the given formats.

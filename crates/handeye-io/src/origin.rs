@@ -8,7 +8,7 @@ use std::{
     time::{SystemTime, UNIX_EPOCH},
 };
 
-use handeye::calibrate::result::{InputFile, Origin};
+use handeye::calibrate::result::{Equipment, InputFile, Origin};
 use hmac_sha256::Hash;
 
 use crate::{
@@ -21,7 +21,8 @@ use crate::{
 /// Of a dataset.
 pub(crate) fn of_dataset(dataset: &Dataset) -> Result<Origin, Error> {
     let folder = dataset.manifest.parent().unwrap_or(Path::new(""));
-    of_files(&dataset.title(), &[&dataset.root, folder], &dataset.inputs)
+    let origin = of_files(&dataset.title(), &[&dataset.root, folder], &dataset.inputs)?;
+    Ok(Origin { equipment: dataset.equipment.clone(), ..origin })
 }
 
 /// Of a file of poses.
@@ -44,6 +45,7 @@ fn of_files(name: &str, folders: &[&Path], paths: &[PathBuf]) -> Result<Origin, 
         created: now(),
         dataset: Some(name.into()),
         inputs: inputs.into_iter().collect::<Result<_, Error>>()?,
+        equipment: Equipment::default(),
     })
 }
 

@@ -3,7 +3,7 @@
 
 use std::{fs, path::Path};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::folder::{Folder, Run, handeye};
 
@@ -27,7 +27,7 @@ fn pairs() -> Folder {
         let cells: Vec<&str> = line.split(',').collect();
         let id = cells[0];
         let n = |k: usize| cells[k].parse::<f64>().unwrap();
-        let robot = serde_json::json!({
+        let robot = json!({
             "translation_m": [n(1), n(2), n(3)], "rotation_xyzw": [n(4), n(5), n(6), n(7)]
         });
         let captures = found["captures"].as_array().unwrap();
@@ -39,11 +39,9 @@ fn pairs() -> Folder {
         let line: Vec<String> =
             [numbers(&robot), numbers(seen)].concat().iter().map(Value::to_string).collect();
         table += &format!("{id};{}\n", line.join(";").replace('.', ","));
-        pairs.push(
-            serde_json::json!({ "id": id, "base_from_flange": robot, "camera_from_target": seen }),
-        );
+        pairs.push(json!({ "id": id, "base_from_flange": robot, "camera_from_target": seen }));
     }
-    let document = serde_json::json!({ "setup": "eye-in-hand", "pairs": pairs });
+    let document = json!({ "setup": "eye-in-hand", "pairs": pairs });
     folder.put("pairs.json", &document.to_string());
     folder.put("PAIRS.CSV", &table);
     folder
@@ -114,6 +112,38 @@ fn a_result_says_what_it_was_made_from() {
     assert_eq!(paths[0], "handeye.toml");
     assert!(paths.contains(&"robot.csv") && paths.len() >= 12, "{paths:?}");
     assert_eq!(of_cell["dataset"], "cell");
+    assert!(of_cell.get("equipment").is_none());
+}
+
+#[test]
+fn a_result_says_which_camera_and_robot_it_is_of() {
+    let folder = pairs();
+    let numbers = "width = 1920\nheight = 1200\nfx = 1800.0\nfy = 1800.0\ncx = 959.5\ncy = 599.5\n";
+    let manifest = folder.read("cell/handeye.toml").replace(numbers, "file = \"camera.yaml\"\n");
+    let says = "\n[equipment]\nrobot = \"UR10e\"\nrobot_serial = \"2021-17\"\n";
+    folder.put("cell/handeye.toml", &(manifest + says + "camera_serial = \"0042\"\n"));
+    let intrinsics = numbers.replace(" =", ":");
+    folder.put(
+        "cell/camera.yaml",
+        &(intrinsics.clone() + "camera_name: M130\nserial_number: 0042\n"),
+    );
+    ends(&handeye(&folder, &["calibrate", "cell", "--out", "result", "--quiet"]), 0);
+    let found: Value = serde_json::from_str(&folder.read("result/calibration.json")).unwrap();
+    let expected = json!({
+        "camera": "M130", "camera_serial": "0042", "robot": "UR10e", "robot_serial": "2021-17"
+    });
+    assert_eq!(found["equipment"], expected);
+    let page = folder.read("result/report.html");
+    let words = "The cell: camera M130, serial number 0042; robot UR10e, serial number 2021-17.";
+    assert!(page.contains(words), "no such sentence in the report");
+
+    folder.put("cell/camera.yaml", &(intrinsics + "serial_number: 43\n"));
+    let other = handeye(&folder, &["calibrate", "cell", "--quiet"]);
+    assert!(
+        ends(&other, 1).error().contains("0042, and camera.yaml holds the intrinsics of 43"),
+        "{}",
+        other.stderr
+    );
 }
 
 #[test]
@@ -234,6 +264,20 @@ fn frames_have_the_names_of_the_manifest_and_bodies_their_own_pose() {
         refused.stderr
     );
 
+    // without names in the manifest, from the camera's URDF
+    folder.put(
+        "d435.urdf",
+        "<robot name=\"d435\"><link name=\"camera_link\"/><link name=\"optical\"/>\n\
+         <joint name=\"lens\" type=\"fixed\"><parent link=\"camera_link\"/><child link=\"optical\"/>\n\
+         <origin xyz=\"0 0 0.25\"/></joint></robot>",
+    );
+    let of_urdf = ["--child", "camera_link", "--urdf", "d435.urdf"];
+    let asked = export(&of_urdf);
+    assert!(ends(&asked, 2).error().starts_with("which link of the URDF is"), "{}", asked.stderr);
+    let nowhere = export(&[&of_urdf[..], &["--optical", "optica"]].concat());
+    assert!(ends(&nowhere, 1).error().ends_with("did you mean optical?"), "{}", nowhere.stderr);
+    let of_model = export(&[&of_urdf[..], &["--optical", "optical"]].concat()).stdout;
+
     let manifest = folder.read("cell/handeye.toml")
         + "\n[frames]\nmount = \"tool0\"\ncamera = \"optical\"\n[[frames.bodies]]\nname = \"camera_link\"\n\
            body_from_camera = { translation_m = [0.0, 0.0, 0.5], rotation_xyzw = [0.0, 0.0, 0.0, 1.0] }\n";
@@ -249,8 +293,11 @@ fn frames_have_the_names_of_the_manifest_and_bodies_their_own_pose() {
     };
     // half a metre behind the camera, along its own axis
     let (optical, body) = (xyz(&optical), xyz(&body));
-    let apart: f64 = optical.iter().zip(&body).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-    assert!((apart - 0.5).abs() < 1e-6, "{apart}");
+    for (body, behind) in [(body, 0.5), (xyz(&of_model), 0.25)] {
+        let apart: f64 =
+            optical.iter().zip(&body).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        assert!((apart - behind).abs() < 1e-6, "{apart}");
+    }
 }
 
 #[test]

@@ -16,6 +16,7 @@ use crate::{
     tree::Tree,
 };
 use found::Found;
+pub(crate) use trees::Maker;
 
 /// The intrinsics of a manifest: a file, or the values themselves, or both.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -115,6 +116,16 @@ pub fn read_intrinsics(
     let file = Some(path.to_string_lossy().into_owned());
     let spec = CameraSpec { file, camera, ..CameraSpec::default() };
     read(&spec, Path::new(""), &Place::file(path), picture)
+}
+
+/// What the file of the intrinsics says of the camera itself.
+pub(crate) fn maker(spec: &CameraSpec, root: &Path) -> Result<Maker, Error> {
+    let Some(file) = &spec.file else { return Ok(Maker::default()) };
+    let path = root.join(file);
+    if files::extension(&path) == "npz" {
+        return Ok(Maker::default());
+    }
+    Ok(trees::maker(&Tree::read(&path)?, spec.camera.as_deref()))
 }
 
 fn in_file(path: &Path, camera: Option<&str>) -> Result<Found, Error> {

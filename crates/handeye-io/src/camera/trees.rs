@@ -38,6 +38,54 @@ const COEFFICIENTS: [&str; 12] = [
     "d",
 ];
 
+/// Keys of serial numbers, without capitals, `_`, `-` and blanks.
+const SERIALS: [&str; 6] = [
+    "serial",
+    "serialnumber",
+    "serialno",
+    "cameraserial",
+    "cameraserialnumber",
+    "deviceserialnumber",
+];
+/// Keys of the camera's model, likewise; ROS calls it the camera's name.
+const MODELS: [&str; 3] = ["cameraname", "devicename", "modelname"];
+
+/// What a file says of the camera itself.
+#[derive(Debug, Default)]
+pub(crate) struct Maker {
+    pub(crate) model: Option<String>,
+    pub(crate) serial: Option<String>,
+}
+
+/// Of a document; of one with several cameras, of that which is called `camera`, or of none.
+pub(super) fn maker(tree: &Tree, camera: Option<&str>) -> Maker {
+    let tree = match camera {
+        None => tree,
+        Some(name) => tree.get(name).unwrap_or(&Tree::Null),
+    };
+    let find = |keys: &[&str]| {
+        let look = |t: &Tree| {
+            let Tree::Map(entries) = t else { return None };
+            let named = entries.iter().find(|(key, value)| {
+                let key = key.to_lowercase().replace(['_', '-', ' '], "");
+                keys.contains(&key.as_str()) && said(value).is_some()
+            });
+            named.map(|(_, value)| value.clone())
+        };
+        anywhere(tree, &look, 0).as_ref().and_then(said)
+    };
+    Maker { model: find(&MODELS), serial: find(&SERIALS) }
+}
+
+/// A name or a number in words.
+fn said(value: &Tree) -> Option<String> {
+    match value {
+        Tree::Text(text) => Some(text.trim().to_owned()).filter(|text| !text.is_empty()),
+        Tree::Number(number) if number.fract() == 0.0 => Some(number.to_string()),
+        _ => None,
+    }
+}
+
 /// How deep a camera may hide in a document.
 const DEEPEST: usize = 6;
 
@@ -222,6 +270,23 @@ mod tests {
     fn a_size_that_the_file_leaves_out_is_the_pictures() {
         let camera = read("intrinsics:\n  fx: 1\n  fy: 2\n  cx: 3\n  cy: 4\n", None).unwrap();
         assert_eq!((camera.width, camera.height, camera.distortion), (640, 480, Distortion::None));
+    }
+
+    #[test]
+    fn a_file_says_whose_intrinsics_it_holds() {
+        let of = |yaml: &str, camera| {
+            let tree: Tree = serde_saphyr::from_str(yaml).unwrap();
+            let Maker { model, serial } = maker(&tree, camera);
+            (model, serial)
+        };
+        let words = |a: &str, b: &str| (Some(a.to_owned()), Some(b.to_owned()));
+        let ros = "camera_name: narrow_stereo\nimage_width: 8\n";
+        assert_eq!(of(ros, None), (Some("narrow_stereo".into()), None));
+        let maker_s = "info: {Model-Name: D435, Serial Number: 843112070187}\nfx: 1\n";
+        assert_eq!(of(maker_s, None), words("D435", "843112070187"));
+        let two = "left: {serial: A1}\nright: {serial: B2}\n";
+        assert_eq!(of(two, Some("right")), (None, Some("B2".into())));
+        assert_eq!(of("serial: ''\ncamera: {fx: 1}\n", None), (None, None));
     }
 
     #[test]

@@ -141,6 +141,7 @@ impl Dataset {
             target_size: Default::default(),
             answer_frame: None,
             frames: None,
+            equipment: Default::default(),
             inputs: vec![],
             shape: None,
             other_targets: vec![],

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
-use handeye::{AnswerFrame, Setup, calibrate::result::FrameNames};
+use handeye::{
+    AnswerFrame, Setup,
+    calibrate::result::{Equipment, FrameNames},
+};
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -77,6 +80,9 @@ pub(crate) struct Manifest {
     pub(crate) answer: AnswerSpec,
     /// What the frames are called in ROS and the like: for exports.
     pub(crate) frames: Option<FrameNames>,
+    /// What stands in the cell: for those who ask years later which camera and robot a result is of.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub(crate) equipment: Equipment,
 }
 
 /// Whether a key has its default value.
@@ -584,6 +590,7 @@ impl Manifest {
             limits: LimitsSpec::default(),
             answer: AnswerSpec::default(),
             frames: None,
+            equipment: Equipment::default(),
         }
     }
 

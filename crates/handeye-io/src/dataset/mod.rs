@@ -21,7 +21,7 @@ use handeye::{
     AnswerFrame, Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics,
     LensSigma, Motion, Observation, Pose, Scan, Session, Setup, Target, TargetModel, TargetSize,
     Touch, Warning, Workspace,
-    calibrate::result::FrameNames,
+    calibrate::result::{Equipment, FrameNames},
     intrinsics::LensModel,
     model::{kinematics::Arm, session::KnownPosition},
 };
@@ -67,6 +67,8 @@ pub struct Dataset {
     pub answer_frame: Option<AnswerFrame>,
     /// What its frames are called elsewhere.
     pub frames: Option<FrameNames>,
+    /// What stands in the cell.
+    pub equipment: Equipment,
     /// All files that it names, and the manifest.
     pub inputs: Vec<PathBuf>,
     /// What takes a board's place, where scans are brought together by their shape.

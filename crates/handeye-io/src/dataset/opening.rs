@@ -4,7 +4,8 @@ use std::{collections::BTreeSet, path::PathBuf};
 
 use handeye::{
     AnswerFrame, Base, Camera, Flange, Intrinsics, LensSigma, Pose, Setup, Target, TargetModel,
-    TargetSize, Touch, Warning, Workspace, model::session::KnownPosition,
+    TargetSize, Touch, Warning, Workspace, calibrate::result::Equipment,
+    model::session::KnownPosition,
 };
 use nalgebra::Vector3;
 
@@ -98,6 +99,7 @@ impl Opening {
             limits: self.limits(m)?,
             answer_frame: m.answer.frame.map(AnswerFrame::from),
             frames: m.frames.clone(),
+            equipment: self.equipment()?,
             inputs: inputs::files(&self.source, &self.root),
             notation: m.robot.as_ref().and_then(|r| r.table().notation),
             warnings,
@@ -121,6 +123,31 @@ impl Opening {
                 .map_or(Ok(()), Targets::check)
                 .map_err(|source| Error::Values { place: self.source.place("target"), source }),
         }
+    }
+
+    /// What the manifest says of camera and robot, and the file of the intrinsics of the camera.
+    fn equipment(&self) -> Result<Equipment, Error> {
+        let stated = self.manifest.equipment.clone();
+        let Some(spec) = &self.manifest.camera else { return Ok(stated) };
+        let found = camera::maker(spec, &self.root)?;
+        // YAML takes a number's leading zeros away
+        let number = |serial: &str| serial.trim().trim_start_matches('0').to_lowercase();
+        let serial = [&stated.camera_serial, &found.serial];
+        if let [Some(of_manifest), Some(of_file)] = serial
+            && number(of_manifest) != number(of_file)
+        {
+            let what = format!(
+                "the camera has the serial number {of_manifest}, and {} holds the intrinsics of {of_file}",
+                spec.file.as_deref().unwrap_or("the file")
+            );
+            let advice = "give the intrinsics of this camera, or correct the number";
+            return Err(malformed(self.source.place("equipment.camera_serial"), what, advice));
+        }
+        Ok(Equipment {
+            camera: stated.camera.or(found.model),
+            camera_serial: stated.camera_serial.or(found.serial),
+            ..stated
+        })
     }
 
     /// How well the manifest says that the lens is known.

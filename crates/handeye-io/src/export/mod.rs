@@ -1,9 +1,11 @@
 //! Results in the notations of other programs and of robots; conventions begin again here.
 
+mod bodies;
 mod middleware;
 mod text;
 mod vision;
 
+pub use bodies::with_body;
 use handeye::{Calibration, Setup};
 use nalgebra::Isometry3;
 
@@ -53,8 +55,8 @@ impl<'a> CameraPose<'a> {
         {
             return Err(format!(
                 "{child} is the name of a camera's body (x forward), and the result is the pose of its optical frame (z \
-                 forward, x right): export it as {}, or say in handeye.toml how the one lies in the other \
-                 ([[frames.bodies]]) and calibrate again",
+                 forward, x right): export it as {}, or say how the one lies in the other: \
+                 --urdf the model that has both, or [[frames.bodies]] in handeye.toml (then calibrate again)",
                 optical.unwrap_or("camera_optical_frame")
             ));
         }

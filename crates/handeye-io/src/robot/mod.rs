@@ -25,7 +25,7 @@ pub use euler::{Axes, Sense};
 pub use rotation::{Rotation, rotation_near};
 pub(crate) use suspicion::suspicious_values;
 pub use urdf::Urdf;
-pub(crate) use urdf::UrdfSpec;
+pub(crate) use urdf::{UrdfSpec, rigid};
 
 /// What a number of a notation measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -77,21 +77,7 @@ impl Urdf {
     /// # Errors
     /// As [`Urdf::read`].
     pub fn parse(text: &str, path: &Path, base: &str, flange: &str) -> Result<Urdf, Error> {
-        let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
-        let document = Document::parse_with_options(text, options).map_err(|e| {
-            let place = Place::line(path, e.pos().row as usize);
-            malformed(place, format!("is not XML: {e}"), "give the URDF of the robot")
-        })?;
-        let root = document.root_element();
-        if !root.has_tag_name("robot") {
-            let what = format!("is no URDF: its root is <{}>, not <robot>", root.tag_name().name());
-            return Err(malformed(Place::file(path), what, "give the URDF of the robot"));
-        }
-        if root.children().any(|c| c.tag_name().namespace().is_some_and(|n| n.contains("xacro"))) {
-            let advice = "expand it first: xacro robot.urdf.xacro > robot.urdf";
-            return Err(malformed(Place::file(path), "is a xacro, not a URDF", advice));
-        }
-        let joints = joints(&root, path)?;
+        let joints = joints_of(text, path)?;
         let (start, chain) = chain(&joints, base, flange, path)?;
         let (arm, joints, origins) = arm(start, &chain, path)?;
         let links = (base.to_owned(), flange.to_owned());
@@ -122,6 +108,40 @@ impl Urdf {
     pub(crate) fn links(&self) -> (&str, &str) {
         (&self.links.0, &self.links.1)
     }
+}
+
+/// Where the link `inner` lies in the link `outer`, between which only fixed joints lie: `outer_from_inner`.
+///
+/// # Errors
+/// As [`Urdf::read`]; a joint between the two that moves.
+pub(crate) fn rigid(path: &Path, outer: &str, inner: &str) -> Result<Isometry3<f64>, Error> {
+    let joints = joints_of(&files::text(path)?, path)?;
+    let (start, chain) = chain(&joints, outer, inner, path)?;
+    if let Some(joint) = chain.iter().find(|joint| joint.kind != "fixed") {
+        let what = format!("the joint {} between {outer} and {inner} moves", joint.name);
+        let advice = "choose two links of the camera, which only fixed joints connect";
+        return Err(malformed(Place::line(path, joint.line), what, advice));
+    }
+    Ok(chain.iter().fold(start, |pose, joint| pose * joint.parent_from_joint))
+}
+
+/// All joints of a URDF's text.
+fn joints_of(text: &str, path: &Path) -> Result<Joints, Error> {
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|e| {
+        let place = Place::line(path, e.pos().row as usize);
+        malformed(place, format!("is not XML: {e}"), "give the URDF of the robot")
+    })?;
+    let root = document.root_element();
+    if !root.has_tag_name("robot") {
+        let what = format!("is no URDF: its root is <{}>, not <robot>", root.tag_name().name());
+        return Err(malformed(Place::file(path), what, "give the URDF of the robot"));
+    }
+    if root.children().any(|c| c.tag_name().namespace().is_some_and(|n| n.contains("xacro"))) {
+        let advice = "expand it first: xacro robot.urdf.xacro > robot.urdf";
+        return Err(malformed(Place::file(path), "is a xacro, not a URDF", advice));
+    }
+    joints(&root, path)
 }
 
 fn joints(root: &Node, path: &Path) -> Result<Joints, Error> {
@@ -314,6 +334,26 @@ mod tests {
         let turned = read(&ARM.replace("</robot>", side), "base", "tool0").unwrap();
         let pose = turned.arm().base_from_flange(&[std::f64::consts::FRAC_PI_2, 0.3]);
         assert!((pose.translation() - Vector3::new(0.0, -0.6, 0.3)).norm() < 1e-12, "{pose:?}");
+    }
+
+    #[test]
+    fn links_of_one_body_are_where_fixed_joints_put_them() {
+        let camera = r#"<robot name="r"><link name="tool0"/><link name="camera_link"/><link name="lens"/><link name="optical"/>
+          <joint name="wrist" type="revolute"><parent link="tool0"/><child link="camera_link"/><axis xyz="0 0 1"/></joint>
+          <joint name="a" type="fixed"><parent link="camera_link"/><child link="lens"/><origin xyz="0 0.015 0"/></joint>
+          <joint name="b" type="fixed"><parent link="lens"/><child link="optical"/>
+            <origin rpy="-1.5707963267948966 0 -1.5707963267948966"/></joint></robot>"#;
+        let file = std::env::temp_dir().join(format!("handeye-rigid-{}.urdf", std::process::id()));
+        std::fs::write(&file, camera).unwrap();
+        let found = rigid(&file, "camera_link", "optical").unwrap();
+        // the camera looks along x of its body, the image's x is the body's -y
+        assert!((found * Point3::new(0.0, 0.0, 1.0) - Point3::new(1.0, 0.015, 0.0)).norm() < 1e-15);
+        assert!(
+            (found * Point3::new(1.0, 0.0, 0.0) - Point3::new(0.0, -0.985, 0.0)).norm() < 1e-15
+        );
+        let moves = rigid(&file, "tool0", "optical").unwrap_err().to_string();
+        std::fs::remove_file(&file).unwrap();
+        assert!(moves.contains(":2: the joint wrist between tool0 and optical moves"), "{moves}");
     }
 
     #[test]

@@ -10,9 +10,9 @@ use handeye::{
     calibrate::result::{
         Advice, Answer, ArmDeviation, ArmHeldOut, ArmResult, BlockGain, BoardDeviation, BodyFrame,
         BudgetEntry, CameraResult, Candidate, CaptureFlatness, CaptureResult, CaptureStep,
-        ColourStepResult, CompensationResult, DepthResult, Determined, FlatnessResult, FrameNames,
-        FramesResult, InputFile, JudgedFinding, PoseCovariance, Scale, ScanResult, SceneKind,
-        ScenePair, SceneResult, TipResult, TouchResult,
+        ColourStepResult, CompensationResult, DepthResult, Determined, Equipment, FlatnessResult,
+        FrameNames, FramesResult, InputFile, JudgedFinding, PoseCovariance, Scale, ScanResult,
+        SceneKind, ScenePair, SceneResult, TipResult, TouchResult,
     },
     estimate::{
         certify::Certificate,
@@ -269,6 +269,13 @@ fn full(errors: RobotErrors) -> Calibration {
         created: Some("2026-03-14T09:26:53Z".into()),
         dataset: Some("cell".into()),
         inputs: vec![InputFile { path: "handeye.toml".into(), sha256: "00".into() }],
+        equipment: Equipment {
+            camera: Some("camera".into()),
+            camera_serial: Some("1".into()),
+            robot: Some("robot".into()),
+            robot_serial: Some("2".into()),
+            board: Some("board".into()),
+        },
     }
 }
 

@@ -143,6 +143,8 @@ def export(
     *,
     parent: Optional[str] = None,
     child: Optional[str] = None,
+    urdf: Optional[_Path] = None,
+    optical: Optional[str] = None,
     force: bool = False,
 ) -> List[Path]:
     """Writes the transform in other programs' formats.
@@ -151,6 +153,8 @@ def export(
     :param out: the folder, or a file for a single format.
     :param parent: name of the parent frame, else that of the result, or ``base`` or ``flange``.
     :param child: name of the camera's optical frame, or of a frame fixed to the camera that the result knows.
+    :param urdf: a file with the camera's links: where ``child``, a link of its body, lies to the optical frame.
+    :param optical: the link of ``urdf`` that is the optical frame, else the frame that the result names.
     :param force: a result that was not accepted, too.
     :returns: the files.
     :raises InputError: a format that is not there, a result that was not accepted.
@@ -159,6 +163,7 @@ def export(
     with Files() as files:
         words = ["export", files.result(calibration), "--format", formats, "--out", fspath(out)]
         words += option("parent", parent) + option("child", child) + flag("force", force)
+        words += option("urdf", urdf) + option("optical", optical)
         return [Path(file) for file in document(words)["files"]]
 
 

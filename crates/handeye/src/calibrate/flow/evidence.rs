@@ -193,6 +193,7 @@ impl Evidence {
             created: None,
             dataset: None,
             inputs: vec![],
+            equipment: Default::default(),
         }
         .recorded()
     }

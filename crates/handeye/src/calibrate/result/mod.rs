@@ -27,7 +27,7 @@ use crate::{
     model::residual::Residual,
 };
 
-pub use origin::{Body, BodyFrame, FrameNames, InputFile, Origin};
+pub use origin::{Body, BodyFrame, Equipment, FrameNames, InputFile, Origin};
 pub use robot::{
     ArmDeviation, ArmHeldOut, ArmResult, BlockGain, CompensationResult, RobotErrorKind,
 };
@@ -382,6 +382,9 @@ pub struct Calibration {
     /// The files that it was made from.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inputs: Vec<InputFile>,
+    /// What stands in the cell, with serial numbers as far as they are known.
+    #[serde(default, skip_serializing_if = "Equipment::is_empty")]
+    pub equipment: Equipment,
 }
 
 /// Method of a pose that comes from elsewhere.

@@ -18,9 +18,19 @@ impl Arm {
     /// Joint values near `start` that bring the flange to `there`; `None` where it cannot reach
     /// that, or not from there.
     pub fn inverse(&self, there: &Pose<Base, Flange>, start: &[f64]) -> Option<Vec<f64>> {
+        self.inverse_in(there, start, MOST_STEPS)
+    }
+
+    /// The same in no more than so many steps.
+    pub fn inverse_in(
+        &self,
+        there: &Pose<Base, Flange>,
+        start: &[f64],
+        most_steps: usize,
+    ) -> Option<Vec<f64>> {
         let mut values: DVector<f64> =
             DVector::from_iterator(self.joints.len(), super::padded(start).take(self.joints.len()));
-        for _ in 0..MOST_STEPS {
+        for _ in 0..most_steps {
             let rest = self.base_from_flange(values.as_slice()).local(there);
             if rest.norm() < THERE {
                 return Some(values.as_slice().to_vec());

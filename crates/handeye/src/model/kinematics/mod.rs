@@ -244,6 +244,30 @@ impl Arm {
         all
     }
 
+    /// Frames in the base that move with each joint, for joint values: where the next joint begins.
+    pub fn link_frames(&self, values: &[f64]) -> Vec<Isometry3<f64>> {
+        let frame = |(place, (joint, value)): (Place, (&Joint, f64))| match self.convention {
+            DhConvention::Standard => place.linked,
+            DhConvention::Modified => place.turning * joint.turn(value),
+        };
+        let values = self.joints.iter().zip(padded(values));
+        self.places(&values.clone().map(|(_, value)| value).collect::<Vec<_>>())
+            .into_iter()
+            .zip(values)
+            .map(frame)
+            .collect()
+    }
+
+    /// The flange is no further from the base than this and what joints slide, m.
+    pub fn length(&self) -> f64 {
+        let ends = [
+            self.base_from_first_joint.translation().norm(),
+            self.last_link_from_flange.translation().norm(),
+        ];
+        let links = self.joints.iter().map(|j| j.a.abs() + j.d.abs());
+        ends.into_iter().chain(links).sum()
+    }
+
     /// Frames in the base where all joint values are zero: each joint turns about, or slides along, the z axis of its own.
     pub fn joint_frames(&self) -> Vec<Isometry3<f64>> {
         self.places(&[]).iter().map(|place| place.turning).collect()
@@ -345,7 +369,7 @@ impl Place {
     }
 }
 
-fn padded(values: &[f64]) -> impl Iterator<Item = f64> {
+fn padded(values: &[f64]) -> impl Iterator<Item = f64> + Clone {
     values.iter().copied().chain(std::iter::repeat(0.0))
 }
 

@@ -1,0 +1,458 @@
+//! The next view, and a whole round of them: of thousands of ways to look at the target, those that the robot reaches, on
+//! which nothing meets, from which the target is seen although its place is not known exactly, and that tell most.
+
+use nalgebra::{Matrix6, SMatrix, Vector3};
+
+use super::{
+    ExpectedNoise, FIRST, Setting, alike,
+    body::Contact,
+    error, finite,
+    guess::{GuessSigma, Taken, refined},
+    log_determinant,
+    looks::{self, Viewing, halton},
+    moment,
+    reach::{Reach, Station, Unreached},
+    travel,
+};
+use crate::{
+    Base, Camera, Error, Flange, HandEye, Pose, Target,
+    estimate::predict::PredictedTre,
+    math::{
+        lie,
+        linalg::{self, FREE_SIGMA},
+    },
+    model::residual::Residual,
+    register::rigid_fit::point_jacobian,
+    solve::least_squares::Matrix12,
+};
+
+/// What is known of a cell, and what its robot reaches.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Planner {
+    /// The cell; its `hand_eye` is what is known of it by now.
+    pub setting: Setting,
+    /// How well the camera's place is known beside the captures taken; `None` where it is known well.
+    pub guess: Option<GuessSigma>,
+    /// Captures that were taken.
+    pub taken: Vec<Taken>,
+    /// Poses in which the target was not found, or that the robot could not go to.
+    pub failed: Vec<Pose<Base, Flange>>,
+    /// From where the camera may look.
+    pub viewing: Viewing,
+    /// What the robot reaches.
+    pub reach: Reach,
+    /// Ways to look that are compared.
+    pub candidates: usize,
+}
+
+/// A view to take.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextView {
+    /// Where the robot is to go.
+    pub station: Station,
+    /// Where the target is to be seen then.
+    pub camera_from_target: Pose<Camera, Target>,
+    /// Whether the direct way there is blocked, and it goes by way of where the robot stood first.
+    pub by_way_of_start: bool,
+    /// The error of the answer before it; `None` while captures do not determine it.
+    pub before: Option<PredictedTre>,
+    /// The error once it is taken.
+    pub after: Option<PredictedTre>,
+}
+
+/// Views to take, in the order in which the robot goes to them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Route {
+    /// The views.
+    pub views: Vec<NextView>,
+    /// What all of them leave free, in words.
+    pub undetermined: Vec<String>,
+    /// The error once all are taken.
+    pub expected: Option<PredictedTre>,
+}
+
+/// Why no more views are found.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Refusals {
+    /// Looks from where the target is not seen as a whole for sure.
+    pub unseen: usize,
+    /// Looks too like captures that were taken, or to places that failed.
+    pub alike: usize,
+    /// Poses that the robot does not reach.
+    pub unreached: usize,
+    /// Poses in which something would meet something, and what does most often.
+    pub meeting: usize,
+    /// The first two that would meet.
+    pub contact: Option<Contact>,
+}
+
+/// The target is seen as a whole when this many standard deviations of its predicted place leave it in the image.
+const SURE: f64 = 2.0;
+/// Around a pose that failed nothing is tried again, rad and m.
+const NOT_AGAIN: Residual = Residual { angle: 0.15, distance: 0.06 };
+/// So many looks are drawn for each that is to be compared, where few are seen.
+const DRAWS: usize = 12;
+/// Poses looked at in vain before no more are tried: the search for joint values takes time.
+const MOST_IN_VAIN: usize = 600;
+/// Usual number of ways to look that are compared.
+pub const USUAL_CANDIDATES: usize = 2000;
+
+/// A way to look, and what it tells.
+struct Offer {
+    base_from_flange: Pose<Base, Flange>,
+    information: Matrix12,
+}
+
+impl Planner {
+    /// # Errors
+    /// Values that make no sense.
+    pub fn check(&self) -> Result<(), Error> {
+        self.setting.check()?;
+        self.reach.check()?;
+        finite(&self.failed)?;
+        let taken: Vec<_> = self.taken.iter().map(|t| t.base_from_flange).collect();
+        finite(&taken)?;
+        let v = &self.viewing;
+        let sound = v.nearest_m > 0.0
+            && v.farthest_m.is_finite()
+            && v.nearest_m < v.farthest_m
+            && (0.0..1.5).contains(&v.steepest)
+            && (0.0..0.4).contains(&v.margin);
+        let guessed = self.guess.is_none_or(|g| {
+            [g.rotation_rad, g.position_m].iter().all(|s| s.is_finite() && *s > 0.0)
+        });
+        match (sound, guessed) {
+            (true, true) => Ok(()),
+            (false, _) => Err(Error::Invalid(
+                "the distances and the tilt from which the camera may look make no sense".into(),
+            )),
+            (_, false) => Err(Error::Invalid("a guess needs positive standard deviations".into())),
+        }
+    }
+
+    /// With the place of camera and target that the guess and the captures make most likely.
+    pub fn refined(&self) -> Planner {
+        let Some(guess) = &self.guess else { return self.clone() };
+        Planner { setting: refined(&self.setting, guess, &self.taken), ..self.clone() }
+    }
+
+    /// Information of the guess and of the captures taken, and of next to nothing.
+    fn information(&self) -> Matrix12 {
+        let mut sum = Matrix12::identity() * FREE_SIGMA.powi(-2);
+        if let Some(guess) = &self.guess {
+            let mut x = sum.fixed_view_mut::<6, 6>(0, 0);
+            x += guess.information();
+        }
+        sum + self.of_taken()
+    }
+
+    /// Information of the captures alone.
+    fn of_taken(&self) -> Matrix12 {
+        let of = |t: &Taken| self.setting.information(&t.base_from_flange);
+        self.taken.iter().filter_map(of).fold(Matrix12::zeros(), |sum, h| sum + h)
+    }
+
+    /// The error that is to be expected of the captures taken so far.
+    pub fn expected(&self) -> Option<PredictedTre> {
+        let nothing = Matrix12::identity() * FREE_SIGMA.powi(-2);
+        self.setting.expected(&(nothing + self.of_taken()), self.taken.len())
+    }
+
+    /// The view that tells most, to be taken next.
+    ///
+    /// # Errors
+    /// Values that make no sense; [`Error::TooFewPoses`], which says why, where there is none.
+    pub fn next(&self) -> Result<NextView, Error> {
+        self.check()?;
+        let here = self.refined();
+        let (mut route, refusals) = here.greedy(1, |_| false)?;
+        route.pop().ok_or_else(|| refusals.error(0, 1))
+    }
+
+    /// Views that lower the expected error (95 %) to a tolerance (mm), or so many of them where they do not; in an order
+    /// that keeps the way short.
+    ///
+    /// # Errors
+    /// As [`Planner::next`], where not one view is found.
+    pub fn route(&self, most: usize, tolerance_mm: Option<f64>) -> Result<Route, Error> {
+        self.check()?;
+        let here = self.refined();
+        let enough = |view: &NextView| {
+            let reached = |error: &PredictedTre| tolerance_mm.is_some_and(|mm| error.p95 <= mm);
+            view.after.as_ref().is_some_and(reached)
+        };
+        let (views, refusals) = here.greedy(most, enough)?;
+        if views.is_empty() && most > 0 {
+            return Err(refusals.error(0, most));
+        }
+        let views = here.in_order(views);
+        let mut poses: Vec<_> = here.taken.iter().map(|t| t.base_from_flange).collect();
+        poses.extend(views.iter().map(|view| view.station.base_from_flange));
+        let sum = here.setting.sum(&poses);
+        Ok(Route {
+            undetermined: here.setting.undetermined(&sum, &poses),
+            expected: here.setting.expected(&sum, poses.len()),
+            views,
+        })
+    }
+
+    /// One view after the other, each of which tells most beside those before it.
+    fn greedy(
+        &self,
+        most: usize,
+        enough: impl Fn(&NextView) -> bool,
+    ) -> Result<(Vec<NextView>, Refusals), Error> {
+        let mut sum = self.information();
+        let mut refusals = Refusals::default();
+        let mut offers = self.offers(&sum, &mut refusals);
+        let nothing = Matrix12::identity() * FREE_SIGMA.powi(-2);
+        let mut of_captures = nothing + self.of_taken();
+        let moment = moment(&self.setting.volume);
+        let start = self.reach.now();
+        let mut stations: Vec<Station> = start.iter().cloned().collect();
+        let mut views: Vec<NextView> = vec![];
+        let mut in_vain = 0;
+        while views.len() < most {
+            let count = self.taken.len() + views.len();
+            let before = self.setting.expected(&of_captures, count);
+            let gain = |h: &Matrix12| match count < FIRST {
+                true => log_determinant(&(sum + h)),
+                false => -error(&(sum + h), &moment),
+            };
+            let mut gains: Vec<(f64, usize)> =
+                offers.iter().enumerate().map(|(k, offer)| (gain(&offer.information), k)).collect();
+            gains.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            let mut gone = vec![];
+            let found = gains.iter().find_map(|(_, k)| {
+                if in_vain >= MOST_IN_VAIN {
+                    return None;
+                }
+                let station = self.reach.station(&offers[*k].base_from_flange, &stations);
+                let blocked = |station: &Station| {
+                    start.as_ref().and_then(|start| self.reach.contact_between(start, station))
+                };
+                let refused = match station {
+                    Ok(station) => match blocked(&station) {
+                        None => return Some((*k, station)),
+                        Some(contact) => Unreached::Meets(contact),
+                    },
+                    Err(why) => why,
+                };
+                refusals.note(refused);
+                in_vain += 1;
+                gone.push(*k);
+                None
+            });
+            let Some((k, station)) = found else { break };
+            let offer = &offers[k];
+            (sum, of_captures) = (sum + offer.information, of_captures + offer.information);
+            let view = NextView {
+                camera_from_target: self.setting.pair(&station.base_from_flange).camera_from_target,
+                after: self.setting.expected(&of_captures, count + 1),
+                station: station.clone(),
+                by_way_of_start: false,
+                before,
+            };
+            gone.push(k);
+            gone.sort_unstable();
+            gone.iter().rev().for_each(|k| drop(offers.swap_remove(*k)));
+            offers.retain(|offer| !alike(&offer.base_from_flange, &station.base_from_flange));
+            stations.push(station);
+            let is_last = enough(&view);
+            views.push(view);
+            if is_last {
+                break;
+            }
+        }
+        Ok((views, refusals))
+    }
+
+    /// All that may be looked at, with what each tells.
+    fn offers(&self, information: &Matrix12, refusals: &mut Refusals) -> Vec<Offer> {
+        let covariance = linalg::invert_spd(information).unwrap_or_else(Matrix12::zeros);
+        // without a guess the place of both is known as well as it has to be
+        let covariance = self.guess.map(|_| covariance);
+        let outline = looks::outline(&self.setting.target);
+        let mut all = vec![];
+        for k in 0..self.candidates * DRAWS {
+            if all.len() == self.candidates {
+                break;
+            }
+            let Some(base_from_flange) = self.drawn(k, &outline) else {
+                refusals.unseen += 1;
+                continue;
+            };
+            if self.is_known(&base_from_flange) {
+                refusals.alike += 1;
+                continue;
+            }
+            let seen = self.is_seen(&base_from_flange, &outline, covariance.as_ref());
+            let told = seen.then(|| self.setting.information(&base_from_flange)).flatten();
+            match told {
+                Some(information) => all.push(Offer { base_from_flange, information }),
+                None => refusals.unseen += 1,
+            }
+        }
+        all
+    }
+
+    /// Candidate number `k`: a look at the target; or, of an arm that cannot turn its flange as it likes, joint values.
+    fn drawn(&self, k: usize, outline: &[Vector3<f64>; 4]) -> Option<Pose<Base, Flange>> {
+        match &self.reach {
+            Reach::Arm(arm) if arm.arm.joints.len() < 6 => {
+                let shares: Vec<f64> =
+                    [2, 3, 5, 7, 11].iter().map(|base| halton(k + 1, *base)).collect();
+                Some(arm.arm.base_from_flange(&arm.drawn(&shares)))
+            }
+            _ => {
+                let look = looks::look(&self.setting.camera, &self.viewing, k);
+                let centre = looks::middle(outline);
+                let camera_from_target = look.pose(&self.setting.camera, &centre)?;
+                Some(robot_at(&self.setting, &camera_from_target))
+            }
+        }
+    }
+
+    fn is_known(&self, pose: &Pose<Base, Flange>) -> bool {
+        self.taken.iter().any(|t| alike(&t.base_from_flange, pose))
+            || self.failed.iter().any(|f| Residual::between(f, pose).is_within(NOT_AGAIN))
+    }
+
+    /// Whether the whole target is in the image, not too flat and sharp, as far as its place is known.
+    fn is_seen(
+        &self,
+        pose: &Pose<Base, Flange>,
+        outline: &[Vector3<f64>; 4],
+        covariance: Option<&Matrix12>,
+    ) -> bool {
+        let Setting { camera, .. } = &self.setting;
+        let view = self.setting.pair(pose).camera_from_target;
+        let (rotation, v) = (view.rotation(), &self.viewing);
+        let depth = (view * crate::Point::from_vector(looks::middle(outline))).vector().z;
+        if !(v.nearest_m..=v.farthest_m).contains(&depth) {
+            return false;
+        }
+        let of_view = covariance.map(|s| view_covariance(&view, s));
+        let size = [f64::from(camera.width), f64::from(camera.height)];
+        outline.iter().all(|p| {
+            let seen = (view * crate::Point::from_vector(*p)).vector();
+            let flat = rotation.column(2).dot(&seen) < v.steepest.cos() * seen.norm();
+            let Some((pixel, by_point)) = camera.project_with_jacobian(&seen) else { return false };
+            let by_pose: SMatrix<f64, 3, 6> = rotation * point_jacobian(p);
+            let j = by_point * by_pose;
+            let off = of_view.map_or([0.0; 2], |s| {
+                let s = j * s * j.transpose();
+                [s[(0, 0)], s[(1, 1)]].map(|variance| SURE * variance.max(0.0).sqrt())
+            });
+            let inside = |k: usize| {
+                let margin = v.margin * size[k] + off[k];
+                pixel[k] > margin && pixel[k] < size[k] - 1.0 - margin
+            };
+            !flat && inside(0) && inside(1)
+        })
+    }
+
+    /// The views in an order that keeps the way short, with what is expected after each.
+    fn in_order(&self, views: Vec<NextView>) -> Vec<NextView> {
+        let Some(start) = self.reach.now() else { return views };
+        let stations: Vec<Station> = views.iter().map(|view| view.station.clone()).collect();
+        let legs = travel::shortest(&start, &stations, &self.reach);
+        let mut of_captures = Matrix12::identity() * FREE_SIGMA.powi(-2) + self.of_taken();
+        let mut before = self.setting.expected(&of_captures, self.taken.len());
+        let arrange = |(k, leg): (usize, &travel::Leg)| {
+            let view = &views[leg.to];
+            let told = self.setting.information(&view.station.base_from_flange);
+            of_captures += told.unwrap_or_else(Matrix12::zeros);
+            let after = self.setting.expected(&of_captures, self.taken.len() + k + 1);
+            let before = std::mem::replace(&mut before, after.clone());
+            NextView { before, after, by_way_of_start: leg.by_way_of_start, ..view.clone() }
+        };
+        legs.iter().enumerate().map(arrange).collect()
+    }
+}
+
+/// `A = Y B X⁻¹`: where the robot is when the camera sees the target so.
+pub fn robot_at(
+    setting: &Setting,
+    camera_from_target: &Pose<Camera, Target>,
+) -> Pose<Base, Flange> {
+    let HandEye { mount_from_camera, anchor_from_target } = setting.hand_eye;
+    let anchor_from_mount: Pose<crate::Anchor, crate::Mount> =
+        anchor_from_target * camera_from_target.inverse() * mount_from_camera.inverse();
+    // the setups' map is its own inverse
+    setting.setup.anchor_from_mount(anchor_from_mount.rename()).rename()
+}
+
+/// Covariance of where the target will be seen, in the target: `δB = -Ad(B⁻¹) δX + δY`.
+fn view_covariance(view: &Pose<Camera, Target>, covariance: &Matrix12) -> Matrix6<f64> {
+    let mut j = SMatrix::<f64, 6, 12>::zeros();
+    j.fixed_view_mut::<6, 6>(0, 0).copy_from(&-lie::adjoint(view.inverse().iso()));
+    j.fixed_view_mut::<6, 6>(0, 6).fill_with_identity();
+    j * covariance * j.transpose()
+}
+
+impl Refusals {
+    fn note(&mut self, why: Unreached) {
+        match why {
+            Unreached::TooFar => self.unreached += 1,
+            Unreached::Meets(contact) => {
+                self.meeting += 1;
+                self.contact.get_or_insert(contact);
+            }
+        }
+    }
+
+    /// In words.
+    fn error(&self, found: usize, needed: usize) -> Error {
+        let Refusals { unseen, alike, unreached, meeting, contact } = self;
+        let most = [
+            (*unseen, "the camera would not surely see the whole target: take the first captures near the present one, or \
+                       allow other distances"
+                .to_owned()),
+            (*alike, "they are like captures that were taken or failed".into()),
+            (*unreached, "the robot does not reach them: move the board nearer to the middle of its workspace".into()),
+            (*meeting, {
+                let which = contact.as_ref().map_or(String::new(), |c| format!(" ({} and {})", c.part, c.with));
+                format!("something would meet something{which}: move the board, or correct the shapes")
+            }),
+        ];
+        let all: usize = most.iter().map(|(count, _)| count).sum();
+        let why = most.into_iter().max_by_key(|(count, _)| *count);
+        let advice =
+            why.map_or(String::new(), |(count, why)| format!("in {count} of {all} tried, {why}"));
+        Error::TooFewPoses { found, needed, advice }
+    }
+}
+
+impl NextView {
+    /// Why it is taken: how it looks, and what it brings.
+    pub fn reason(&self) -> String {
+        let view = &self.camera_from_target;
+        let normal = view.rotation().column(2).into_owned();
+        let tilt = normal.z.abs().min(1.0).acos().to_degrees();
+        // the board turns about the axis of the image that is at right angles to the way its normal leans
+        let about = if normal.x.abs() > normal.y.abs() { "y" } else { "x" };
+        let look = match tilt < 8.0 {
+            true => "straight on".to_owned(),
+            false => format!("tilted by {tilt:.0} degrees about the image's {about}"),
+        };
+        let far = view.translation().z;
+        let brings = match (&self.before, &self.after) {
+            (Some(a), Some(b)) => format!("{:.2} mm → {:.2} mm (95 %)", a.p95, b.p95),
+            (None, Some(b)) => format!("then all is determined, to {:.2} mm (95 %)", b.p95),
+            _ => "needed to determine all directions".into(),
+        };
+        format!("{look}, {far:.2} m away: {brings}")
+    }
+}
+
+impl ExpectedNoise {
+    /// With what a calibration found, where it did.
+    pub fn or_found(self, rotation_rad: Option<f64>, position_m: Option<f64>) -> ExpectedNoise {
+        ExpectedNoise {
+            robot_rotation_rad: rotation_rad.unwrap_or(self.robot_rotation_rad),
+            robot_position_m: position_m.unwrap_or(self.robot_position_m),
+            ..self
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! What the robot can reach: joint values within limits where the arm is known; elsewhere poses near those in which it has
+//! stood.
+
+use super::body::{Contact, Surroundings};
+use crate::{
+    Base, Error, Flange, Pose,
+    model::{kinematics::Arm, residual::Residual},
+};
+
+/// How it is known what the robot reaches.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reach {
+    /// The arm and its limits.
+    Arm(ArmReach),
+    /// Poses near those in which it has stood.
+    Near(NearReach),
+}
+
+/// An arm, the limits of its joints, and where they stand.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArmReach {
+    /// The arm.
+    pub arm: Arm,
+    /// Lowest and highest value of each joint, rad or m.
+    pub limits: Vec<(f64, f64)>,
+    /// Joint values now, rad or m: the way begins here.
+    pub now: Vec<f64>,
+    /// What may meet.
+    pub surroundings: Surroundings,
+}
+
+/// Poses in which the robot has stood.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearReach {
+    /// The poses; the last one is where it stands now.
+    pub stood: Vec<Pose<Base, Flange>>,
+    /// How far from one of them it may go.
+    pub within: Residual,
+    /// What may meet: what the flange carries, and what stands in the cell.
+    pub surroundings: Surroundings,
+}
+
+/// A pose that is reached, and where the robot is then.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Station {
+    /// Where the flange is.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// Joint values, where the arm is known.
+    pub joints: Option<Vec<f64>>,
+}
+
+/// Why a pose is not reached.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Unreached {
+    /// No joint values within the limits lead there, or it is far from all poses that were reached.
+    TooFar,
+    /// Two things would meet there.
+    Meets(Contact),
+}
+
+/// Joints keep from their limits by this, rad or m.
+const FROM_LIMITS: f64 = 0.01;
+/// Steps of the search for joint values.
+const STEPS: usize = 25;
+/// A robot that has reached a pose reaches others within these.
+pub const USUALLY_NEAR: Residual = Residual { angle: 0.8, distance: 0.3 };
+
+impl ArmReach {
+    /// # Errors
+    /// Numbers of limits or values that are not those of the joints; shapes that are none.
+    pub fn check(&self) -> Result<(), Error> {
+        self.arm.check()?;
+        self.surroundings.check()?;
+        let joints = self.arm.joints.len();
+        for (what, count) in [("limits", self.limits.len()), ("joint values", self.now.len())] {
+            if count != joints {
+                return Err(Error::Invalid(format!("{count} {what} for {joints} joints")));
+            }
+        }
+        let numbers = self.limits.iter().flat_map(|(low, high)| [low, high]).chain(&self.now);
+        match numbers.copied().all(f64::is_finite) {
+            true => Ok(()),
+            false => Err(Error::NotFinite { what: "a joint's limit or value".into() }),
+        }
+    }
+
+    /// The first joint that is beyond its limits.
+    pub fn beyond_limits(&self, values: &[f64]) -> Option<usize> {
+        let beyond = |(value, (low, high)): (&f64, &(f64, f64))| value < low || value > high;
+        values.iter().zip(&self.limits).position(beyond)
+    }
+
+    fn keeps_limits(&self, values: &[f64]) -> bool {
+        let keeps = |(value, (low, high)): (&f64, &(f64, f64))| {
+            *value >= low + FROM_LIMITS && *value <= high - FROM_LIMITS
+        };
+        values.iter().zip(&self.limits).all(keeps)
+    }
+
+    /// Turned by whole turns so that it is within its limits and as near to where it stands as it can be.
+    fn unwound(&self, mut values: Vec<f64>, near: &[f64]) -> Vec<f64> {
+        let turn = std::f64::consts::TAU;
+        for (k, value) in values.iter_mut().enumerate() {
+            if self.arm.joints[k].prismatic {
+                continue;
+            }
+            *value -= turn * ((*value - near[k]) / turn).round();
+            let (low, high) = self.limits[k];
+            if *value < low + FROM_LIMITS {
+                *value += turn;
+            } else if *value > high - FROM_LIMITS {
+                *value -= turn;
+            }
+        }
+        values
+    }
+
+    /// Joint values that lead to a pose, from one of those in which the search begins.
+    fn joints_at(
+        &self,
+        there: &Pose<Base, Flange>,
+        starts: &[Vec<f64>],
+    ) -> Result<Vec<f64>, Unreached> {
+        let mut why = Unreached::TooFar;
+        let slides: f64 = self
+            .arm
+            .joints
+            .iter()
+            .zip(&self.limits)
+            .filter(|(joint, _)| joint.prismatic)
+            .map(|(_, (low, high))| low.abs().max(high.abs()))
+            .sum();
+        if there.translation().norm() > self.arm.length() + slides {
+            return Err(why);
+        }
+        for start in starts {
+            let Some(values) = self.arm.inverse_in(there, start, STEPS) else { continue };
+            let values = self.unwound(values, &self.now);
+            if !self.keeps_limits(&values) {
+                continue;
+            }
+            match self.surroundings.contact(&self.arm, &values) {
+                None => return Ok(values),
+                Some(contact) => why = Unreached::Meets(contact),
+            }
+        }
+        Err(why)
+    }
+
+    /// Values spread over all that the joints can do, where an arm cannot turn its flange as it likes.
+    pub(super) fn drawn(&self, share: &[f64]) -> Vec<f64> {
+        let value = |((low, high), share): (&(f64, f64), &f64)| {
+            low + FROM_LIMITS + (high - low - 2.0 * FROM_LIMITS) * share
+        };
+        self.limits.iter().zip(share).map(value).collect()
+    }
+}
+
+impl Reach {
+    /// # Errors
+    /// As [`ArmReach::check`].
+    pub fn check(&self) -> Result<(), Error> {
+        match self {
+            Reach::Arm(arm) => arm.check(),
+            Reach::Near(near) => near.surroundings.check(),
+        }
+    }
+
+    /// What is reached at a pose, near one of `others` first.
+    ///
+    /// # Errors
+    /// Why it is not reached.
+    pub fn station(
+        &self,
+        there: &Pose<Base, Flange>,
+        others: &[Station],
+    ) -> Result<Station, Unreached> {
+        match self {
+            Reach::Arm(arm) => {
+                let known = others.iter().rev().filter_map(|s| s.joints.clone());
+                let mut starts: Vec<Vec<f64>> = vec![arm.now.clone()];
+                starts.extend(known.take(2));
+                let joints = arm.joints_at(there, &starts)?;
+                // what the joint values really do
+                let base_from_flange = arm.arm.base_from_flange(&joints);
+                Ok(Station { base_from_flange, joints: Some(joints) })
+            }
+            Reach::Near(near) => near.station(there),
+        }
+    }
+
+    /// Where the robot stands now.
+    pub fn now(&self) -> Option<Station> {
+        match self {
+            Reach::Arm(arm) => Some(Station {
+                base_from_flange: arm.arm.base_from_flange(&arm.now),
+                joints: Some(arm.now.clone()),
+            }),
+            Reach::Near(near) => {
+                let last = near.stood.last()?;
+                Some(Station { base_from_flange: *last, joints: None })
+            }
+        }
+    }
+
+    /// What meets what on the way from one pose to another.
+    pub fn contact_between(&self, from: &Station, to: &Station) -> Option<Contact> {
+        match (self, &from.joints, &to.joints) {
+            (Reach::Arm(arm), Some(a), Some(b)) => arm.surroundings.contact_between(&arm.arm, a, b),
+            (Reach::Arm(_), ..) => None,
+            (Reach::Near(near), ..) => near
+                .surroundings
+                .contact_on_straight_way(&from.base_from_flange, &to.base_from_flange),
+        }
+    }
+}
+
+impl NearReach {
+    fn station(&self, there: &Pose<Base, Flange>) -> Result<Station, Unreached> {
+        let near =
+            |stood: &Pose<Base, Flange>| Residual::between(stood, there).is_within(self.within);
+        if !self.stood.iter().any(near) {
+            return Err(Unreached::TooFar);
+        }
+        match self.surroundings.contact_on_straight_way(there, there) {
+            Some(contact) => Err(Unreached::Meets(contact)),
+            None => Ok(Station { base_from_flange: *there, joints: None }),
+        }
+    }
+}
+
+impl Station {
+    /// How long the way to another one is: rad of all joints, or m and rad of the flange.
+    pub fn way_to(&self, other: &Station) -> f64 {
+        match (&self.joints, &other.joints) {
+            (Some(a), Some(b)) => a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max),
+            _ => {
+                let (a, b) = (&self.base_from_flange, &other.base_from_flange);
+                a.distance_to(b) + a.angle_to(b)
+            }
+        }
+    }
+}
