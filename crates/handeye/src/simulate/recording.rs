@@ -8,8 +8,8 @@ use super::{
     conditions::Paper,
 };
 use crate::{
-    Base, Error, Flange, GrayImage, ImageCorner, Observation, Placement, Point, Pose, Scan,
-    Session, SurfaceCorner, Touch, detect,
+    Base, Camera, Error, Flange, GrayImage, ImageCorner, Observation, Placement, Point, Pose, Scan,
+    Session, SurfaceCorner, Target, Touch, detect,
     simulate::cell::{ROBOT, TOOL, Truth, direction, out_of_reach, placement_name},
 };
 
@@ -46,6 +46,41 @@ impl Cell {
         let camera_from_target = self.views()?;
         let base_from_flange: Vec<Pose<Base, Flange>> =
             camera_from_target[..self.captures].iter().map(|v| self.robot_at(v)).collect();
+        self.recorded(camera_from_target, base_from_flange, seed)
+    }
+
+    /// The same with captures at these poses of the robot, as many as the cell has; the target may then be partly, or not at
+    /// all, in the image.
+    ///
+    /// # Errors
+    /// As [`Cell::record`]; another number of poses than of captures.
+    pub fn record_at(
+        &self,
+        base_from_flange: &[Pose<Base, Flange>],
+        seed: u64,
+    ) -> Result<Recording<'_>, Error> {
+        self.target.check()?;
+        self.intrinsics.check()?;
+        if base_from_flange.len() != self.captures {
+            let (poses, captures) = (base_from_flange.len(), self.captures);
+            return Err(Error::Invalid(format!("{poses} poses for {captures} captures")));
+        }
+        let seen = |pose: &Pose<Base, Flange>| {
+            let anchor_from_camera =
+                self.setup.anchor_from_mount(*pose) * self.hand_eye.mount_from_camera;
+            anchor_from_camera.inverse() * self.hand_eye.anchor_from_target
+        };
+        let placed = self.views()?.split_off(self.captures);
+        let views = base_from_flange.iter().map(seen).chain(placed).collect();
+        self.recorded(views, base_from_flange.to_vec(), seed)
+    }
+
+    fn recorded(
+        &self,
+        camera_from_target: Vec<Pose<Camera, Target>>,
+        base_from_flange: Vec<Pose<Base, Flange>>,
+        seed: u64,
+    ) -> Result<Recording<'_>, Error> {
         let mut robot = random(seed, ROBOT, 0);
         let arm = self.robot();
         let says = |p| arm.reported(p, &self.noise, &mut robot);

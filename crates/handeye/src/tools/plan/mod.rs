@@ -237,4 +237,6 @@ pub use reach::{ArmReach, NearReach, Reach, Station, USUALLY_NEAR, Unreached};
 pub use solids::{Capsule, Cuboid};
 
 #[cfg(test)]
+mod planner_tests;
+#[cfg(test)]
 mod tests;

@@ -402,24 +402,30 @@ impl Refusals {
         }
     }
 
-    /// In words.
+    /// In words: why those that came furthest came no further.
     fn error(&self, found: usize, needed: usize) -> Error {
         let Refusals { unseen, alike, unreached, meeting, contact } = self;
-        let most = [
-            (*unseen, "the camera would not surely see the whole target: take the first captures near the present one, or \
-                       allow other distances"
-                .to_owned()),
-            (*alike, "they are like captures that were taken or failed".into()),
-            (*unreached, "the robot does not reach them: move the board nearer to the middle of its workspace".into()),
-            (*meeting, {
-                let which = contact.as_ref().map_or(String::new(), |c| format!(" ({} and {})", c.part, c.with));
-                format!("something would meet something{which}: move the board, or correct the shapes")
-            }),
-        ];
-        let all: usize = most.iter().map(|(count, _)| count).sum();
-        let why = most.into_iter().max_by_key(|(count, _)| *count);
-        let advice =
-            why.map_or(String::new(), |(count, why)| format!("in {count} of {all} tried, {why}"));
+        let (all, tried) = (unseen + alike + unreached + meeting, unreached + meeting);
+        let advice = if tried > 0 && unreached >= meeting {
+            format!(
+                "the robot does not reach {unreached} of {tried} poses that would show the target: move the board nearer \
+                 to the middle of its workspace"
+            )
+        } else if tried > 0 {
+            let which =
+                contact.as_ref().map_or(String::new(), |c| format!(" ({} and {})", c.part, c.with));
+            format!(
+                "in {meeting} of {tried} poses that would show the target something would meet something{which}: move the \
+                 board, or correct the shapes"
+            )
+        } else if unseen >= alike {
+            format!(
+                "in {unseen} of {all} ways to look the camera would not surely see the whole target: take the first \
+                 captures near the present pose, or allow other distances"
+            )
+        } else {
+            format!("{alike} of {all} ways to look are like captures that were taken, or that failed")
+        };
         Error::TooFewPoses { found, needed, advice }
     }
 }
