@@ -58,6 +58,8 @@ pub enum Command {
     /// Compare several results of one cell: do they agree?
     #[command(visible_alias = "repeat")]
     Compare(crate::compare::CompareArgs),
+    /// Plan the views to take next: poses of the robot, what each brings, and corners to touch.
+    Plan(Box<crate::plan::PlanArgs>),
     /// Calibrate a tool tip (TCP position) from flange poses with the tip on one fixed point (pivot calibration).
     Tcp(crate::tcp::TcpArgs),
     /// Correct robot poses for the pose-dependent robot error that a calibration has estimated.

@@ -19,6 +19,7 @@ mod import;
 mod init;
 mod methods;
 mod output;
+mod plan;
 mod poses;
 mod progress;
 mod register;
@@ -98,6 +99,7 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Target(args) => target::run(args, &program.global),
         Command::Compare(args) => compare::run(args, &program.global),
         Command::Compensate(args) => compensate::run(args, &program.global),
+        Command::Plan(args) => plan::run(args, &program.global),
         Command::Tcp(args) => tcp::run(args, &program.global),
         Command::Verify(args) => verify::run(args, &program.global),
         Command::Check(args) => check::run(args, &program.global),

@@ -28,6 +28,7 @@ mod pairs_table;
 pub mod parallel;
 mod parquet;
 mod pixel_origin;
+pub mod plan;
 mod ply;
 mod problem;
 mod records;

@@ -157,6 +157,7 @@ impl Dataset {
             correspondences: vec![],
             workspace: None,
             known_position: None,
+            guess: None,
             arm: None,
             urdf: None,
             noise,

@@ -69,6 +69,8 @@ pub(crate) struct Manifest {
     pub(crate) workspace: Option<WorkspaceSpec>,
     /// The camera's position along one direction of the base (eye-to-hand) or flange (eye-in-hand).
     pub(crate) known_position: Option<KnownPositionSpec>,
+    /// Roughly where the camera sits: for plans, before captures tell it.
+    pub(crate) guess: Option<GuessSpec>,
     /// Standard deviations; those not given are estimated.
     #[serde(default, skip_serializing_if = "is_default")]
     pub(crate) noise: NoiseSpec,
@@ -507,6 +509,23 @@ pub(crate) struct KnownPositionSpec {
     pub(crate) sigma_mm: f64,
 }
 
+/// Roughly where the camera sits, in the frame of what carries it: the flange (eye-in-hand) or the base (eye-to-hand).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GuessSpec {
+    /// Its position.
+    pub(crate) translation_mm: [f64; 3],
+    /// The direction into which it looks; [0, 0, 1] is along z.
+    pub(crate) looks: [f64; 3],
+    /// The direction that is to the right in the image.
+    pub(crate) right: [f64; 3],
+    /// How well the position is known, along each axis; 30 unless said.
+    pub(crate) sigma_mm: Option<f64>,
+    /// How well the direction is known, about each axis; 6 unless said.
+    pub(crate) sigma_deg: Option<f64>,
+}
+
 /// Standard deviations.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
@@ -586,6 +605,7 @@ impl Manifest {
             touches: None,
             workspace: None,
             known_position: None,
+            guess: None,
             noise: NoiseSpec::default(),
             limits: LimitsSpec::default(),
             answer: AnswerSpec::default(),

@@ -19,11 +19,12 @@ use std::path::{Path, PathBuf};
 
 use handeye::{
     AnswerFrame, Base, Camera, Correspondence, Flange, GrayImage, ImageCorner, Intrinsics,
-    LensSigma, Motion, Observation, Pose, Scan, Session, Setup, Target, TargetModel, TargetSize,
-    Touch, Warning, Workspace,
+    LensSigma, Motion, Mount, Observation, Pose, Scan, Session, Setup, Target, TargetModel,
+    TargetSize, Touch, Warning, Workspace,
     calibrate::result::{Equipment, FrameNames},
     intrinsics::LensModel,
     model::{kinematics::Arm, session::KnownPosition},
+    tools::plan::GuessSigma,
 };
 use serde::{Deserialize, Serialize};
 
@@ -99,6 +100,8 @@ pub struct Dataset {
     pub workspace: Option<WorkspaceBox>,
     /// What is known of the camera's place on the mount.
     pub known_position: Option<KnownPosition>,
+    /// Roughly where the camera sits, and how well that is known.
+    pub guess: Option<Guess>,
     /// The robot's arm, where its poses come from joint values.
     pub arm: Option<Arm>,
     /// The file that describes it, where that is a URDF.
@@ -117,6 +120,15 @@ pub struct Dataset {
     scan_options: ScanOptions,
     /// Where images and scans come from, if not from files.
     memory: Option<in_memory::Memory>,
+}
+
+/// Roughly where the camera sits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guess {
+    /// In the flange or the base.
+    pub mount_from_camera: Pose<Mount, Camera>,
+    /// How well it is known.
+    pub sigma: GuessSigma,
 }
 
 /// One robot pose and the files of what the camera saw.

@@ -5,15 +5,17 @@ use std::{collections::BTreeSet, path::PathBuf};
 use handeye::{
     AnswerFrame, Base, Camera, Flange, Intrinsics, LensSigma, Pose, Setup, Target, TargetModel,
     TargetSize, Touch, Warning, Workspace, calibrate::result::Equipment,
-    model::session::KnownPosition,
+    model::session::KnownPosition, tools::plan::GuessSigma,
 };
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::{
-    CaptureSource, Dataset, Limits, Noise, PlacementSource, WorkspaceBox,
+    CaptureSource, Dataset, Guess, Limits, Noise, PlacementSource, WorkspaceBox,
     corners::{CornerReading, Corners},
     inputs,
-    manifest::{KnownPositionSpec, Manifest, NoiseSpec, PlacementSpec, Source, WorkspaceSpec},
+    manifest::{
+        GuessSpec, KnownPositionSpec, Manifest, NoiseSpec, PlacementSpec, Source, WorkspaceSpec,
+    },
     motion,
     pairing::{self, Series},
     poses::{self, Named},
@@ -87,6 +89,7 @@ impl Opening {
             correspondences,
             workspace: m.workspace.as_ref().map(|w| self.workspace(w)).transpose()?,
             known_position: m.known_position.map(|k| self.known_position(&k)).transpose()?,
+            guess: m.guess.map(|g| self.guess(&g)).transpose()?,
             arm: match &m.robot {
                 Some(spec) => poses::arm(spec, &self.source, &self.root)?,
                 None => None,
@@ -434,6 +437,39 @@ impl Opening {
         }
         let corners = Workspace { minimum: minimum / 1000.0, maximum: maximum / 1000.0 };
         Ok(WorkspaceBox { frame: spec.frame, corners })
+    }
+
+    /// The camera's place as a person guesses it.
+    fn guess(&self, spec: &GuessSpec) -> Result<Guess, Error> {
+        let wrong = |what: &str, advice: &str| {
+            malformed(self.source.place("guess"), what.to_owned(), advice.to_owned())
+        };
+        let [looks, right] = [spec.looks, spec.right].map(Vector3::from);
+        let z = looks.try_normalize(1e-9);
+        let x = z.and_then(|z| (right - z * z.dot(&right)).try_normalize(1e-3));
+        let (Some(z), Some(x)) = (z, x) else {
+            return Err(wrong(
+                "looks and right are no two directions",
+                "looks = [0, 0, 1], right = [1, 0, 0] is a camera that looks along z, with x to the right of its image",
+            ));
+        };
+        let sigma = GuessSigma {
+            rotation_rad: spec.sigma_deg.unwrap_or(6.0).to_radians(),
+            position_m: spec.sigma_mm.unwrap_or(30.0) * 1e-3,
+        };
+        let sound = |s: f64| s.is_finite() && s > 0.0;
+        let position = Vector3::from(spec.translation_mm) * 1e-3;
+        if !(sound(sigma.rotation_rad)
+            && sound(sigma.position_m)
+            && position.iter().all(|p| p.abs() < 100.0))
+        {
+            return Err(wrong(
+                "is no place of a camera",
+                "give millimetres and degrees, greater than zero where they are deviations",
+            ));
+        }
+        let rotation = Matrix3::from_columns(&[x, z.cross(&x), z]);
+        Ok(Guess { mount_from_camera: Pose::from_parts(&rotation, position), sigma })
     }
 
     fn known_position(&self, spec: &KnownPositionSpec) -> Result<KnownPosition, Error> {

@@ -304,6 +304,16 @@ pub struct Writing {
 }
 
 impl Writing {
+    /// Poses of the flange in the base in a notation of this name, in the maker's units.
+    ///
+    /// # Errors
+    /// Which names there are.
+    pub fn of(name: &str) -> Result<Writing, String> {
+        let notation = Notation::named(name)?;
+        let units = notation.own_units();
+        Ok(Writing { notation, units, inverted: false, flange_from_tool: Pose::identity() })
+    }
+
     /// The names of a pose's numbers, in order.
     pub fn names(&self) -> Vec<&'static str> {
         self.notation.columns.iter().filter_map(|c| c.names.first().copied()).collect()

@@ -2,7 +2,7 @@
 
 mod bodies;
 mod middleware;
-mod text;
+pub(crate) mod text;
 mod vision;
 
 pub use bodies::with_body;

@@ -1,5 +1,7 @@
 //! Plain text: matrices, and the notations of robots as their programs write them.
 
+use nalgebra::Isometry3;
+
 use super::{CameraPose, DEGREES, METRES, MILLIMETRES, TURNS, matrix_row, number, row_major};
 use crate::{
     robot::{Column, Notation, Quantity},
@@ -17,10 +19,10 @@ fn on_one_line(name: &str) -> String {
     name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
-/// One line in a robot's notation, below a comment that says what it is.
-pub(super) fn robot(pose: &CameraPose, notation: &Notation) -> String {
+/// A pose as a robot's programs write it, in the maker's units.
+pub(crate) fn pose(pose: &Isometry3<f64>, notation: &Notation) -> String {
     let units = notation.own_units();
-    let values = notation.values(&pose.parent_from_child, units);
+    let values = notation.values(pose, units);
     let lengths = if units.length == LengthUnit::Metre { METRES } else { MILLIMETRES };
     let turns = if units.angle == AngleUnit::Degree { DEGREES } else { TURNS };
     let written = |(column, value): (&Column, f64)| match column.quantity {
@@ -29,17 +31,26 @@ pub(super) fn robot(pose: &CameraPose, notation: &Notation) -> String {
         Quantity::Plain => number(value, TURNS),
     };
     let values: Vec<String> = notation.columns.iter().zip(values).map(written).collect();
-    let names: Vec<&str> = notation.columns.iter().map(|c| c.names[0]).collect();
+    line(notation, &names(notation), &values)
+}
+
+fn names(notation: &Notation) -> Vec<&'static str> {
+    notation.columns.iter().map(|c| c.names[0]).collect()
+}
+
+/// One line in a robot's notation, below a comment that says what it is.
+pub(super) fn robot(camera: &CameraPose, notation: &Notation) -> String {
+    let length = notation.own_units().length;
     format!(
         "# {} ({} from {}), {}: {} in {}{}\n{}\n",
-        pose.name,
-        on_one_line(pose.parent),
-        on_one_line(pose.child),
+        camera.name,
+        on_one_line(camera.parent),
+        on_one_line(camera.child),
         notation.name,
-        names.join(" "),
-        units.length.name(),
+        names(notation).join(" "),
+        length.name(),
         angles(notation),
-        line(notation, &names, &values),
+        pose(&camera.parent_from_child, notation),
     )
 }
 
@@ -70,7 +81,7 @@ mod tests {
     use super::*;
     use crate::{
         export::{Format, render, tests::example},
-        robot::names,
+        robot,
         table::{self, Layout},
     };
 
@@ -78,7 +89,7 @@ mod tests {
     fn what_is_written_for_a_robot_is_read_back_as_the_same_pose() {
         let folder = std::env::temp_dir().join(format!("handeye-export-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
-        for name in names() {
+        for name in robot::names() {
             let notation = Notation::named(name).unwrap();
             let path = folder.join(format!("{name}.txt"));
             std::fs::write(&path, render(&example(), &Format::named(name).unwrap())).unwrap();

@@ -11,6 +11,7 @@ mod rotation;
 mod suspicion;
 mod universal_robots;
 mod urdf;
+mod urdf_shapes;
 
 use nalgebra::{Isometry3, Translation3};
 
@@ -26,6 +27,7 @@ pub use rotation::{Rotation, rotation_near};
 pub(crate) use suspicion::suspicious_values;
 pub use urdf::Urdf;
 pub(crate) use urdf::{UrdfSpec, rigid};
+pub(crate) use urdf_shapes::parts;
 
 /// What a number of a notation measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

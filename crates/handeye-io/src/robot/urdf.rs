@@ -37,6 +37,7 @@ pub struct Urdf {
     arm: Arm,
     joints: Vec<String>,
     origins: Vec<Origin>,
+    limits: Vec<(f64, f64)>,
     text: String,
     links: (String, String),
 }
@@ -49,6 +50,16 @@ pub(crate) struct Origin {
     pub(crate) parent_from_joint: Isometry3<f64>,
 }
 
+/// A link, and what moves it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Body {
+    pub(crate) link: String,
+    /// The number of the arm's joint nearest to it.
+    pub(crate) joint: Option<usize>,
+    /// Where it is while all joint values are zero.
+    pub(crate) base_from_link: Isometry3<f64>,
+}
+
 /// A joint as the file has it.
 struct Joint {
     name: String,
@@ -56,9 +67,13 @@ struct Joint {
     parent: String,
     parent_from_joint: Isometry3<f64>,
     axis: Vector3<f64>,
+    limits: (f64, f64),
     mimics: bool,
     line: usize,
 }
+
+/// A joint without limits turns once either way: cables do not like more.
+const FREE_TURN: f64 = std::f64::consts::TAU;
 
 /// By the child link.
 type Joints = BTreeMap<String, Joint>;
@@ -79,9 +94,10 @@ impl Urdf {
     pub fn parse(text: &str, path: &Path, base: &str, flange: &str) -> Result<Urdf, Error> {
         let joints = joints_of(text, path)?;
         let (start, chain) = chain(&joints, base, flange, path)?;
+        let limits = chain.iter().filter(|j| j.kind != "fixed").map(|j| j.limits).collect();
         let (arm, joints, origins) = arm(start, &chain, path)?;
         let links = (base.to_owned(), flange.to_owned());
-        Ok(Urdf { arm, joints, origins, text: text.into(), links })
+        Ok(Urdf { arm, joints, origins, limits, text: text.into(), links })
     }
 
     /// The arm; joint values are in rad and m.
@@ -92,6 +108,37 @@ impl Urdf {
     /// The names of its joints, from the base outwards.
     pub fn joint_names(&self) -> &[String] {
         &self.joints
+    }
+
+    /// Lowest and highest value of each joint, rad or m.
+    pub fn limits(&self) -> &[(f64, f64)] {
+        &self.limits
+    }
+
+    /// All links with what moves them, all joint values zero: which joint of the arm, or none, and where they are in the
+    /// base.
+    pub(crate) fn bodies(&self) -> Vec<Body> {
+        let Ok(joints) = joints_of(&self.text, Path::new("")) else { return vec![] };
+        let from_root = |link: &str| {
+            let (mut pose, mut here, mut by) = (Isometry3::identity(), link, None);
+            for _ in 0..=joints.len() {
+                let Some(joint) = joints.get(here) else { break };
+                by = by.or_else(|| self.joints.iter().position(|name| *name == joint.name));
+                pose = joint.parent_from_joint * pose;
+                here = &joint.parent;
+            }
+            (pose, by)
+        };
+        let root_from_base = from_root(&self.links.0).0;
+        let body = |link: &str| {
+            let (root_from_link, joint) = from_root(link);
+            let base_from_link = root_from_base.inverse() * root_from_link;
+            Body { link: link.into(), joint, base_from_link }
+        };
+        let roots = joints.values().map(|j| j.parent.as_str()).filter(|l| !joints.contains_key(*l));
+        let all: std::collections::BTreeSet<&str> =
+            joints.keys().map(String::as_str).chain(roots).collect();
+        all.into_iter().map(body).collect()
     }
 
     /// Where its joints stand, in their order.
@@ -175,8 +222,21 @@ fn joint(node: &Node, line: usize, path: &Path) -> Result<(String, Joint), Error
         three(text).ok_or_else(|| wrong(&format!("{key} = \"{text}\" are not three numbers")))
     };
     let (xyz, rpy) = (vector("origin", "xyz", [0.0; 3])?, vector("origin", "rpy", [0.0; 3])?);
+    let limit = |key: &str, otherwise: f64| -> Result<f64, Error> {
+        let Some(text) = part("limit").and_then(|c| c.attribute(key)) else { return Ok(otherwise) };
+        let number = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
+        number.ok_or_else(|| wrong(&format!("{key} = \"{text}\" is no limit")))
+    };
+    let kind = node.attribute("type").unwrap_or_default();
+    let limits = match kind {
+        "continuous" => (-FREE_TURN, FREE_TURN),
+        // a limit that is left out is zero (wiki.ros.org/urdf/XML/joint)
+        _ if part("limit").is_some() => (limit("lower", 0.0)?, limit("upper", 0.0)?),
+        _ => (-FREE_TURN, FREE_TURN),
+    };
     let joint = Joint {
-        kind: node.attribute("type").unwrap_or_default().into(),
+        limits,
+        kind: kind.into(),
         parent,
         parent_from_joint: Isometry3::from_parts(
             Translation3::from(xyz),
@@ -190,7 +250,7 @@ fn joint(node: &Node, line: usize, path: &Path) -> Result<(String, Joint), Error
     Ok((child, joint))
 }
 
-fn three(text: &str) -> Option<Vector3<f64>> {
+pub(super) fn three(text: &str) -> Option<Vector3<f64>> {
     let numbers: Option<Vec<f64>> = text.split_whitespace().map(|w| w.parse().ok()).collect();
     match numbers?[..] {
         [x, y, z] if [x, y, z].iter().all(|v: &f64| v.is_finite()) => Some(Vector3::new(x, y, z)),

@@ -15,7 +15,9 @@ use super::{
 };
 use crate::{
     Anchor, Base, Camera, Error, Flange, HandEye, Intrinsics, Mount, Point, Pose, Setup, Target,
-    TargetModel, Touch, math::random::Random,
+    TargetModel, Touch,
+    math::random::Random,
+    tools::plan::{Look, spread_corners},
 };
 
 /// How wrong everything is that measures.
@@ -222,12 +224,8 @@ impl Cell {
         let tilt = v.tilt_rad * random.unit().sqrt();
         let towards = random.between(-std::f64::consts::PI, std::f64::consts::PI);
         let spin = random.between(-v.spin_rad, v.spin_rad);
-        let (sine, cosine) = towards.sin_cos();
-        let rotation = Rotation3::new(Vector3::new(cosine, sine, 0.0) * tilt)
-            * Rotation3::new(Vector3::z() * spin);
-        let centre_in_camera = self.intrinsics.ray(&pixel)? * depth_m;
-        let translation = centre_in_camera - rotation * self.centre();
-        Some(Pose::from_parts(rotation.matrix(), translation))
+        let look = Look { centre: pixel, depth_m, tilt, towards, spin };
+        look.pose(&self.intrinsics, &self.centre())
     }
 
     fn centre(&self) -> Vector3<f64> {
@@ -387,20 +385,6 @@ fn held(random: &mut Random) -> Matrix3<f64> {
     rotation.into_inner()
 }
 
-/// Corners far from each other: each next one has the largest product of distances to those before
-/// it (F. Leja's points), the first one is corner 0.
-fn spread_corners(target: &TargetModel, count: usize) -> Vec<u32> {
-    let at: Vec<Vector3<f64>> = target.corners().iter().map(Point::vector).collect();
-    let mut chosen: Vec<usize> = Vec::new();
-    while chosen.len() < count.min(at.len()) {
-        let room = |k: usize| chosen.iter().map(|&c| (at[k] - at[c]).norm()).product::<f64>();
-        let free = (0..at.len()).filter(|k| !chosen.contains(k));
-        let next = free.rev().max_by(|&a, &b| room(a).total_cmp(&room(b)));
-        chosen.extend(next);
-    }
-    chosen.into_iter().map(|k| k as u32).collect()
-}
-
 /// What nobody in a real cell knows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Truth {
@@ -422,14 +406,6 @@ pub fn placement_name(k: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_outer_corners_are_touched_first() {
-        let board = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
-        let mut first = spread_corners(&board, 4);
-        first.sort_unstable();
-        assert_eq!(first, [0, 8, 45, 53]);
-    }
 
     #[test]
     fn more_captures_leave_the_first_ones_as_they_were() {

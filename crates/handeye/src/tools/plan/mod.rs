@@ -23,6 +23,7 @@ mod looks;
 mod planner;
 mod reach;
 mod solids;
+mod touches;
 mod travel;
 
 pub use body::{Contact, Obstacle, On, Part, Surroundings};
@@ -235,6 +236,8 @@ fn of_mount(h: &Matrix12) -> Option<Matrix6<f64>> {
 pub use planner::{NextView, Planner, Route, USUAL_CANDIDATES, robot_at};
 pub use reach::{ArmReach, NearReach, Reach, Station, USUALLY_NEAR, Unreached};
 pub use solids::{Capsule, Cuboid};
+pub(crate) use touches::spread_corners;
+pub use touches::{PlannedTouch, TouchNoise};
 
 #[cfg(test)]
 mod planner_tests;

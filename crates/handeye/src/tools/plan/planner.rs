@@ -147,7 +147,7 @@ impl Planner {
     }
 
     /// Information of the captures alone.
-    fn of_taken(&self) -> Matrix12 {
+    pub(super) fn of_taken(&self) -> Matrix12 {
         let of = |t: &Taken| self.setting.information(&t.base_from_flange);
         self.taken.iter().filter_map(of).fold(Matrix12::zeros(), |sum, h| sum + h)
     }
@@ -284,6 +284,10 @@ impl Planner {
             };
             if self.is_known(&base_from_flange) {
                 refusals.alike += 1;
+                continue;
+            }
+            if self.reach.is_surely_too_far(&base_from_flange) {
+                refusals.unreached += 1;
                 continue;
             }
             let seen = self.is_seen(&base_from_flange, &outline, covariance.as_ref());
@@ -424,7 +428,9 @@ impl Refusals {
                  captures near the present pose, or allow other distances"
             )
         } else {
-            format!("{alike} of {all} ways to look are like captures that were taken, or that failed")
+            format!(
+                "{alike} of {all} ways to look are like captures that were taken, or that failed"
+            )
         };
         Error::TooFewPoses { found, needed, advice }
     }

@@ -1,7 +1,10 @@
 //! What the robot can reach: joint values within limits where the arm is known; elsewhere poses near those in which it has
 //! stood.
 
-use super::body::{Contact, Surroundings};
+use super::{
+    body::{Contact, Surroundings},
+    looks::halton,
+};
 use crate::{
     Base, Error, Flange, Pose,
     model::{kinematics::Arm, residual::Residual},
@@ -60,6 +63,8 @@ pub enum Unreached {
 
 /// Joints keep from their limits by this, rad or m.
 const FROM_LIMITS: f64 = 0.01;
+/// Places in which a search for joint values begins that knows nothing.
+const STARTS: usize = 200;
 /// Steps of the search for joint values.
 const STEPS: usize = 25;
 /// A robot that has reached a pose reaches others within these.
@@ -82,6 +87,25 @@ impl ArmReach {
             true => Ok(()),
             false => Err(Error::NotFinite { what: "a joint's limit or value".into() }),
         }
+    }
+
+    /// Joint values within limits that lead to a pose, the search beginning at many places; `None` where none do.
+    pub fn joints_somewhere(
+        arm: &Arm,
+        limits: &[(f64, f64)],
+        there: &Pose<Base, Flange>,
+    ) -> Option<Vec<f64>> {
+        let middle = limits.iter().map(|(low, high)| 0.5 * (low + high)).collect();
+        let surroundings = Surroundings::default();
+        let reach =
+            ArmReach { arm: arm.clone(), limits: limits.to_vec(), now: middle, surroundings };
+        let bases = [2, 3, 5, 7, 11, 13, 17, 19];
+        let start = |k: usize| {
+            let share: Vec<f64> = bases.iter().map(|base| halton(k, *base)).collect();
+            reach.drawn(&share)
+        };
+        let mut starts = std::iter::once(reach.now.clone()).chain((1..=STARTS).map(start));
+        starts.find_map(|start| reach.joints_at(there, &[start]).ok())
     }
 
     /// The first joint that is beyond its limits.
@@ -122,17 +146,6 @@ impl ArmReach {
         starts: &[Vec<f64>],
     ) -> Result<Vec<f64>, Unreached> {
         let mut why = Unreached::TooFar;
-        let slides: f64 = self
-            .arm
-            .joints
-            .iter()
-            .zip(&self.limits)
-            .filter(|(joint, _)| joint.prismatic)
-            .map(|(_, (low, high))| low.abs().max(high.abs()))
-            .sum();
-        if there.translation().norm() > self.arm.length() + slides {
-            return Err(why);
-        }
         for start in starts {
             let Some(values) = self.arm.inverse_in(there, start, STEPS) else { continue };
             let values = self.unwound(values, &self.now);
@@ -145,6 +158,13 @@ impl ArmReach {
             }
         }
         Err(why)
+    }
+
+    /// The flange is never further from the base than this, m.
+    fn longest(&self) -> f64 {
+        let joints = self.arm.joints.iter().zip(&self.limits);
+        let slides = joints.filter(|(joint, _)| joint.prismatic);
+        self.arm.length() + slides.map(|(_, (low, high))| low.abs().max(high.abs())).sum::<f64>()
     }
 
     /// Values spread over all that the joints can do, where an arm cannot turn its flange as it likes.
@@ -189,6 +209,14 @@ impl Reach {
         }
     }
 
+    /// Whether a glance tells that a pose is not reached.
+    pub(super) fn is_surely_too_far(&self, there: &Pose<Base, Flange>) -> bool {
+        match self {
+            Reach::Arm(arm) => there.translation().norm() > arm.longest(),
+            Reach::Near(near) => !near.is_near(there),
+        }
+    }
+
     /// Where the robot stands now.
     pub fn now(&self) -> Option<Station> {
         match self {
@@ -216,10 +244,12 @@ impl Reach {
 }
 
 impl NearReach {
+    fn is_near(&self, there: &Pose<Base, Flange>) -> bool {
+        self.stood.iter().any(|stood| Residual::are_within(stood, there, self.within))
+    }
+
     fn station(&self, there: &Pose<Base, Flange>) -> Result<Station, Unreached> {
-        let near =
-            |stood: &Pose<Base, Flange>| Residual::between(stood, there).is_within(self.within);
-        if !self.stood.iter().any(near) {
+        if !self.is_near(there) {
             return Err(Unreached::TooFar);
         }
         match self.surroundings.contact_on_straight_way(there, there) {
