@@ -178,3 +178,15 @@ def test_init_asks_on_a_terminal_and_its_manifest_is_calibrated(tmp_path):
     assert "next: handeye check" in said, said
     assert handeye.check(cell)["ok"] is True
     assert handeye.calibrate(cell).verdict == "accepted"
+
+
+def test_a_plan_says_where_to_go_and_what_it_brings(tmp_path):
+    handeye.simulate(tmp_path / "cell", captures=3, images=False)
+    found = handeye.plan(tmp_path / "cell", tolerance_mm=0.6, program="ur", out=tmp_path / "views.script")
+    errors = [view["predicted_p95_mm"] for view in found["poses"]]
+    assert len(errors) >= 3 and errors == sorted(errors, reverse=True)
+    assert found["enough"] is False and found["undetermined"] == []
+    script = (tmp_path / "views.script").read_text()
+    assert script.count("movej(p[") == len(errors)
+    with pytest.raises(handeye.InputError):
+        handeye.plan(tmp_path / "cell", distances_mm=(5000, 6000))

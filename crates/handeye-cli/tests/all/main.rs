@@ -9,6 +9,7 @@ mod compensate;
 mod folder;
 mod imports;
 mod mistakes;
+mod plan;
 mod real_data;
 mod register;
 mod scene;

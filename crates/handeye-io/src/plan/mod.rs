@@ -35,7 +35,7 @@ pub struct PlanOptions {
     pub urdf: Option<UrdfOption>,
     /// A file of what stands in the cell.
     pub avoid: Option<PathBuf>,
-    /// Joint values now, rad or m; those of the last capture unless given.
+    /// Joint values now, degrees or mm; those of the last capture unless given.
     pub now: Option<Vec<f64>>,
     /// Least and largest distance of the board from the camera, m.
     pub distances_m: Option<(f64, f64)>,
@@ -335,7 +335,23 @@ fn arm_reach(
         .filter(|joints| joints.len() == arm.joints.len())
         .collect();
     let now = match (&options.now, stood.last()) {
-        (Some(now), _) => now.clone(),
+        (Some(now), _) => {
+            let si = |(joint, value): (&handeye::model::kinematics::Joint, &f64)| match joint
+                .prismatic
+            {
+                true => value * 1e-3,
+                false => value.to_radians(),
+            };
+            if now.len() != arm.joints.len() {
+                let what = format!("{} joint values for {} joints", now.len(), arm.joints.len());
+                return Err(malformed(
+                    Place::file(Path::new("--joints")),
+                    what,
+                    "give one for each joint",
+                ));
+            }
+            arm.joints.iter().zip(now).map(si).collect()
+        }
         (None, Some(last)) => last.clone(),
         (None, None) => {
             let there = session.observations.last().map(|o| o.base_from_flange);

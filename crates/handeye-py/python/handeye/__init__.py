@@ -10,7 +10,7 @@ Lengths are metres and angles radians, but where a name ends in ``_mm`` or ``_de
 
 from ._bags import BagContents, BagTopic, Extracted, bag_contents, extract_bag
 from ._calibration import Calibration, Candidate, Corrected
-from ._commands import Target, check, compare, export, import_dataset, init, target, tool_tip, verify, view
+from ._commands import Target, check, compare, export, import_dataset, init, plan, target, tool_tip, verify, view
 from ._core import (
     METHODS,
     HandEyeError,
@@ -55,6 +55,7 @@ __all__ = [
     "extract_bag",
     "import_dataset",
     "init",
+    "plan",
     "poses_from",
     "poses_to",
     "register",

@@ -167,6 +167,54 @@ def export(
         return [Path(file) for file in document(words)["files"]]
 
 
+def plan(
+    dataset: _Path,
+    *,
+    count: int = 10,
+    tolerance_mm: Optional[float] = None,
+    touches: bool = False,
+    urdf: Optional[_Path] = None,
+    base_link: str = "base_link",
+    flange_link: str = "tool0",
+    joints: Optional[Sequence[float]] = None,
+    avoid: Optional[_Path] = None,
+    distances_mm: Optional[Tuple[float, float]] = None,
+    program: Optional[str] = None,
+    out: Optional[_Path] = None,
+    root: Optional[_Path] = None,
+) -> Dict[str, Any]:
+    """Plans the views to take next: poses of the flange, what each brings, and corners to touch.
+
+    :param dataset: the folder, or its manifest; with at least one capture that shows the board.
+    :param count: largest number of views.
+    :param tolerance_mm: views are added until the expected error (95 %) is below this, else what the manifest says.
+    :param touches: plan corners to touch as well.
+    :param urdf: the robot's: joint values within limits, and no collisions of its links.
+    :param base_link: its link that is the robot's base.
+    :param flange_link: its link that is the robot's flange.
+    :param joints: joint values now (degrees, mm), else those of the last capture.
+    :param avoid: a TOML file of boxes in the cell and on the flange.
+    :param distances_mm: least and largest distance of the board from the camera.
+    :param program: write a program of the robot to ``out``: ``ur``, ``kuka``, ``fanuc`` or ``abb``.
+    :param out: a file for the poses, or for the program.
+    :param root: where the captures lie, if not beside the manifest.
+    :returns: what ``handeye plan --json`` prints: ``poses`` (``base_from_flange``, ``joints_rad``, ``reason``,
+        ``predicted_p95_mm``), ``touches``, ``enough``, ``undetermined``.
+    :raises InputError: files that cannot be used; no view that is left.
+    """
+    words = ["plan", fspath(dataset), "--count", str(count), *option("root", root), *flag("touches", touches)]
+    words += option("tolerance-mm", tolerance_mm) + option("avoid", avoid)
+    words += option("program", program) + option("out", out)
+    if urdf is not None:
+        words += ["--urdf", fspath(urdf), "--base-link", base_link, "--flange-link", flange_link]
+    if joints is not None:
+        words.append("--joints=" + ",".join(str(float(value)) for value in joints))
+    if distances_mm is not None:
+        nearest, farthest = distances_mm
+        words += ["--nearest-mm", str(float(nearest)), "--farthest-mm", str(float(farthest))]
+    return document(words)
+
+
 def tool_tip(
     base_from_flange: Any,
     *,

@@ -286,11 +286,11 @@ impl Planner {
                 refusals.alike += 1;
                 continue;
             }
-            if self.reach.is_surely_too_far(&base_from_flange) {
+            let seen = self.is_seen(&base_from_flange, &outline, covariance.as_ref());
+            if seen && self.reach.is_surely_too_far(&base_from_flange) {
                 refusals.unreached += 1;
                 continue;
             }
-            let seen = self.is_seen(&base_from_flange, &outline, covariance.as_ref());
             let told = seen.then(|| self.setting.information(&base_from_flange)).flatten();
             match told {
                 Some(information) => all.push(Offer { base_from_flange, information }),

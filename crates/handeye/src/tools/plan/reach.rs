@@ -82,6 +82,11 @@ impl ArmReach {
                 return Err(Error::Invalid(format!("{count} {what} for {joints} joints")));
             }
         }
+        if let Some(Contact { part, with }) = self.surroundings.contact(&self.arm, &self.now) {
+            return Err(Error::Invalid(format!(
+                "where the robot stands now, {part} meets {with}: correct the shapes, or the joint values"
+            )));
+        }
         let numbers = self.limits.iter().flat_map(|(low, high)| [low, high]).chain(&self.now);
         match numbers.copied().all(f64::is_finite) {
             true => Ok(()),
