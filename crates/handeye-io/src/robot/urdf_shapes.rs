@@ -18,7 +18,7 @@ const USUAL_RADIUS: f64 = 0.07;
 const FOLDERS_ABOVE: usize = 4;
 
 /// The parts of a robot, and what is to be known of how they were found.
-pub(crate) fn parts(urdf: &Urdf, file: &Path) -> (Vec<Part>, Vec<String>) {
+pub fn parts(urdf: &Urdf, file: &Path) -> (Vec<Part>, Vec<String>) {
     let (mut parts, mut notes) = (vec![], vec![]);
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(urdf.text(), options);
