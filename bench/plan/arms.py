@@ -1,4 +1,4 @@
-"""Four arms as URDFs: rods and balls along their published dimensions, with the limits of their joints.
+"""Four arms as URDFs: rods along their published dimensions, with the limits of their joints.
 
     python bench/plan/arms.py FOLDER
 """
@@ -37,22 +37,20 @@ def origin(m):
 
 
 def rod(start, end, radius):
-    """A cylinder between two points, with a ball at its far end."""
+    """A cylinder along the middle of a way: joints, where links meet, stay free."""
     start, end = np.array(start, float), np.array(end, float)
     along = end - start
     length = np.linalg.norm(along)
-    ball = f'<collision><origin xyz="{numbers(end)}"/><geometry><sphere radius="{radius}"/></geometry></collision>'
     if length < 1e-6:
-        return ball
+        return ""
     z = along / length
     x = np.cross(z, [0, 0, 1.0]) if abs(z[2]) < 0.9 else np.cross(z, [0, 1.0, 0])
     x /= np.linalg.norm(x)
     m = np.eye(4)
     m[:3, :3] = np.column_stack([x, np.cross(z, x), z])
     m[:3, 3] = (start + end) / 2
-    return (
-        f'<collision>{origin(m)}<geometry><cylinder radius="{radius}" length="{length:.12g}"/></geometry></collision>{ball}'
-    )
+    shape = f'<geometry><cylinder radius="{radius}" length="{0.5 * length:.12g}"/></geometry>'
+    return f"<collision>{origin(m)}{shape}</collision>"
 
 
 def arm(name, joints, end, base):
@@ -94,7 +92,7 @@ def arms():
     full, half = (-2 * PI, 2 * PI), PI / 2
     ur5e = standard(
         [
-            (0, half, 0.1625, 0, full, 0.06),
+            (0, half, 0.1625, 0, full, 0.03),
             (-0.425, 0, 0, 0, full, 0.055),
             (-0.3922, 0, 0, 0, (-PI, PI), 0.05),
             (0, half, 0.1333, 0, full, 0.045),

@@ -366,7 +366,7 @@ fn arm_reach(
         }
     };
     let here = [stood, vec![now.clone()]].concat();
-    let surroundings = surroundings.ignoring_neighbours(&arm, &here);
+    let surroundings = surroundings.ignoring_neighbours(&arm, &limits, &here);
     Ok(ArmReach { arm, limits, now, surroundings })
 }
 

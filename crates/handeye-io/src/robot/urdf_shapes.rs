@@ -58,7 +58,8 @@ fn stand_ins(urdf: &Urdf, parts: &mut Vec<Part>, notes: &mut Vec<String>) {
     let joints: Vec<Vector3<f64>> =
         urdf.origins().iter().map(|o| o.base_from_joint.translation.vector).collect();
     let flange = urdf.arm().base_from_flange(&zeros).translation();
-    for (k, from) in joints.iter().enumerate() {
+    // what the first joint moves turns above the base
+    for (k, from) in joints.iter().enumerate().skip(1) {
         if parts.iter().any(|part| part.on == On::Joint(k)) {
             continue;
         }

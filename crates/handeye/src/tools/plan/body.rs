@@ -6,7 +6,10 @@
 
 use nalgebra::{Isometry3, UnitQuaternion};
 
-use super::solids::{Capsule, Cuboid};
+use super::{
+    looks::halton,
+    solids::{Capsule, Cuboid},
+};
 use crate::{Base, Error, Flange, Pose, model::kinematics::Arm};
 
 /// What a part is fixed to.
@@ -64,6 +67,11 @@ pub struct Contact {
 
 /// Nothing is further away than this, m.
 const FAR: f64 = 1e3;
+/// Joint values that are drawn to see what always overlaps, and in how many of them it does.
+const DRAWN: usize = 100;
+const NEARLY_ALL: usize = 95;
+/// Bases of the sequences from which they are drawn.
+const BASES: [usize; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
 /// A way is looked at in no finer steps than this share of it.
 const FINEST: f64 = 1e-4;
 /// Steps without an arm, whose ways are straight: m, and rad at a metre's distance.
@@ -81,9 +89,14 @@ impl Surroundings {
         }
     }
 
-    /// Does not look at parts on neighbouring links any more, nor at those that overlap in a pose that the robot has
-    /// stood in.
-    pub fn ignoring_neighbours(mut self, arm: &Arm, stood: &[Vec<f64>]) -> Surroundings {
+    /// Does not look any more at parts on neighbouring links, at those that overlap nearly whatever the joints do, and at
+    /// those that overlap in a pose that the robot has stood in: of these the shapes are too large.
+    pub fn ignoring_neighbours(
+        mut self,
+        arm: &Arm,
+        limits: &[(f64, f64)],
+        stood: &[Vec<f64>],
+    ) -> Surroundings {
         let last = arm.joints.len();
         let link = |on: On| match on {
             On::Base => 0,
@@ -94,11 +107,21 @@ impl Surroundings {
         let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
         let is_near =
             |a: usize, b: usize| link(self.parts[a].on).abs_diff(link(self.parts[b].on)) <= 1;
-        let placed: Vec<Vec<Capsule>> = stood.iter().map(|q| self.placed(arm, q)).collect();
-        let overlaps = |a: usize, b: usize| {
-            placed.iter().any(|all| all[a].apart_from(&all[b]) < self.clearance_m)
+        let drawn = |k: usize| -> Vec<f64> {
+            let share = |joint: usize| halton(k + 1, BASES[joint % BASES.len()]);
+            let value =
+                |(joint, (low, high)): (usize, &(f64, f64))| low + (high - low) * share(joint);
+            limits.iter().enumerate().map(value).collect()
         };
-        let ignored = pairs.filter(|(a, b)| is_near(*a, *b) || overlaps(*a, *b)).collect();
+        let overlapping = |all: &[Vec<Capsule>], a: usize, b: usize| {
+            all.iter().filter(|all| all[a].apart_from(&all[b]) < self.clearance_m).count()
+        };
+        let stood: Vec<Vec<Capsule>> = stood.iter().map(|q| self.placed(arm, q)).collect();
+        let drawn: Vec<Vec<Capsule>> = (0..DRAWN).map(|k| self.placed(arm, &drawn(k))).collect();
+        let overlap = |a: usize, b: usize| {
+            overlapping(&stood, a, b) > 0 || overlapping(&drawn, a, b) >= NEARLY_ALL
+        };
+        let ignored = pairs.filter(|(a, b)| is_near(*a, *b) || overlap(*a, *b)).collect();
         self.ignored = ignored;
         self
     }
@@ -255,7 +278,11 @@ mod tests {
         let (mut met, mut free) = (0, 0);
         for _ in 0..120 {
             let (arm, around) = robot(random.normal3() * 0.4);
-            let around = around.ignoring_neighbours(&arm, &[vec![0.1, -1.2, 1.5, -1.0, -1.4, 0.3]]);
+            let around = around.ignoring_neighbours(
+                &arm,
+                &[(-3.0, 3.0); 6],
+                &[vec![0.1, -1.2, 1.5, -1.0, -1.4, 0.3]],
+            );
             let mut values = || -> Vec<f64> { (0..6).map(|_| random.between(-1.5, 1.5)).collect() };
             let (from, to) = (values(), values());
             let at = |t: f64| -> Vec<f64> {
