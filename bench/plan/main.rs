@@ -184,7 +184,7 @@ impl Trial {
                         ),
                         depth_m: random.between(nearest_m + 0.05, farthest_m - 0.05),
                         tilt: random.between(0.0, 0.35),
-                        towards: random.between(0.0, 6.28),
+                        towards: random.between(0.0, std::f64::consts::TAU),
                         spin: random.between(-1.5, 1.5),
                     };
                     let view = look.pose(&cell.intrinsics, &Vector3::new(0.12, 0.075, 0.0))?;

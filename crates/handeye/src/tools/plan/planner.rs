@@ -1,6 +1,8 @@
 //! The next view, and a whole round of them: of thousands of ways to look at the target, those that the robot reaches, on
 //! which nothing meets, from which the target is seen although its place is not known exactly, and that tell most.
 
+use std::cmp::Reverse;
+
 use nalgebra::{Matrix6, SMatrix, Vector3};
 
 use super::{
@@ -82,6 +84,8 @@ pub struct Refusals {
     pub unreached: usize,
     /// Poses in which something would meet something, and what does most often.
     pub meeting: usize,
+    /// Poses for which joint values or a way were looked for.
+    pub in_vain: usize,
     /// The first two that would meet.
     pub contact: Option<Contact>,
 }
@@ -165,7 +169,7 @@ impl Planner {
     pub fn next(&self) -> Result<NextView, Error> {
         self.check()?;
         let here = self.refined();
-        let (mut route, refusals) = here.greedy(1, |_| false)?;
+        let (mut route, refusals) = here.greedy(1, |_| false);
         route.pop().ok_or_else(|| refusals.error(0, 1))
     }
 
@@ -181,11 +185,11 @@ impl Planner {
             let reached = |error: &PredictedTre| tolerance_mm.is_some_and(|mm| error.p95 <= mm);
             view.after.as_ref().is_some_and(reached)
         };
-        let (views, refusals) = here.greedy(most, enough)?;
+        let (views, refusals) = here.greedy(most, enough);
         if views.is_empty() && most > 0 {
             return Err(refusals.error(0, most));
         }
-        let views = here.in_order(views);
+        let views = here.arranged(views);
         let mut poses: Vec<_> = here.taken.iter().map(|t| t.base_from_flange).collect();
         poses.extend(views.iter().map(|view| view.station.base_from_flange));
         let sum = here.setting.sum(&poses);
@@ -197,21 +201,15 @@ impl Planner {
     }
 
     /// One view after the other, each of which tells most beside those before it.
-    fn greedy(
-        &self,
-        most: usize,
-        enough: impl Fn(&NextView) -> bool,
-    ) -> Result<(Vec<NextView>, Refusals), Error> {
+    fn greedy(&self, most: usize, enough: impl Fn(&NextView) -> bool) -> (Vec<NextView>, Refusals) {
         let mut sum = self.information();
         let mut refusals = Refusals::default();
         let mut offers = self.offers(&sum, &mut refusals);
         let nothing = Matrix12::identity() * FREE_SIGMA.powi(-2);
         let mut of_captures = nothing + self.of_taken();
         let moment = moment(&self.setting.volume);
-        let start = self.reach.now();
-        let mut stations: Vec<Station> = start.iter().cloned().collect();
+        let mut stations: Vec<Station> = self.reach.now().into_iter().collect();
         let mut views: Vec<NextView> = vec![];
-        let mut in_vain = 0;
         while views.len() < most {
             let count = self.taken.len() + views.len();
             let before = self.setting.expected(&of_captures, count);
@@ -219,33 +217,12 @@ impl Planner {
                 true => log_determinant(&(sum + h)),
                 false => -error(&(sum + h), &moment),
             };
-            let mut gains: Vec<(f64, usize)> =
-                offers.iter().enumerate().map(|(k, offer)| (gain(&offer.information), k)).collect();
-            gains.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            let mut gone = vec![];
-            let found = gains.iter().find_map(|(_, k)| {
-                if in_vain >= MOST_IN_VAIN {
-                    return None;
-                }
-                let station = self.reach.station(&offers[*k].base_from_flange, &stations);
-                let blocked = |station: &Station| {
-                    start.as_ref().and_then(|start| self.reach.contact_between(start, station))
-                };
-                let refused = match station {
-                    Ok(station) => match blocked(&station) {
-                        None => return Some((*k, station)),
-                        Some(contact) => Unreached::Meets(contact),
-                    },
-                    Err(why) => why,
-                };
-                refusals.note(refused);
-                in_vain += 1;
-                gone.push(*k);
-                None
-            });
-            let Some((k, station)) = found else { break };
-            let offer = &offers[k];
-            (sum, of_captures) = (sum + offer.information, of_captures + offer.information);
+            offers.sort_by_cached_key(|offer| Reverse(in_order(gain(&offer.information))));
+            let Some((station, information)) = self.best(&mut offers, &stations, &mut refusals)
+            else {
+                break;
+            };
+            (sum, of_captures) = (sum + information, of_captures + information);
             let view = NextView {
                 camera_from_target: self.setting.pair(&station.base_from_flange).camera_from_target,
                 after: self.setting.expected(&of_captures, count + 1),
@@ -253,18 +230,47 @@ impl Planner {
                 by_way_of_start: false,
                 before,
             };
-            gone.push(k);
-            gone.sort_unstable();
-            gone.iter().rev().for_each(|k| drop(offers.swap_remove(*k)));
             offers.retain(|offer| !alike(&offer.base_from_flange, &station.base_from_flange));
             stations.push(station);
-            let is_last = enough(&view);
             views.push(view);
-            if is_last {
+            if views.last().is_some_and(&enough) {
                 break;
             }
         }
-        Ok((views, refusals))
+        (views, refusals)
+    }
+
+    /// The first offer that is reached, and to which the way is free; those before it are given up.
+    fn best(
+        &self,
+        offers: &mut Vec<Offer>,
+        stations: &[Station],
+        refusals: &mut Refusals,
+    ) -> Option<(Station, Matrix12)> {
+        let reached = |offer: &Offer| {
+            let station = self.reach.station(&offer.base_from_flange, stations)?;
+            let start = self.reach.now();
+            match start.and_then(|start| self.reach.contact_between(&start, &station)) {
+                None => Ok(station),
+                Some(contact) => Err(Unreached::Meets(contact)),
+            }
+        };
+        let mut gone = 0;
+        let found = offers.iter().find_map(|offer| {
+            if refusals.in_vain >= MOST_IN_VAIN {
+                return None;
+            }
+            gone += 1;
+            match reached(offer) {
+                Ok(station) => Some((station, offer.information)),
+                Err(why) => {
+                    refusals.note(why);
+                    None
+                }
+            }
+        });
+        offers.drain(..gone);
+        found
     }
 
     /// All that may be looked at, with what each tells.
@@ -357,7 +363,7 @@ impl Planner {
     }
 
     /// The views in an order that keeps the way short, with what is expected after each.
-    fn in_order(&self, views: Vec<NextView>) -> Vec<NextView> {
+    fn arranged(&self, views: Vec<NextView>) -> Vec<NextView> {
         let Some(start) = self.reach.now() else { return views };
         let stations: Vec<Station> = views.iter().map(|view| view.station.clone()).collect();
         let legs = travel::shortest(&start, &stations, &self.reach);
@@ -373,6 +379,12 @@ impl Planner {
         };
         legs.iter().enumerate().map(arrange).collect()
     }
+}
+
+/// A number with the order of `x` by [`f64::total_cmp`].
+fn in_order(x: f64) -> i64 {
+    let bits = x.to_bits() as i64;
+    bits ^ ((bits >> 63) as u64 >> 1) as i64
 }
 
 /// `A = Y B X⁻¹`: where the robot is when the camera sees the target so.
@@ -397,6 +409,7 @@ fn view_covariance(view: &Pose<Camera, Target>, covariance: &Matrix12) -> Matrix
 
 impl Refusals {
     fn note(&mut self, why: Unreached) {
+        self.in_vain += 1;
         match why {
             Unreached::TooFar => self.unreached += 1,
             Unreached::Meets(contact) => {
@@ -408,7 +421,7 @@ impl Refusals {
 
     /// In words: why those that came furthest came no further.
     fn error(&self, found: usize, needed: usize) -> Error {
-        let Refusals { unseen, alike, unreached, meeting, contact } = self;
+        let Refusals { unseen, alike, unreached, meeting, contact, .. } = self;
         let (all, tried) = (unseen + alike + unreached + meeting, unreached + meeting);
         let advice = if tried > 0 && unreached >= meeting {
             format!(
