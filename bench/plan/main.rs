@@ -64,9 +64,14 @@ fn direction(random: &mut Random) -> Vector3<f64> {
     random.normal3().normalize()
 }
 
-/// Where the board lies, or where the board on the flange is seen, from the base, m.
-fn middle(arm: &str) -> f64 {
-    if arm == "kr10" { 0.5 } else { 0.45 }
+/// Where the board lies, or where the board on the flange is seen, from the base, m: how far and how high the camera is.
+fn place(arm: &str, setup: Setup) -> (f64, f64) {
+    match (arm, setup) {
+        ("kr10", Setup::EyeInHand) => (0.5, 0.0),
+        // this one turns its flange up only high above its base
+        ("kr10", Setup::EyeToHand) => (0.4, 1.95),
+        _ => (0.45, 1.35),
+    }
 }
 
 fn hand_eye(arm: &str, setup: Setup, random: &mut Random) -> HandEye {
@@ -75,14 +80,14 @@ fn hand_eye(arm: &str, setup: Setup, random: &mut Random) -> HandEye {
     let mut near = |r: Rotation3<f64>, t: Vector3<f64>| {
         (r * Rotation3::new(random.normal3() * 0.1), t + random.normal3() * 0.02)
     };
-    let at = middle(arm);
+    let (at, high) = place(arm, setup);
     let ((x_r, x_t), (y_r, y_t)) = match setup {
         Setup::EyeInHand => (
             near(Rotation3::identity(), Vector3::new(0.06, -0.03, 0.05)),
             near(down, Vector3::new(at, 0.0, 0.02)),
         ),
         Setup::EyeToHand => {
-            (near(down, Vector3::new(at, 0.0, 1.35)), near(down, Vector3::new(0.01, 0.02, 0.06)))
+            (near(down, Vector3::new(at, 0.0, high)), near(down, Vector3::new(0.01, 0.02, 0.06)))
         }
     };
     HandEye {
@@ -124,15 +129,15 @@ impl Trial {
             Setup::EyeToHand => (0.7, 1.1),
         };
         let viewing = Viewing { nearest_m, farthest_m, ..usual };
-        let at = middle(arm);
+        let (at, high) = place(arm, setup);
         let works = match setup {
             Setup::EyeInHand => Workspace {
                 minimum: Vector3::new(-0.15, -0.1, nearest_m),
                 maximum: Vector3::new(0.15, 0.1, farthest_m),
             },
             Setup::EyeToHand => Workspace {
-                minimum: Vector3::new(at - 0.2, -0.15, 0.1),
-                maximum: Vector3::new(at + 0.2, 0.15, 0.5),
+                minimum: Vector3::new(at - 0.2, -0.15, high - 1.25),
+                maximum: Vector3::new(at + 0.2, 0.15, high - 0.85),
             },
         };
         let volume = Volume::of_box(&works.minimum, &works.maximum, "where it works");

@@ -210,3 +210,12 @@ fn touches_are_planned_and_programs_of_robots_written() {
     let none = handeye(&folder, &["plan", "cell", "--program", "lego"]);
     assert!(ends(&none, 2).error().contains("there are ur, kuka, fanuc, abb"), "{}", none.stderr);
 }
+
+#[test]
+fn a_touch_closes_what_a_robot_with_four_axes_leaves_open() {
+    let folder = cell("6", &["--tilt-deg", "0", "--seed", "2"]);
+    let found = handeye(&folder, &["plan", "cell", "--count", "1", "--touches", "--quiet"]);
+    let found = &ends(&found, 0).stdout;
+    let touch = found.lines().find(|line| line.contains("touch corner")).unwrap();
+    assert!(touch.contains("of the board: then all is determined, to "), "{found}");
+}

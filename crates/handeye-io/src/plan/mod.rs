@@ -9,7 +9,7 @@ use handeye::{
     Base, Calibration, Config, Flange, HandEye, Intrinsics, Pose, Session, TargetModel, Verdict,
     estimate::predict::Volume,
     model::kinematics::Arm,
-    nalgebra::Vector3,
+    nalgebra::{Quaternion, UnitQuaternion, Vector3},
     tools::plan::{
         ArmReach, ExpectedNoise, GuessSigma, NearReach, PlannedTouch, Planner, Reach, Route,
         Setting, Surroundings, Taken, TouchNoise, USUAL_CANDIDATES, USUALLY_NEAR, Viewing,
@@ -19,6 +19,7 @@ use handeye::{
 use crate::{
     Dataset, Error, Place, WorkspaceFrame,
     calibrate::calibrate_dataset,
+    dataset::Guess,
     error::{malformed, unusable},
     robot::{self, Urdf},
 };
@@ -73,6 +74,8 @@ pub struct CellPlan {
 
 /// Where captures determine camera and target, the guess says nearly nothing: standard deviations.
 const NEARLY_NOTHING: GuessSigma = GuessSigma { rotation_rad: 0.5, position_m: 0.5 };
+/// How far a camera may be along a direction that is free.
+const PARTLY_KNOWN: GuessSigma = GuessSigma { rotation_rad: 0.1, position_m: 0.3 };
 /// So much nearer and farther than in the captures so far the target is seen sharply.
 const FOCUS: (f64, f64) = (0.75, 1.3);
 /// Of the image, the part in which objects are looked for, where nothing says where the robot works.
@@ -150,7 +153,8 @@ fn planner(
             (HandEye { mount_from_camera, anchor_from_target }, NEARLY_NOTHING)
         }
         _ => {
-            let guess = dataset.guess.ok_or_else(|| no_guess(manifest, taken.len()))?;
+            let guess = partly(calibration).or(dataset.guess);
+            let guess = guess.ok_or_else(|| no_guess(manifest, taken.len()))?;
             let anchor_from_target = Pose::identity();
             (
                 HandEye { mount_from_camera: guess.mount_from_camera, anchor_from_target },
@@ -172,6 +176,16 @@ fn planner(
     let guess = Some(guess);
     let planner = Planner { setting, guess, taken, failed, viewing, reach, candidates };
     Ok((planner, joint_names, notes))
+}
+
+/// What captures tell of the camera that leave directions free, as those of a robot with four axes do.
+fn partly(calibration: &Calibration) -> Option<Guess> {
+    let known = calibration.determined.as_ref()?;
+    let ([x, y, z, w], across) = (known.rotation_xyzw?, known.translation_across_m?);
+    let rotation = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
+    let at = rotation.to_rotation_matrix().into_inner();
+    let mount_from_camera = Pose::from_parts(&at, Vector3::from(across));
+    Some(Guess { mount_from_camera, sigma: PARTLY_KNOWN })
 }
 
 fn no_guess(manifest: &Path, captures: usize) -> Error {

@@ -240,6 +240,4 @@ pub(crate) use touches::spread_corners;
 pub use touches::{PlannedTouch, TouchNoise};
 
 #[cfg(test)]
-mod planner_tests;
-#[cfg(test)]
 mod tests;

@@ -481,3 +481,6 @@ impl ExpectedNoise {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3, Vector6};
 
-use super::*;
+use super::super::*;
 use crate::{
     Camera, HandEye, Point, Session, Target, Verdict, calibrate,
     estimate::predict::difference,
