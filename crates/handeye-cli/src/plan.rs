@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use handeye::{
-    Verdict,
+    Calibration, Verdict,
     tools::plan::{NextView, PlannedTouch},
 };
 use handeye_io::{
@@ -39,7 +39,7 @@ pub struct PlanArgs {
     /// Plan until the expected error (95 %) is below this [default: what the manifest says].
     #[arg(long, value_name = "MM")]
     pub tolerance_mm: Option<f64>,
-    /// The one view that tells most.
+    /// Only the most informative view.
     #[arg(long, conflicts_with = "count")]
     pub next: bool,
     /// Corners to touch as well.
@@ -92,7 +92,7 @@ pub fn run(args: &PlanArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let found = plan::plan(&dataset, &options, &|done, all| progress.tell(done, all))?;
     drop(progress);
     let table = match maker {
-        Some(maker) => plan::program(maker, &found.route.views),
+        Some(maker) => plan::program(maker, &found.route),
         None => table(&found, writing.as_ref()),
     };
     if let Some(out) = &args.out {
@@ -145,12 +145,10 @@ fn options(args: &PlanArgs, dataset: &Dataset) -> Result<PlanOptions, Failure> {
 
 /// The poses as a table, in a notation or in metres and quaternions.
 fn table(found: &CellPlan, writing: Option<&Writing>) -> String {
-    let names: Vec<String> =
-        (1..=found.route.views.len()).map(|k| format!("view-{k:02}")).collect();
     let usual = Writing::of("quaternion-xyzw").ok();
     let Some(writing) = writing.or(usual.as_ref()) else { return String::new() };
-    let poses = found.route.views.iter().map(|view| &view.station.base_from_flange);
-    writing.table(names.iter().map(String::as_str).zip(poses))
+    let stops = found.route.stops();
+    writing.table(stops.iter().map(|stop| (&stop.name[..], &stop.station.base_from_flange)))
 }
 
 fn document(found: &CellPlan, options: &PlanOptions, writing: Option<&Writing>) -> Value {
@@ -163,7 +161,7 @@ fn document(found: &CellPlan, options: &PlanOptions, writing: Option<&Writing>) 
             "camera_from_target": view.camera_from_target,
             "reason": view.reason(),
             "predicted_p95_mm": p95(&view.after),
-            "by_way_of_start": view.by_way_of_start,
+            "via_start": view.via_start,
             "numbers": writing.map(|w| w.numbers(&view.station.base_from_flange)),
         })
     };
@@ -172,7 +170,7 @@ fn document(found: &CellPlan, options: &PlanOptions, writing: Option<&Writing>) 
             "placement": touch.placement,
             "camera_from_target": touch.camera_from_target,
             "corner": touch.corner,
-            "reason": plan::touch_in_words(touch),
+            "reason": touch.reason(),
             "predicted_p95_mm": p95(&touch.after),
         })
     };
@@ -182,6 +180,12 @@ fn document(found: &CellPlan, options: &PlanOptions, writing: Option<&Writing>) 
         "touches": found.touches.iter().map(touch).collect::<Vec<_>>(),
         "enough": found.enough,
         "undetermined": found.route.undetermined,
+        "stopped": found.route.stopped,
+        "begins_at": found.begins_at,
+        "start": found.route.start.as_ref().map(|start| json!({
+            "base_from_flange": start.base_from_flange,
+            "joints_rad": start.joints,
+        })),
         "verdict": found.calibration.as_ref().map(|c| c.verdict),
         "p95_mm": now.map(|error| error.p95),
         "predicted_p95_mm": p95(&found.route.expected),
@@ -192,57 +196,71 @@ fn document(found: &CellPlan, options: &PlanOptions, writing: Option<&Writing>) 
     })
 }
 
+/// What is known now, what the views bring, and how far that goes.
 fn summary(found: &CellPlan, options: &PlanOptions) -> String {
-    let mut text = String::new();
-    let tolerance = options.tolerance_mm;
-    if let Some(calibration) = &found.calibration {
-        let used = calibration.captures.iter().filter(|c| c.used).count();
-        let error = calibration.predicted_tre_mm.as_ref().map(|error| error.p95);
-        let now = match (calibration.verdict, error) {
-            (Verdict::Undetermined, _) | (_, None) => "not yet determined".to_owned(),
-            (_, Some(mm)) => format!("{mm:.2} mm (95 %)"),
-        };
-        text += &format!("now: {used} captures, expected accuracy {now}\n");
-    }
+    let text = found.calibration.as_ref().map_or(String::new(), now);
     if found.enough {
-        let mm = tolerance.unwrap_or_default();
-        return text
-            + &format!("enough: below the tolerance of {mm} mm; no more views are needed\n");
+        let mm = options.tolerance_mm.unwrap_or_default();
+        return text + &format!("enough for the tolerance of {mm} mm: no more views are needed\n");
     }
-    let views = &found.route.views;
-    text += &match (found.route.expected.as_ref(), tolerance) {
-        (None, _) => format!("{} views\n", views.len()),
-        (Some(then), None) => {
-            format!("{} views, then about {:.2} mm (95 %)\n", views.len(), then.p95)
-        }
-        (Some(then), Some(mm)) if then.p95 <= mm => {
-            format!(
-                "{} views, then about {:.2} mm (95 %): within the tolerance of {mm} mm\n",
-                views.len(),
-                then.p95
-            )
-        }
-        (Some(then), Some(mm)) => format!(
-            "{} views, then about {:.2} mm (95 %): not yet within the tolerance of {mm} mm\n",
-            views.len(),
-            then.p95
-        ),
+    let touches = (1..).zip(&found.touches);
+    let touches =
+        touches.map(|(k, touch): (usize, _)| format!("{k:3}. touch {}\n", touch.reason()));
+    text + &expected(found, options.tolerance_mm) + &views(found) + &touches.collect::<String>()
+}
+
+fn now(calibration: &Calibration) -> String {
+    let used = calibration.captures.iter().filter(|c| c.used).count();
+    let error = calibration.predicted_tre_mm.as_ref().map(|error| error.p95);
+    let now = match (calibration.verdict, error) {
+        (Verdict::Undetermined, _) | (_, None) => "does not determine the answer yet".to_owned(),
+        (_, Some(mm)) => format!("states an error of {mm:.2} mm (95 %)"),
     };
+    format!("now: the calibration of {used} captures {now}\n")
+}
+
+/// The error once all views are taken.
+fn expected(found: &CellPlan, tolerance: Option<f64>) -> String {
+    let count = found.route.views.len();
+    let Some(p95) = found.route.expected.as_ref().map(|error| error.p95) else {
+        return format!("{count} views\n");
+    };
+    let enough = tolerance.map_or(String::new(), |mm| {
+        let not = if p95 <= mm { "" } else { "not yet " };
+        format!(": {not}within the tolerance of {mm} mm")
+    });
+    format!("{count} views, then about {p95:.2} mm (95 %){enough}\n")
+}
+
+fn views(found: &CellPlan) -> String {
+    let mut text = String::new();
+    let views = &found.route.views;
+    if let Some(why) = &found.route.stopped {
+        text += &format!("no more views: {why}\n");
+    }
+    if let Some(capture) = found.begins_at.as_ref().filter(|_| !views.is_empty()) {
+        text +=
+            &format!("the ways begin where the robot stood at capture {capture}: go there first\n");
+    }
     for (k, view) in views.iter().enumerate() {
-        let detour =
-            if view.by_way_of_start { " (go by way of where the robot stands now)" } else { "" };
+        let detour = if view.via_start { " (go back to the first pose before)" } else { "" };
         text += &format!("{:3}. {}{detour}\n", k + 1, view.reason());
         if let Some(joints) = &view.station.joints {
-            let shown: Vec<String> =
-                joints.iter().map(|q| format!("{:.1}", q.to_degrees())).collect();
-            text += &format!("     joints {} deg\n", shown.join("  "));
+            text += &format!("     joints {}\n", joint_values(joints, &found.slides));
         }
     }
     if !found.route.undetermined.is_empty() {
-        text += &format!("these views leave free: {}\n", found.route.undetermined.join(", "));
-    }
-    for (k, touch) in found.touches.iter().enumerate() {
-        text += &format!("{:3}. touch {}\n", k + 1, plan::touch_in_words(touch));
+        text +=
+            &format!("not determined by these views: {}\n", found.route.undetermined.join(", "));
     }
     text
+}
+
+/// In degrees, or millimetres for joints that slide.
+fn joint_values(joints: &[f64], slides: &[bool]) -> String {
+    let shown = |(value, slides): (&f64, &bool)| match slides {
+        true => format!("{:.1} mm", value * 1e3),
+        false => format!("{:.1}°", value.to_degrees()),
+    };
+    joints.iter().zip(slides).map(shown).collect::<Vec<_>>().join("  ")
 }

@@ -112,7 +112,7 @@ fn a_plan_ends_below_the_tolerance_and_each_view_brings_something() {
     // many captures are enough
     let many = cell("25", &[]);
     let found = ends(&handeye(&many, &["plan", "cell", "--tolerance-mm", "2"]), 0).stdout.clone();
-    assert!(found.contains("enough: below the tolerance of 2 mm"), "{found}");
+    assert!(found.contains("enough for the tolerance of 2 mm"), "{found}");
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn one_capture_and_a_guess_are_a_plan_and_without_a_guess_it_is_asked_for() {
         asked.stderr
     );
     let manifest = folder.read("cell/handeye.toml");
-    let guess = "\n[guess]\ntranslation_mm = [60, -30, 50]\nlooks = [0, 0, 1]\nright = [1, 0, 0]\n";
+    let guess = "\n[guess]\ntranslation_mm = [60, -30, 50]\noptical_axis = [0, 0, 1]\nimage_x = [1, 0, 0]\n";
     folder.put("cell/handeye.toml", &(manifest.clone() + guess));
     let found = handeye(&folder, &["plan", "cell", "--count", "3"]);
     assert!(
@@ -178,11 +178,11 @@ fn one_capture_and_a_guess_are_a_plan_and_without_a_guess_it_is_asked_for() {
     );
     folder.put(
         "cell/handeye.toml",
-        &(manifest + &guess.replace("right = [1, 0, 0]", "right = [0, 0, 2]")),
+        &(manifest + &guess.replace("image_x = [1, 0, 0]", "image_x = [0, 0, 2]")),
     );
     let wrong = handeye(&folder, &["plan", "cell"]);
     assert!(
-        ends(&wrong, 1).error().contains("looks and right are no two directions"),
+        ends(&wrong, 1).error().contains("optical_axis and image_x are not two directions"),
         "{}",
         wrong.stderr
     );

@@ -69,7 +69,7 @@ pub(crate) struct Manifest {
     pub(crate) workspace: Option<WorkspaceSpec>,
     /// The camera's position along one direction of the base (eye-to-hand) or flange (eye-in-hand).
     pub(crate) known_position: Option<KnownPositionSpec>,
-    /// Roughly where the camera sits: for plans, before captures tell it.
+    /// Roughly where the camera sits: for plans, before captures determine it.
     pub(crate) guess: Option<GuessSpec>,
     /// Standard deviations; those not given are estimated.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -516,10 +516,10 @@ pub(crate) struct KnownPositionSpec {
 pub(crate) struct GuessSpec {
     /// Its position.
     pub(crate) translation_mm: [f64; 3],
-    /// The direction into which it looks; [0, 0, 1] is along z.
-    pub(crate) looks: [f64; 3],
+    /// The direction of its optical axis; [0, 0, 1] is along z.
+    pub(crate) optical_axis: [f64; 3],
     /// The direction that is to the right in the image.
-    pub(crate) right: [f64; 3],
+    pub(crate) image_x: [f64; 3],
     /// How well the position is known, along each axis; 30 unless said.
     pub(crate) sigma_mm: Option<f64>,
     /// How well the direction is known, about each axis; 6 unless said.

@@ -1,6 +1,7 @@
 //! A folder of captures: its manifest `handeye.toml`, checked and put together.
 
 mod answers;
+mod conditions;
 mod corners;
 mod draft;
 mod in_memory;

@@ -11,8 +11,8 @@ use handeye::{
     model::kinematics::Arm,
     nalgebra::{Quaternion, UnitQuaternion, Vector3},
     tools::plan::{
-        ArmReach, ExpectedNoise, GuessSigma, NearReach, PlannedTouch, Planner, Reach, Route,
-        Setting, Surroundings, Taken, TouchNoise, USUAL_CANDIDATES, USUALLY_NEAR, Viewing,
+        ArmReach, ENOUGH, ExpectedNoise, GuessSigma, NearReach, PlannedTouch, Planner, Reach,
+        Route, Setting, Surroundings, Taken, TouchNoise, USUAL_CANDIDATES, USUALLY_NEAR, Viewing,
     },
 };
 
@@ -62,12 +62,16 @@ pub struct CellPlan {
     pub route: Route,
     /// Corners to touch.
     pub touches: Vec<PlannedTouch>,
-    /// The calibration of the captures so far, where they tell one.
+    /// The calibration of the captures so far, where they determine one.
     pub calibration: Option<Calibration>,
-    /// Whether the captures that were taken already meet the tolerance.
+    /// Whether the captures that were taken are accurate enough for the tolerance.
     pub enough: bool,
     /// Names of the arm's joints, where it is known and names them.
     pub joint_names: Vec<String>,
+    /// Which of its joints slide.
+    pub slides: Vec<bool>,
+    /// The capture at whose pose the ways begin, unless joint values of now were given.
+    pub begins_at: Option<String>,
     /// What to know of the plan.
     pub notes: Vec<String>,
 }
@@ -97,29 +101,35 @@ pub fn plan(
     let (planner, joint_names, mut notes) = planner(dataset, &calibration, &session, options)?;
     let enough = calibration.verdict == Verdict::Accepted
         && options.tolerance_mm.is_some_and(|mm| {
-            calibration.predicted_tre_mm.as_ref().is_some_and(|error| error.p95 <= mm)
+            calibration.predicted_tre_mm.as_ref().is_some_and(|error| error.p95 <= ENOUGH * mm)
         });
-    let route = match enough {
-        true => Route { views: vec![], undetermined: vec![], expected: planner.expected() },
-        false => planner.route(options.count, options.tolerance_mm).map_err(refused)?,
-    };
+    let count = if enough { 0 } else { options.count };
+    let route = planner.route(count, options.tolerance_mm).map_err(refused)?;
     let touches = match options.touches {
         true => planner.touches(MOST_TOUCHES, &touch_noise(dataset), options.tolerance_mm),
         false => vec![],
     };
-    if !route.undetermined.is_empty() && touches.is_empty() {
+    if !enough && !route.undetermined.is_empty() && touches.is_empty() {
         notes.push(format!(
-            "even all these views leave free: {}; touched corners determine it (--touches)",
+            "not determined even by all these views: {}; touched corners determine it (--touches)",
             route.undetermined.join(", ")
         ));
     }
     let known = calibration.hand_eye.mount_from_camera.is_some();
     let calibration = known.then_some(calibration);
-    Ok(CellPlan { route, touches, calibration, enough, joint_names, notes })
+    let last = session.observations.last().filter(|_| options.now.is_none());
+    let begins_at = last.map(|o| o.capture.clone());
+    let slides = match &planner.reach {
+        Reach::Arm(reach) => reach.arm.joints.iter().map(|joint| joint.prismatic).collect(),
+        Reach::Near(_) => vec![],
+    };
+    Ok(CellPlan { route, touches, calibration, enough, joint_names, slides, begins_at, notes })
 }
 
 /// Touches that are planned.
 const MOST_TOUCHES: usize = 12;
+/// Depth of a corner in the scan, where nothing says it, m.
+const USUAL_DEPTH_M: f64 = 0.5e-3;
 
 fn touch_noise(dataset: &Dataset) -> TouchNoise {
     let usual = TouchNoise::default();
@@ -178,7 +188,7 @@ fn planner(
     Ok((planner, joint_names, notes))
 }
 
-/// What captures tell of the camera that leave directions free, as those of a robot with four axes do.
+/// The determined part of an answer that is not wholly determined, as with a robot of four axes.
 fn partly(calibration: &Calibration) -> Option<Guess> {
     let known = calibration.determined.as_ref()?;
     let ([x, y, z, w], across) = (known.rotation_xyzw?, known.translation_across_m?);
@@ -193,8 +203,8 @@ fn no_guess(manifest: &Path, captures: usize) -> Error {
         place: Place::file(manifest),
         key: "guess".into(),
         question: format!(
-            "roughly where does the camera sit? {captures} captures do not tell it yet: [guess] translation_mm = [x, y, z], \
-             looks = [x, y, z], right = [x, y, z] (in the flange where the robot carries the camera, else in the base)"
+            "roughly where does the camera sit? {captures} captures do not determine it yet: [guess] translation_mm = [x, y, z], \
+             optical_axis = [x, y, z], image_x = [x, y, z] (in the flange where the robot carries the camera, else in the base)"
         ),
     }
 }
@@ -249,22 +259,16 @@ fn viewing(
 fn noise(dataset: &Dataset, calibration: &Calibration) -> ExpectedNoise {
     let usual = ExpectedNoise::default();
     let robot = calibration.error_budget.iter().find(|entry| entry.source == "robot");
-    let found =
-        |of: fn(&handeye::calibrate::result::BudgetEntry) -> Option<f64>| robot.and_then(of);
+    let rotation = robot.and_then(|entry| entry.sigma_deg).map(f64::to_radians);
+    let position = robot.and_then(|entry| entry.sigma_mm).map(|mm| mm * 1e-3);
     let known = &dataset.noise;
+    let has_scans = dataset.captures.iter().any(|c| c.scan.is_some());
     ExpectedNoise {
+        robot_rotation_rad: known.robot_rotation.or(rotation).unwrap_or(usual.robot_rotation_rad),
+        robot_position_m: known.robot_position.or(position).unwrap_or(usual.robot_position_m),
         corner_px: known.image_px.unwrap_or(usual.corner_px),
-        depth_at_1m: dataset
-            .captures
-            .iter()
-            .any(|c| c.scan.is_some())
-            .then_some(known.depth.unwrap_or(0.5e-3)),
-        ..usual
+        depth_at_1m: has_scans.then_some(known.depth.unwrap_or(USUAL_DEPTH_M)),
     }
-    .or_found(
-        known.robot_rotation.or(found(|e| e.sigma_deg).map(f64::to_radians)),
-        known.robot_position.or(found(|e| e.sigma_mm).map(|mm| mm * 1e-3)),
-    )
 }
 
 /// Where the robot works: the box of the manifest, or what the camera sees between the distances.
@@ -382,18 +386,4 @@ fn arm_reach(
     let here = [stood, vec![now.clone()]].concat();
     let surroundings = surroundings.ignoring_neighbours(&arm, &limits, &here);
     Ok(ArmReach { arm, limits, now, surroundings })
-}
-
-/// Sentences on a touch.
-pub fn touch_in_words(touch: &PlannedTouch) -> String {
-    let where_ = match touch.placement {
-        0 => "the board".to_owned(),
-        k => format!("board {k}, laid where the camera sees it"),
-    };
-    let brings = match (&touch.before, &touch.after) {
-        (Some(a), Some(b)) => format!("{:.2} mm → {:.2} mm (95 %)", a.p95, b.p95),
-        (None, Some(b)) => format!("then all is determined, to {:.2} mm (95 %)", b.p95),
-        _ => "needed to determine all directions".into(),
-    };
-    format!("corner {} of {where_}: {brings}", touch.corner)
 }

@@ -19,7 +19,7 @@ const FOLDERS_ABOVE: usize = 4;
 
 /// The parts of a robot, and what is to be known of how they were found.
 pub fn parts(urdf: &Urdf, file: &Path) -> (Vec<Part>, Vec<String>) {
-    let (mut parts, mut notes) = (vec![], vec![]);
+    let (mut parts, mut notes, mut unread) = (vec![], vec![], vec![]);
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(urdf.text(), options);
     let bodies = urdf.bodies();
@@ -30,12 +30,15 @@ pub fn parts(urdf: &Urdf, file: &Path) -> (Vec<Part>, Vec<String>) {
             for node in link.children().filter(|c| c.has_tag_name("collision")) {
                 match shape(&node, file) {
                     Ok(shape) => parts.push(placed(urdf, body, &shape)),
-                    Err(why) => notes.push(format!("link {name}: {why}")),
+                    Err(why) => {
+                        notes.push(format!("link {name}: {why}"));
+                        unread.extend(body.joint);
+                    }
                 }
             }
         }
     }
-    stand_ins(urdf, &mut parts, &mut notes);
+    stand_ins(urdf, &unread, &mut parts, &mut notes);
     (parts, notes)
 }
 
@@ -51,22 +54,29 @@ fn placed(urdf: &Urdf, body: &Body, shape: &Capsule) -> Part {
     Part { name: body.link.clone(), on, shape }
 }
 
-/// Links without a shape of their own are as thick as those of many arms.
-fn stand_ins(urdf: &Urdf, parts: &mut Vec<Part>, notes: &mut Vec<String>) {
+/// Links without a shape of their own, and those with one that cannot be read, are as thick as those of many arms.
+fn stand_ins(urdf: &Urdf, unread: &[usize], parts: &mut Vec<Part>, notes: &mut Vec<String>) {
     let zeros = vec![0.0; urdf.joint_names().len()];
     let frames = urdf.arm().link_frames(&zeros);
     let joints: Vec<Vector3<f64>> =
         urdf.origins().iter().map(|o| o.base_from_joint.translation.vector).collect();
     let flange = urdf.arm().base_from_flange(&zeros).translation();
-    // what the first joint moves turns above the base
-    for (k, from) in joints.iter().enumerate().skip(1) {
-        if parts.iter().any(|part| part.on == On::Joint(k)) {
+    for (k, from) in joints.iter().enumerate() {
+        if !unread.contains(&k) && parts.iter().any(|part| part.on == On::Joint(k)) {
+            continue;
+        }
+        let name = format!("what {} moves", urdf.joint_names()[k]);
+        if k == 0 {
+            // it turns above the base: a capsule would always touch what the base stands on
+            notes.push(format!("{name} has no shape: nothing is kept away from it"));
             continue;
         }
         let to = joints.get(k + 1).copied().unwrap_or(flange);
         let link = Capsule { from: *from, to, radius: USUAL_RADIUS };
-        let name = format!("what {} moves", urdf.joint_names()[k]);
-        notes.push(format!("{name} has no shape: taken to be {:.0} mm thick", 2e3 * USUAL_RADIUS));
+        notes.push(format!(
+            "{name} has no shape that can be read: taken to be {:.0} mm thick",
+            2e3 * USUAL_RADIUS
+        ));
         parts.push(Part { name, on: On::Joint(k), shape: link.placed(&frames[k].inverse()) });
     }
 }

@@ -69,6 +69,25 @@ fn split_mix(at: &mut u64) -> u64 {
     z ^ (z >> 31)
 }
 
+/// Bases of [`halton`]'s coordinates.
+const BASES: [u32; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
+
+/// Point number `k` of those that fill the unit cube evenly: the digits of `k + 1` in a base, behind the point in reverse
+/// order, another base for each coordinate (J. Halton, Numerische Mathematik 2, 1960). Beyond eight coordinates bases repeat.
+pub fn halton(k: usize, coordinates: usize) -> Vec<f64> {
+    let coordinate = |base: &u32| {
+        let base = *base as usize;
+        let (mut rest, mut share, mut sum) = (k + 1, 1.0, 0.0);
+        while rest > 0 {
+            share /= base as f64;
+            sum += share * (rest % base) as f64;
+            rest /= base;
+        }
+        sum
+    };
+    BASES.iter().cycle().take(coordinates).map(coordinate).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -202,6 +202,29 @@ impl HandEye {
         Self { anchor_from_target: self.anchor_from_target * target_from_new, ..*self }
     }
 
+    /// `B = X⁻¹ A⁻¹ Y`: where the camera sees the target while the flange is there.
+    pub fn camera_from_target(
+        &self,
+        setup: Setup,
+        base_from_flange: &Pose<Base, Flange>,
+    ) -> Pose<Camera, Target> {
+        let anchor_from_camera =
+            setup.anchor_from_mount(*base_from_flange) * self.mount_from_camera;
+        anchor_from_camera.inverse() * self.anchor_from_target
+    }
+
+    /// `A = Y B X⁻¹`: where the flange is while the camera sees the target there.
+    pub fn base_from_flange(
+        &self,
+        setup: Setup,
+        camera_from_target: &Pose<Camera, Target>,
+    ) -> Pose<Base, Flange> {
+        let anchor_from_camera = self.anchor_from_target * camera_from_target.inverse();
+        let anchor_from_mount = anchor_from_camera * self.mount_from_camera.inverse();
+        // the setups' map is its own inverse
+        setup.anchor_from_mount(anchor_from_mount.rename()).rename()
+    }
+
     /// `Y⁻¹ A X B⁻¹`: the loop that is the identity for exact data, in the Target frame.
     pub fn loop_error(&self, pair: &PosePair) -> Pose<Target, Target> {
         self.anchor_from_target.inverse()

@@ -14,8 +14,8 @@ use super::{
     robot_error::{Robot, SystematicError},
 };
 use crate::{
-    Anchor, Base, Camera, Error, Flange, HandEye, Intrinsics, Mount, Point, Pose, Setup, Target,
-    TargetModel, Touch,
+    Base, Camera, Error, Flange, HandEye, Intrinsics, Point, Pose, Setup, Target, TargetModel,
+    Touch,
     math::random::Random,
     tools::plan::{Look, spread_corners},
 };
@@ -248,21 +248,19 @@ impl Cell {
             .map(|(x, y)| Vector3::new(x, y, 0.0))
     }
 
-    fn shows(&self, view: &Pose<Camera, Target>, outline: &[Vector3<f64>; 4]) -> bool {
+    fn shows(&self, view: &Pose<Camera, Target>, points: &[Vector3<f64>]) -> bool {
         let (width, height) = (f64::from(self.intrinsics.width), f64::from(self.intrinsics.height));
-        outline.iter().all(|p| {
+        points.iter().all(|p| {
             let pixel = self.intrinsics.project(&(*view * Point::from_vector(*p)).vector());
             pixel.is_some_and(|p| p.x > 0.0 && p.y > 0.0 && p.x < width && p.y < height)
         })
     }
 
-    /// `A = Y B X⁻¹`: where the robot is when the camera sees the target so.
-    pub(super) fn robot_at(&self, camera_from_target: &Pose<Camera, Target>) -> Pose<Base, Flange> {
-        let HandEye { mount_from_camera, anchor_from_target } = self.hand_eye;
-        let anchor_from_mount: Pose<Anchor, Mount> =
-            anchor_from_target * camera_from_target.inverse() * mount_from_camera.inverse();
-        // the setups' map is its own inverse
-        self.setup.anchor_from_mount(anchor_from_mount.rename()).rename()
+    /// Whether the camera sees all corners of the target while the flange is there.
+    pub fn shows_target_at(&self, base_from_flange: &Pose<Base, Flange>) -> bool {
+        let view = self.hand_eye.camera_from_target(self.setup, base_from_flange);
+        let corners: Vec<Vector3<f64>> = self.target.corners().iter().map(Point::vector).collect();
+        self.shows(&view, &corners)
     }
 
     /// What is wrong with the robot.

@@ -44,8 +44,9 @@ impl Cell {
         self.target.check()?;
         self.intrinsics.check()?;
         let camera_from_target = self.views()?;
+        let at = |view| self.hand_eye.base_from_flange(self.setup, view);
         let base_from_flange: Vec<Pose<Base, Flange>> =
-            camera_from_target[..self.captures].iter().map(|v| self.robot_at(v)).collect();
+            camera_from_target[..self.captures].iter().map(at).collect();
         self.recorded(camera_from_target, base_from_flange, seed)
     }
 
@@ -65,11 +66,7 @@ impl Cell {
             let (poses, captures) = (base_from_flange.len(), self.captures);
             return Err(Error::Invalid(format!("{poses} poses for {captures} captures")));
         }
-        let seen = |pose: &Pose<Base, Flange>| {
-            let anchor_from_camera =
-                self.setup.anchor_from_mount(*pose) * self.hand_eye.mount_from_camera;
-            anchor_from_camera.inverse() * self.hand_eye.anchor_from_target
-        };
+        let seen = |pose| self.hand_eye.camera_from_target(self.setup, pose);
         let placed = self.views()?.split_off(self.captures);
         let views = base_from_flange.iter().map(seen).chain(placed).collect();
         self.recorded(views, base_from_flange.to_vec(), seed)

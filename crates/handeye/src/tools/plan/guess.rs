@@ -4,7 +4,7 @@
 //! min  log(X₀⁻¹ X)ᵀ S₀⁻¹ log(X₀⁻¹ X) + Σ r_iᵀ V_i⁻¹ r_i
 //! ```
 //!
-//! One capture says where the target is; two and three tell the camera better than the guess does.
+//! One capture determines the pose of the target; two and three determine the camera better than the guess does.
 
 use nalgebra::{Matrix6, Vector6};
 

@@ -1,4 +1,4 @@
-//! What a capture tells of camera and target, known before it is taken.
+//! Information of a capture on the poses of camera and target, before it is taken.
 
 use nalgebra::{Matrix6, RowVector6, SMatrix, Vector3};
 
@@ -56,9 +56,7 @@ impl Setting {
     /// How the target looks from a pose.
     pub(super) fn pair(&self, base_from_flange: &Pose<Base, Flange>) -> PosePair {
         let anchor_from_mount = self.setup.anchor_from_mount(*base_from_flange);
-        let HandEye { mount_from_camera, anchor_from_target } = self.hand_eye;
-        let anchor_from_camera = anchor_from_mount * mount_from_camera;
-        let camera_from_target = anchor_from_camera.inverse() * anchor_from_target;
+        let camera_from_target = self.hand_eye.camera_from_target(self.setup, base_from_flange);
         PosePair { anchor_from_mount, camera_from_target }
     }
 

@@ -1,9 +1,9 @@
 //! How the camera may look at the target: where in the image, from how far, tilted and turned. Candidates are spread evenly
-//! over all of that by Halton's sequence (J. Halton, Numerische Mathematik 2, 1960).
+//! over all of that.
 
 use nalgebra::{Rotation3, Vector2, Vector3};
 
-use crate::{Camera, Intrinsics, Point, Pose, Target, TargetModel};
+use crate::{Camera, Intrinsics, Point, Pose, Target, TargetModel, math::random::halton};
 
 /// How a target is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +91,9 @@ pub fn middle(outline: &[Vector3<f64>; 4]) -> Vector3<f64> {
 
 /// Looks number `k`, of any number of them spread evenly.
 pub fn look(camera: &Intrinsics, viewing: &Viewing, k: usize) -> Look {
-    let [u, v, far, tilt, towards, spin] = [2, 3, 5, 7, 11, 13].map(|base| halton(k + 1, base));
+    let share = halton(k, 6);
+    let (u, v, far) = (share[0], share[1], share[2]);
+    let (tilt, towards, spin) = (share[3], share[4], share[5]);
     let turn = std::f64::consts::TAU;
     // near the border no target is whole: looks keep to the middle
     let pixel = |side: u32, share: f64| f64::from(side) * (0.15 + 0.7 * share) - 0.5;
@@ -102,17 +104,6 @@ pub fn look(camera: &Intrinsics, viewing: &Viewing, k: usize) -> Look {
         towards: turn * towards,
         spin: turn * (spin - 0.5),
     }
-}
-
-/// The digits of `k` in a base, behind the point in reverse order.
-pub(super) fn halton(mut k: usize, base: usize) -> f64 {
-    let (mut share, mut sum) = (1.0, 0.0);
-    while k > 0 {
-        share /= base as f64;
-        sum += share * (k % base) as f64;
-        k /= base;
-    }
-    sum
 }
 
 #[cfg(test)]

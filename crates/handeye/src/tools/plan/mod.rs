@@ -1,4 +1,4 @@
-//! Where to take the captures: of the poses that the robot can reach, the few that tell most.
+//! Where to take the captures: of the poses that the robot can reach, the few most informative ones.
 //!
 //! What a capture will say is known before it is taken: from where camera and target roughly sit
 //! follows how the target will look, and from that its share in the information on `(X, Y)`,
@@ -16,7 +16,7 @@
 //! functions*, Math. Programming 14, 1978; J. Yang, J. Rebello, S. Waslander, *Next-best-view
 //! selection for robot eye-in-hand calibration*, 2023.
 
-mod body;
+mod collision;
 mod guess;
 mod information;
 mod looks;
@@ -26,7 +26,7 @@ mod solids;
 mod touches;
 mod travel;
 
-pub use body::{Contact, Obstacle, On, Part, Surroundings};
+pub use collision::{Collision, Obstacle, On, Part, Surroundings};
 pub use guess::{GuessSigma, Taken};
 pub use looks::{Look, Viewing};
 use nalgebra::{Matrix6, Vector3};
@@ -88,7 +88,7 @@ impl Default for ExpectedNoise {
 pub struct Plan {
     /// The poses chosen.
     pub choices: Vec<Choice>,
-    /// What all of them still leave free, in words.
+    /// Directions that all of them do not determine, in words.
     pub undetermined: Vec<String>,
 }
 
@@ -233,7 +233,7 @@ fn of_mount(h: &Matrix12) -> Option<Matrix6<f64>> {
     linalg::invert_spd(h).map(|c| c.fixed_view::<6, 6>(0, 0).into_owned())
 }
 
-pub use planner::{NextView, Planner, Route, USUAL_CANDIDATES, robot_at};
+pub use planner::{ENOUGH, NextView, Planner, Route, Stop, USUAL_CANDIDATES};
 pub use reach::{ArmReach, NearReach, Reach, Station, USUALLY_NEAR, Unreached};
 pub use solids::{Capsule, Cuboid};
 pub(crate) use touches::spread_corners;

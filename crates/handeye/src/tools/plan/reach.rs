@@ -1,12 +1,10 @@
 //! What the robot can reach: joint values within limits where the arm is known; elsewhere poses near those in which it has
 //! stood.
 
-use super::{
-    body::{Contact, Surroundings},
-    looks::halton,
-};
+use super::collision::{Collision, Surroundings};
 use crate::{
     Base, Error, Flange, Pose,
+    math::random::halton,
     model::{kinematics::Arm, residual::Residual},
 };
 
@@ -28,7 +26,7 @@ pub struct ArmReach {
     pub limits: Vec<(f64, f64)>,
     /// Joint values now, rad or m: the way begins here.
     pub now: Vec<f64>,
-    /// What may meet.
+    /// What may collide.
     pub surroundings: Surroundings,
 }
 
@@ -39,7 +37,7 @@ pub struct NearReach {
     pub stood: Vec<Pose<Base, Flange>>,
     /// How far from one of them it may go.
     pub within: Residual,
-    /// What may meet: what the flange carries, and what stands in the cell.
+    /// What may collide: what the flange carries, and what stands in the cell.
     pub surroundings: Surroundings,
 }
 
@@ -57,8 +55,8 @@ pub struct Station {
 pub enum Unreached {
     /// No joint values within the limits lead there, or it is far from all poses that were reached.
     TooFar,
-    /// Two things would meet there.
-    Meets(Contact),
+    /// Two bodies collide there, or on the path to it.
+    Collides(Collision),
 }
 
 /// Joints keep from their limits by this, rad or m.
@@ -82,15 +80,15 @@ impl ArmReach {
                 return Err(Error::Invalid(format!("{count} {what} for {joints} joints")));
             }
         }
-        if let Some(Contact { part, with }) = self.surroundings.contact(&self.arm, &self.now) {
-            return Err(Error::Invalid(format!(
-                "where the robot stands now, {part} meets {with}: correct the shapes, or the joint values"
-            )));
-        }
         let numbers = self.limits.iter().flat_map(|(low, high)| [low, high]).chain(&self.now);
-        match numbers.copied().all(f64::is_finite) {
-            true => Ok(()),
-            false => Err(Error::NotFinite { what: "a joint's limit or value".into() }),
+        if !numbers.copied().all(f64::is_finite) {
+            return Err(Error::NotFinite { what: "a joint's limit or value".into() });
+        }
+        match self.surroundings.collision(&self.arm, &self.now) {
+            None => Ok(()),
+            Some(Collision { part, with }) => Err(Error::Invalid(format!(
+                "where the robot stands now, {part} collides with {with}: correct the shapes, or the joint values"
+            ))),
         }
     }
 
@@ -104,19 +102,9 @@ impl ArmReach {
         let surroundings = Surroundings::default();
         let reach =
             ArmReach { arm: arm.clone(), limits: limits.to_vec(), now: middle, surroundings };
-        let bases = [2, 3, 5, 7, 11, 13, 17, 19];
-        let start = |k: usize| {
-            let share: Vec<f64> = bases.iter().map(|base| halton(k, *base)).collect();
-            reach.drawn(&share)
-        };
-        let mut starts = std::iter::once(reach.now.clone()).chain((1..=STARTS).map(start));
+        let mut starts =
+            std::iter::once(reach.now.clone()).chain((0..STARTS).map(|k| reach.drawn(k)));
         starts.find_map(|start| reach.joints_at(there, &[start]).ok())
-    }
-
-    /// The first joint that is beyond its limits.
-    pub fn beyond_limits(&self, values: &[f64]) -> Option<usize> {
-        let beyond = |(value, (low, high)): (&f64, &(f64, f64))| value < low || value > high;
-        values.iter().zip(&self.limits).position(beyond)
     }
 
     fn keeps_limits(&self, values: &[f64]) -> bool {
@@ -157,9 +145,9 @@ impl ArmReach {
             if !self.keeps_limits(&values) {
                 continue;
             }
-            match self.surroundings.contact(&self.arm, &values) {
+            match self.surroundings.collision(&self.arm, &values) {
                 None => return Ok(values),
-                Some(contact) => why = Unreached::Meets(contact),
+                Some(collision) => why = Unreached::Collides(collision),
             }
         }
         Err(why)
@@ -172,12 +160,12 @@ impl ArmReach {
         self.arm.length() + slides.map(|(_, (low, high))| low.abs().max(high.abs())).sum::<f64>()
     }
 
-    /// Values spread over all that the joints can do, where an arm cannot turn its flange as it likes.
-    pub(super) fn drawn(&self, share: &[f64]) -> Vec<f64> {
-        let value = |((low, high), share): (&(f64, f64), &f64)| {
+    /// Joint values number `k` of those that are spread over all that the joints can do.
+    pub(super) fn drawn(&self, k: usize) -> Vec<f64> {
+        let value = |((low, high), share): (&(f64, f64), f64)| {
             low + FROM_LIMITS + (high - low - 2.0 * FROM_LIMITS) * share
         };
-        self.limits.iter().zip(share).map(value).collect()
+        self.limits.iter().zip(halton(k, self.limits.len())).map(value).collect()
     }
 }
 
@@ -214,7 +202,7 @@ impl Reach {
         }
     }
 
-    /// Whether a glance tells that a pose is not reached.
+    /// Whether a pose is surely out of reach, without a search for joint values.
     pub(super) fn is_surely_too_far(&self, there: &Pose<Base, Flange>) -> bool {
         match self {
             Reach::Arm(arm) => there.translation().norm() > arm.longest(),
@@ -236,14 +224,16 @@ impl Reach {
         }
     }
 
-    /// What meets what on the way from one pose to another.
-    pub fn contact_between(&self, from: &Station, to: &Station) -> Option<Contact> {
+    /// The first collision on the path from one pose to another.
+    pub fn collision_between(&self, from: &Station, to: &Station) -> Option<Collision> {
         match (self, &from.joints, &to.joints) {
-            (Reach::Arm(arm), Some(a), Some(b)) => arm.surroundings.contact_between(&arm.arm, a, b),
+            (Reach::Arm(arm), Some(a), Some(b)) => {
+                arm.surroundings.collision_between(&arm.arm, a, b)
+            }
             (Reach::Arm(_), ..) => None,
             (Reach::Near(near), ..) => near
                 .surroundings
-                .contact_on_straight_way(&from.base_from_flange, &to.base_from_flange),
+                .collision_on_straight_path(&from.base_from_flange, &to.base_from_flange),
         }
     }
 }
@@ -257,8 +247,8 @@ impl NearReach {
         if !self.is_near(there) {
             return Err(Unreached::TooFar);
         }
-        match self.surroundings.contact_on_straight_way(there, there) {
-            Some(contact) => Err(Unreached::Meets(contact)),
+        match self.surroundings.collision_on_straight_path(there, there) {
+            Some(collision) => Err(Unreached::Collides(collision)),
             None => Ok(Station { base_from_flange: *there, joints: None }),
         }
     }

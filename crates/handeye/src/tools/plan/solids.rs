@@ -1,4 +1,4 @@
-//! Solids that may meet: capsules for what moves, boxes for what stands in the cell, and how far they are apart.
+//! Solids that may collide: capsules for what moves, boxes for what stands in the cell, and how far they are apart.
 //!
 //! A capsule is all that is within `r` of a segment. Two are apart by the distance of their segments less both radii
 //! (C. Ericson, *Real-Time Collision Detection*, 2005, section 5.1.9); the distance of a point of a segment from a box

@@ -9,7 +9,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SMatrix, Vector2, Vector3};
 
-use super::{Planner, Setting, looks};
+use super::{Planner, Setting, looks, planner::change};
 use crate::{
     Camera, Point, Pose, Setup, Target, TargetModel,
     estimate::predict::PredictedTre,
@@ -49,6 +49,18 @@ pub struct PlannedTouch {
     pub after: Option<PredictedTre>,
 }
 
+impl PlannedTouch {
+    /// Which corner, and what it brings.
+    pub fn reason(&self) -> String {
+        let board = match self.placement {
+            0 => "the board".to_owned(),
+            k => format!("board {k}, laid where the camera sees it"),
+        };
+        let brings = change(self.before.as_ref(), self.after.as_ref());
+        format!("corner {} of {board}: {brings}", self.corner)
+    }
+}
+
 /// Where boards are laid: their centres as shares of the image's sides.
 const LAID: [(f64, f64); 3] = [(0.3, 0.35), (0.7, 0.35), (0.5, 0.7)];
 /// Corners that are considered on one board: the outermost ones, and one within.
@@ -71,7 +83,7 @@ impl Unknowns {
         Unknowns { information }
     }
 
-    /// With one more board, whose place the image tells.
+    /// With one more board, whose pose the image determines.
     fn with_board(&self, of_image: &Matrix6<f64>) -> Unknowns {
         let old = self.information.nrows();
         let mut information = self.information.clone().resize(old + 6, old + 6, 0.0);

@@ -9,7 +9,7 @@ pub struct Leg {
     /// The number of the station to which it leads.
     pub to: usize,
     /// Whether the direct way is blocked, and it goes by way of where the robot stood at first.
-    pub by_way_of_start: bool,
+    pub via_start: bool,
 }
 
 /// Lengths of all ways, the start being number 0.
@@ -27,7 +27,7 @@ impl Ways {
         let mut blocked = vec![vec![false; all.len()]; all.len()];
         for a in 1..all.len() {
             for b in a + 1..all.len() {
-                let is_blocked = reach.contact_between(all[a], all[b]).is_some();
+                let is_blocked = reach.collision_between(all[a], all[b]).is_some();
                 (blocked[a][b], blocked[b][a]) = (is_blocked, is_blocked);
             }
         }
@@ -69,7 +69,6 @@ pub fn shortest(start: &Station, stations: &[Station], reach: &Reach) -> Vec<Leg
             None => break,
         }
     }
-    let leg =
-        |pair: &[usize]| Leg { to: pair[1] - 1, by_way_of_start: ways.blocked[pair[0]][pair[1]] };
+    let leg = |pair: &[usize]| Leg { to: pair[1] - 1, via_start: ways.blocked[pair[0]][pair[1]] };
     order.windows(2).map(leg).collect()
 }

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 
 use super::super::*;
 use crate::{
-    Camera, HandEye, Point, Session, Target, Verdict, calibrate,
+    HandEye, Session, Verdict, calibrate,
     estimate::predict::difference,
     math::random::Random,
     simulate::{Cell, CellNoise},
@@ -76,20 +76,6 @@ impl Trial {
         self.planner.taken = session.observations.iter().map(of).collect();
         session
     }
-
-    fn shows_all(&self, pose: &Pose<Base, Flange>) -> bool {
-        let anchor_from_camera =
-            self.cell.setup.anchor_from_mount(*pose) * self.cell.hand_eye.mount_from_camera;
-        let view: Pose<Camera, Target> =
-            anchor_from_camera.inverse() * self.cell.hand_eye.anchor_from_target;
-        let c = &self.cell.intrinsics;
-        self.cell.target.corners().iter().all(|corner: &Point<Target>| {
-            let pixel = c.project(&(view * *corner).vector());
-            pixel.is_some_and(|p| {
-                p.x > 0.0 && p.y > 0.0 && p.x < f64::from(c.width) && p.y < f64::from(c.height)
-            })
-        })
-    }
 }
 
 #[test]
@@ -102,7 +88,7 @@ fn next_views_from_a_rough_guess_are_seen_and_end_in_a_good_answer() {
             for _ in 1..10 {
                 let next = trial.planner.next().unwrap();
                 all += 1;
-                seen += usize::from(trial.shows_all(&next.station.base_from_flange));
+                seen += usize::from(trial.cell.shows_target_at(&next.station.base_from_flange));
                 trial.poses.push(next.station.base_from_flange);
                 trial.take(seed);
             }

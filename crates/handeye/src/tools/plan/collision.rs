@@ -1,4 +1,4 @@
-//! What moves with the arm, what stands around it, and whether the two meet: at one pose, and on the way between two.
+//! What moves with the arm, what stands around it, and whether the two collide: at one pose, and on the path between two.
 //!
 //! Along a joint motion a point moves by no more than `Σ |Δq_j| r_j`, `r_j` its largest distance from axis `j`. So a
 //! step may be as long as it takes to use up the free distance, and no obstacle is stepped over (conservative
@@ -6,11 +6,8 @@
 
 use nalgebra::{Isometry3, UnitQuaternion};
 
-use super::{
-    looks::halton,
-    solids::{Capsule, Cuboid},
-};
-use crate::{Base, Error, Flange, Pose, model::kinematics::Arm};
+use super::solids::{Capsule, Cuboid};
+use crate::{Base, Error, Flange, Pose, math::random::halton, model::kinematics::Arm};
 
 /// What a part is fixed to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,7 +40,7 @@ pub struct Obstacle {
     pub shape: Cuboid,
 }
 
-/// All that may meet.
+/// All bodies that may collide.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Surroundings {
     /// The robot and what it carries.
@@ -56,9 +53,9 @@ pub struct Surroundings {
     pub ignored: Vec<(usize, usize)>,
 }
 
-/// Two things that meet.
+/// Two bodies that collide.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Contact {
+pub struct Collision {
     /// A part of the robot, or of what it carries.
     pub part: String,
     /// Another part, or an obstacle.
@@ -70,8 +67,6 @@ const FAR: f64 = 1e3;
 /// Joint values that are drawn to see what always overlaps, and in how many of them it does.
 const DRAWN: usize = 100;
 const NEARLY_ALL: usize = 95;
-/// Bases of the sequences from which they are drawn.
-const BASES: [usize; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
 /// A way is looked at in no finer steps than this share of it.
 const FINEST: f64 = 1e-4;
 /// Steps without an arm, whose ways are straight: m, and rad at a metre's distance.
@@ -108,10 +103,8 @@ impl Surroundings {
         let is_near =
             |a: usize, b: usize| link(self.parts[a].on).abs_diff(link(self.parts[b].on)) <= 1;
         let drawn = |k: usize| -> Vec<f64> {
-            let share = |joint: usize| halton(k + 1, BASES[joint % BASES.len()]);
-            let value =
-                |(joint, (low, high)): (usize, &(f64, f64))| low + (high - low) * share(joint);
-            limits.iter().enumerate().map(value).collect()
+            let value = |((low, high), share): (&(f64, f64), f64)| low + (high - low) * share;
+            limits.iter().zip(halton(k, limits.len())).map(value).collect()
         };
         let overlapping = |all: &[Vec<Capsule>], a: usize, b: usize| {
             all.iter().filter(|all| all[a].apart_from(&all[b]) < self.clearance_m).count()
@@ -137,7 +130,7 @@ impl Surroundings {
     }
 
     /// What comes nearest, and its distance less the clearance.
-    fn nearest(&self, placed: &[Capsule]) -> (f64, Option<Contact>) {
+    fn nearest(&self, placed: &[Capsule]) -> (f64, Option<Collision>) {
         let mut nearest = (FAR, None);
         let mut see = |apart: f64, a: usize, with: &str| {
             if apart < nearest.0 {
@@ -156,19 +149,19 @@ impl Surroundings {
                 }
             }
         }
-        let contact =
-            |(a, with): (usize, String)| Contact { part: self.parts[a].name.clone(), with };
-        (nearest.0 - self.clearance_m, nearest.1.map(contact))
+        let collision =
+            |(a, with): (usize, String)| Collision { part: self.parts[a].name.clone(), with };
+        (nearest.0 - self.clearance_m, nearest.1.map(collision))
     }
 
-    /// What meets what at these joint values.
-    pub fn contact(&self, arm: &Arm, values: &[f64]) -> Option<Contact> {
+    /// The collision at these joint values.
+    pub fn collision(&self, arm: &Arm, values: &[f64]) -> Option<Collision> {
         let (apart, with) = self.nearest(&self.placed(arm, values));
         with.filter(|_| apart < 0.0)
     }
 
-    /// What meets what on the way between joint values, all joints moving from the one to the other at once.
-    pub fn contact_between(&self, arm: &Arm, from: &[f64], to: &[f64]) -> Option<Contact> {
+    /// The first collision on the path between joint values, all joints moving from the one to the other at once.
+    pub fn collision_between(&self, arm: &Arm, from: &[f64], to: &[f64]) -> Option<Collision> {
         let motion = self.most_motion(arm, from, to);
         let at =
             |t: f64| -> Vec<f64> { from.iter().zip(to).map(|(a, b)| a + (b - a) * t).collect() };
@@ -185,51 +178,38 @@ impl Surroundings {
         }
     }
 
-    /// How far two points may come nearer on the way.
+    /// How far two points may come nearer on the way: no part is farther from the axis of a joint than the arm is long,
+    /// with what joints slide and what the farthest link carries.
     fn most_motion(&self, arm: &Arm, from: &[f64], to: &[f64]) -> f64 {
-        let length =
+        let size =
             |part: &Part| part.shape.from.norm().max(part.shape.to.norm()) + part.shape.radius;
-        let carried = self.parts.iter().map(length).fold(0.0, f64::max);
-        let reach: f64 = carried + arm.length();
-        let moved = arm.joints.iter().zip(from.iter().zip(to)).map(|(joint, (a, b))| {
-            if joint.prismatic { (b - a).abs() } else { (b - a).abs() * reach }
-        });
-        // links slide out by no more than joints say
-        let slid = arm.joints.iter().zip(from.iter().zip(to));
-        let slides: f64 =
-            slid.filter(|(j, _)| j.prismatic).map(|(_, (a, b))| a.abs().max(b.abs())).sum();
-        let turned: f64 = arm
-            .joints
-            .iter()
-            .zip(from.iter().zip(to))
-            .filter(|(j, _)| !j.prismatic)
-            .map(|(_, (a, b))| (b - a).abs() * slides)
-            .sum();
-        moved.sum::<f64>() + turned
+        let joints = || arm.joints.iter().zip(from.iter().zip(to));
+        let slides = joints().filter(|(joint, _)| joint.prismatic);
+        let reach = arm.length()
+            + slides.map(|(_, (a, b))| a.abs().max(b.abs())).sum::<f64>()
+            + self.parts.iter().map(size).fold(0.0, f64::max);
+        joints().map(|(j, (a, b))| (b - a).abs() * if j.prismatic { 1.0 } else { reach }).sum()
     }
 
-    /// The same of what the flange carries, for a robot whose arm is not known, on a straight way.
-    pub fn contact_on_straight_way(
+    /// The first collision of what the flange carries on a straight path, for a robot whose arm is not known.
+    pub fn collision_on_straight_path(
         &self,
         from: &Pose<Base, Flange>,
         to: &Pose<Base, Flange>,
-    ) -> Option<Contact> {
+    ) -> Option<Collision> {
         let far = from.distance_to(to) + from.angle_to(to);
         let steps = (far / STRAIGHT_STEP).ceil().max(1.0) as usize;
-        let carried: Vec<&Part> = self.parts.iter().filter(|part| part.on == On::Flange).collect();
-        let standing = self.parts.iter().filter(|part| part.on == On::Base);
-        let standing: Vec<&Part> = standing.collect();
+        let fixed_to = |on: On| self.parts.iter().filter(move |part| part.on == on);
         (0..=steps).find_map(|k| {
             let at = straight(from, to, k as f64 / steps as f64);
-            carried.iter().find_map(|part| {
+            fixed_to(On::Flange).find_map(|part| {
                 let shape = part.shape.placed(&at);
-                let box_ = self
-                    .obstacles
-                    .iter()
-                    .find(|o| shape.apart_from_box(&o.shape) < self.clearance_m);
-                let part_ = standing.iter().find(|s| shape.apart_from(&s.shape) < self.clearance_m);
-                let with = box_.map(|o| &o.name).or(part_.map(|s| &s.name))?;
-                Some(Contact { part: part.name.clone(), with: with.clone() })
+                let collides = |apart: f64| apart < self.clearance_m;
+                let obstacle =
+                    self.obstacles.iter().find(|o| collides(shape.apart_from_box(&o.shape)));
+                let standing = fixed_to(On::Base).find(|s| collides(shape.apart_from(&s.shape)));
+                let with = obstacle.map(|o| &o.name).or(standing.map(|s| &s.name))?;
+                Some(Collision { part: part.name.clone(), with: with.clone() })
             })
         })
     }
@@ -252,7 +232,7 @@ mod tests {
         model::kinematics::{DhConvention, tests::arm},
     };
 
-    /// The arm with a rod along every link, and a box that it may meet.
+    /// The arm with a rod along every link, and a box that it may collide with.
     fn robot(middle: Vector3<f64>) -> (Arm, Surroundings) {
         let arm = arm(DhConvention::Standard);
         let rod = |k: usize| {
@@ -273,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn no_contact_on_the_way_is_stepped_over() {
+    fn no_collision_on_the_path_is_stepped_over() {
         let mut random = Random::new(4);
         let (mut met, mut free) = (0, 0);
         for _ in 0..120 {
@@ -288,8 +268,8 @@ mod tests {
             let at = |t: f64| -> Vec<f64> {
                 from.iter().zip(&to).map(|(a, b)| a + (b - a) * t).collect()
             };
-            let tried = (0..=2000).find_map(|k| around.contact(&arm, &at(f64::from(k) / 2000.0)));
-            let found = around.contact_between(&arm, &from, &to);
+            let tried = (0..=2000).find_map(|k| around.collision(&arm, &at(f64::from(k) / 2000.0)));
+            let found = around.collision_between(&arm, &from, &to);
             // a graze between two steps of the trial may be missed by it, never by the other
             assert!(tried.is_none() || found.is_some(), "{tried:?}");
             (met, free) = if found.is_some() { (met + 1, free) } else { (met, free + 1) };
@@ -298,15 +278,15 @@ mod tests {
     }
 
     #[test]
-    fn a_contact_names_both() {
+    fn a_collision_names_both() {
         let (arm, around) = robot(Vector3::zeros());
         let around = Surroundings { parts: around.parts[..1].to_vec(), ..around };
-        let contact = around.contact(&arm, &[0.0; 6]).unwrap();
-        assert_eq!((&contact.part[..], &contact.with[..]), ("link 1", "post"));
+        let collision = around.collision(&arm, &[0.0; 6]).unwrap();
+        assert_eq!((&collision.part[..], &collision.with[..]), ("link 1", "post"));
     }
 
     #[test]
-    fn what_the_flange_carries_meets_a_post_on_a_straight_way() {
+    fn what_the_flange_carries_collides_with_a_post_on_a_straight_path() {
         let ball = Capsule { from: Vector3::z() * 0.1, to: Vector3::z() * 0.2, radius: 0.02 };
         let part = Part { name: "camera".into(), on: On::Flange, shape: ball };
         let (_, around) = robot(Vector3::new(0.5, 0.0, 0.15));
@@ -314,9 +294,9 @@ mod tests {
         let at = |x: f64, y: f64| {
             Pose::from_parts(&nalgebra::Matrix3::identity(), Vector3::new(x, y, 0.0))
         };
-        let through = around.contact_on_straight_way(&at(0.0, 0.0), &at(1.0, 0.0)).unwrap();
-        assert_eq!(through, Contact { part: "camera".into(), with: "post".into() });
-        assert!(around.contact_on_straight_way(&at(0.0, 0.3), &at(1.0, 0.3)).is_none());
+        let through = around.collision_on_straight_path(&at(0.0, 0.0), &at(1.0, 0.0)).unwrap();
+        assert_eq!(through, Collision { part: "camera".into(), with: "post".into() });
+        assert!(around.collision_on_straight_path(&at(0.0, 0.3), &at(1.0, 0.3)).is_none());
         // turned half around there is no shortest way, and still one
         let turned = at(0.0, 0.3).retract(&nalgebra::Vector6::new(
             0.0,
@@ -326,6 +306,6 @@ mod tests {
             0.0,
             0.0,
         ));
-        assert!(around.contact_on_straight_way(&at(0.0, 0.3), &turned).is_none());
+        assert!(around.collision_on_straight_path(&at(0.0, 0.3), &turned).is_none());
     }
 }
