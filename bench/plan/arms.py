@@ -8,32 +8,10 @@ import sys
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from rigid import origin, shifted, turned  # noqa: E402
+
 PI = np.pi
-
-
-def turned(axis, angle):
-    c, s = np.cos(angle), np.sin(angle)
-    i, j = [(1, 2), (2, 0), (0, 1)][axis]
-    m = np.eye(4)
-    m[i, i], m[i, j], m[j, i], m[j, j] = c, -s, s, c
-    return m
-
-
-def shifted(*by):
-    m = np.eye(4)
-    m[:3, 3] = by
-    return m
-
-
-def numbers(values):
-    return " ".join(f"{float(x):.12g}" for x in values)
-
-
-def origin(m):
-    roll = np.arctan2(m[2, 1], m[2, 2])
-    pitch = np.arctan2(-m[2, 0], np.hypot(m[0, 0], m[1, 0]))
-    yaw = np.arctan2(m[1, 0], m[0, 0])
-    return f'<origin xyz="{numbers(m[:3, 3])}" rpy="{numbers((roll, pitch, yaw))}"/>'
 
 
 def rod(start, end, radius):

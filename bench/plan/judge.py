@@ -48,7 +48,7 @@ def model_of(file):
 def main():
     arms, out = pathlib.Path(sys.argv[1]), json.loads(pathlib.Path(sys.argv[2]).read_text())
     models = {}
-    poses = points = meeting = beyond = 0
+    poses = points = colliding = beyond = 0
     for run in out:
         name = run["arm"]
         if name not in models:
@@ -64,10 +64,10 @@ def main():
                 if np.any(here < model.lowerPositionLimit - 1e-9) or np.any(here > model.upperPositionLimit + 1e-9):
                     beyond += 1
                 if pin.computeCollisions(model, data, shapes, seen, here, True):
-                    meeting += 1
+                    colliding += 1
             poses += 1
-    print(f"{poses} poses, {points} points: {meeting} in collision, {beyond} beyond limits")
-    return 1 if meeting or beyond else 0
+    print(f"{poses} poses, {points} points: {colliding} in collision, {beyond} beyond limits")
+    return 1 if colliding or beyond else 0
 
 
 sys.exit(main())

@@ -71,7 +71,7 @@ fn main() {
                 &mut table,
                 &format!(
                     "calibrate, {setup:?}, 20 captures of 88 corners, 12 touches, depth {depth}, all \
-                 candidates with everything left out: {:.1} ms",
+                 candidates, with leave-one-out: {:.1} ms",
                     milliseconds(run)
                 ),
             );

@@ -18,24 +18,13 @@ import numpy as np
 import pinocchio
 import yourdfpy
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from rigid import origin, shifted, turned  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PROGRAM = ROOT / "target/release/handeye"
 VECTORS = 1000
 AGREE = 1e-9
-
-
-def turned(axis, angle):
-    c, s = np.cos(angle), np.sin(angle)
-    i, j = [(1, 2), (2, 0), (0, 1)][axis]
-    m = np.eye(4)
-    m[i, i], m[i, j], m[j, i], m[j, j] = c, -s, s, c
-    return m
-
-
-def shifted(*by):
-    m = np.eye(4)
-    m[:3, 3] = by
-    return m
 
 
 def behind(joint):
@@ -60,14 +49,6 @@ def pose(some):
         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
     ]
     return m
-
-
-def origin(m):
-    roll = np.arctan2(m[2, 1], m[2, 2])
-    pitch = np.arctan2(-m[2, 0], np.hypot(m[0, 0], m[1, 0]))
-    yaw = np.arctan2(m[1, 0], m[0, 0])
-    numbers = [" ".join(f"{float(x):.17g}" for x in part) for part in (m[:3, 3], (roll, pitch, yaw))]
-    return f'<origin xyz="{numbers[0]}" rpy="{numbers[1]}"/>'
 
 
 def urdf(arm):
