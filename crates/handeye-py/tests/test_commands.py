@@ -187,6 +187,6 @@ def test_a_plan_says_where_to_go_and_what_it_brings(tmp_path):
     assert len(errors) >= 3 and errors == sorted(errors, reverse=True)
     assert found["enough"] is False and found["undetermined"] == []
     script = (tmp_path / "views.script").read_text()
-    assert script.count("movej(p[") == len(errors)
+    assert script.count("movel(p[") == len(errors)
     with pytest.raises(handeye.InputError):
         handeye.plan(tmp_path / "cell", distances_mm=(5000, 6000))

@@ -200,9 +200,12 @@ fn touches_are_planned_and_programs_of_robots_written() {
     let after: Vec<f64> = touches.iter().map(|t| t["predicted_p95_mm"].as_f64().unwrap()).collect();
     assert!(touches.len() == 12 && after[11] < after[0], "{after:?}");
     assert!(touches[0]["camera_from_target"]["translation_m"][2].as_f64().unwrap() > 0.5);
-    for (maker, line) in
-        [("ur", "movej(p["), ("kuka", "PTP {x "), ("fanuc", "J P[2] 10% FINE"), ("abb", "MoveJ [[")]
-    {
+    for (maker, line) in [
+        ("ur", "movel(p["),
+        ("kuka", "LIN {x "),
+        ("fanuc", "L P[2] 50mm/sec FINE"),
+        ("abb", "MoveL [["),
+    ] {
         let run =
             handeye(&folder, &["plan", "cell", "--count", "2", "--program", maker, "--quiet"]);
         assert!(ends(&run, 0).stdout.contains(line), "{}", run.stdout);

@@ -221,7 +221,7 @@ impl Planner {
                 |error: &PredictedTre| tolerance_mm.is_some_and(|mm| error.p95 <= ENOUGH * mm);
             view.after.as_ref().is_some_and(reached)
         };
-        let (views, refusals) = here.greedy(most, &enough);
+        let (views, refusals) = here.greedy(most, enough);
         if views.is_empty() && most > 0 {
             return Err(refusals.error(most));
         }
