@@ -28,18 +28,31 @@ pub fn calibrate_dataset(
     config: &Config,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<(Calibration, Session), Error> {
-    check_workspace(dataset)?;
+    check_workspace(dataset)?; // before all is measured
     let measured = measure::measure(dataset, progress)?;
-    let config = configured(dataset, config);
-    let calibration = calibrate(&measured.session, &config)
-        .map_err(|source| Error::Values { place: Place::file(&dataset.manifest), source })?
-        .with(&measured.noticed, &measured.session);
-    let calibration = explained(calibration, dataset, &measured)?;
+    let calibration = calibrate_measured(dataset, &measured, config)?;
     let manifest = dataset.manifest_text()?;
     let inputs = format!("{manifest}{:?}", measured.session);
     let id = run_id(&inputs, &calibration);
     let calibration = calibration.of_run(id).made_from(origin::of_dataset(dataset)?);
     Ok((calibration.with_frames(dataset.frames.clone()), measured.session))
+}
+
+/// The same of captures that are measured; without the names and sums of the files that the result comes from.
+///
+/// # Errors
+/// A workspace in another frame than the setup's; captures that make no sense.
+pub fn calibrate_measured(
+    dataset: &Dataset,
+    measured: &Measured,
+    config: &Config,
+) -> Result<Calibration, Error> {
+    check_workspace(dataset)?;
+    let config = configured(dataset, config);
+    let calibration = calibrate(&measured.session, &config)
+        .map_err(|source| Error::Values { place: Place::file(&dataset.manifest), source })?
+        .with(&measured.noticed, &measured.session);
+    explained(calibration, dataset, measured)
 }
 
 /// A calibration of the poses in a file, with the version, the time and the file's sum.

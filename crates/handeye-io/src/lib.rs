@@ -40,6 +40,7 @@ pub mod robot;
 mod scan;
 #[cfg(test)]
 mod schema;
+mod session_folder;
 mod shapes;
 pub mod simulated;
 mod table;
@@ -70,5 +71,8 @@ pub use result_file::{pose_file, read_result};
 pub use result_folder::ResultFolder;
 pub use robot::Urdf;
 pub use scan::{ScanOptions, read_scan, scan_size, scan_unit};
+pub use session_folder::{
+    CameraGuess, CellSettings, NewCapture, RefusedCapture, SessionFolder, StoredCapture,
+};
 pub use target_file::{NamedTarget, Targets, read_target, read_targets, target_toml};
 pub use touch_file::{TouchedPoint, read_touched_points};

@@ -6,8 +6,10 @@
 mod depth;
 
 use std::{
+    collections::HashMap,
     path::PathBuf,
     sync::atomic::{AtomicUsize, Ordering},
+    time::SystemTime,
 };
 
 use handeye::{
@@ -61,7 +63,7 @@ impl<'a> From<&'a PlacementSource> for Shot<'a> {
 }
 
 /// What one capture shows.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Seen {
     corners: Vec<ImageCorner>,
     surface: Vec<SurfaceCorner>,
@@ -80,6 +82,62 @@ pub fn measure(
     dataset: &Dataset,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Measured, Error> {
+    measure_again(dataset, &mut Measurements::default(), progress)
+}
+
+/// What was found in the files of captures, for a dataset that grows: files that are as they were are not read again.
+#[derive(Default)]
+pub struct Measurements {
+    /// Of which target and camera, and how files are read.
+    of: String,
+    seen: HashMap<FileStates, Seen>,
+}
+
+/// A capture's files as they were: name, size, time of the last change.
+type FileStates = Vec<(PathBuf, u64, Option<SystemTime>)>;
+
+impl Measurements {
+    /// Forgets what was found with another target or camera.
+    fn renew(&mut self, dataset: &Dataset) {
+        let of = dataset.reading();
+        if self.of != of {
+            *self = Self { of, seen: HashMap::new() };
+        }
+    }
+
+    fn of_shot(&self, shot: &Shot) -> Option<Seen> {
+        self.seen.get(&file_states(shot)?).cloned()
+    }
+
+    /// Keeps what these captures show, and nothing of others.
+    fn keep(&mut self, shots: &[Shot], seen: &[Seen]) {
+        let states = shots.iter().zip(seen).filter_map(|(s, seen)| Some((file_states(s)?, seen)));
+        self.seen = states.map(|(state, seen)| (state, seen.clone())).collect();
+    }
+}
+
+/// None of a capture whose files cannot be asked, or that has none.
+fn file_states(shot: &Shot) -> Option<FileStates> {
+    let state = |path: &PathBuf| {
+        let file = path.metadata().ok()?;
+        Some((path.clone(), file.len(), file.modified().ok()))
+    };
+    let files: Vec<&PathBuf> = [shot.image, shot.scan].into_iter().flatten().collect();
+    if shot.corners.is_some() || files.is_empty() {
+        return None;
+    }
+    files.into_iter().map(state).collect()
+}
+
+/// As [`measure`], without reading again what was measured before.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_again(
+    dataset: &Dataset,
+    before: &mut Measurements,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Measured, Error> {
     if let Some(shape) = &dataset.shape {
         return shapes::measure(dataset, shape, progress);
     }
@@ -89,7 +147,9 @@ pub fn measure(
         .map(Shot::from)
         .chain(dataset.placements.iter().map(Shot::from))
         .collect();
-    let mut seen = look_at_all(dataset, &shots, progress)?;
+    before.renew(dataset);
+    let mut seen = look_at_all(dataset, &shots, before, progress)?;
+    before.keep(&shots, &seen);
     let mut warnings = dataset.warnings.clone();
     let colour_step = depth::settle_step(&shots, &mut seen, &mut warnings);
     tell_diameter(dataset, &seen, &mut warnings);
@@ -112,13 +172,15 @@ pub fn measure(
 fn look_at_all(
     dataset: &Dataset,
     shots: &[Shot],
+    before: &Measurements,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<Seen>, Error> {
     let done = AtomicUsize::new(0);
     let pictures = shots.iter().filter_map(|s| s.image.map(PathBuf::as_path));
     let look = |k: usize| {
         let shot = &shots[k];
-        let seen = look_at(dataset, shot).map_err(|e| of_capture(shot, e));
+        let again = || look_at(dataset, shot).map_err(|e| of_capture(shot, e));
+        let seen = before.of_shot(shot).map_or_else(again, Ok);
         progress(done.fetch_add(1, Ordering::Relaxed) + 1, shots.len());
         seen
     };

@@ -275,12 +275,25 @@ impl Dataset {
 
     /// Opens the text of a manifest, wherever it stands.
     pub(crate) fn of_source(source: Source, root: &Path) -> Result<Dataset, Error> {
+        Self::opening(source, root)?.dataset()
+    }
+
+    fn opening(source: Source, root: &Path) -> Result<Opening, Error> {
         let manifest = Manifest::parse(&source)?;
         // a folder that is given comes before that of the manifest
         let own = source.path.parent().unwrap_or(Path::new(""));
         let said = manifest.root.as_ref().filter(|_| root == own);
         let root = said.map_or_else(|| root.into(), |below| own.join(below));
-        Opening { manifest, source, root }.dataset()
+        Ok(Opening { manifest, source, root })
+    }
+
+    /// What a manifest says of its cell, before there are captures.
+    ///
+    /// # Errors
+    /// As [`Dataset::open`], but for files of captures, which may be missing.
+    pub fn without_captures(manifest: &Path) -> Result<Dataset, Error> {
+        let source = Source { path: manifest.to_path_buf(), text: files::text(manifest)? };
+        Self::opening(source, manifest.parent().unwrap_or(Path::new("")))?.cell()
     }
 
     /// The text of its manifest; none of captures in memory.
@@ -298,6 +311,12 @@ impl Dataset {
         let file = self.manifest.file_stem();
         let name = if file.is_some_and(|f| f == "handeye") { folder.or(file) } else { file };
         name.map_or("dataset".into(), |n| n.to_string_lossy().into_owned())
+    }
+
+    /// On what depends what is found in the files of captures, as text.
+    pub(crate) fn reading(&self) -> String {
+        let Self { target, other_targets, intrinsics, bit_depth, scan_options, .. } = self;
+        format!("{target:?} {other_targets:?} {intrinsics:?} {bit_depth:?} {scan_options:?}")
     }
 
     /// Reads a capture's or a placement's image.

@@ -46,11 +46,21 @@ struct Parts {
 
 impl Opening {
     pub(super) fn dataset(&self) -> Result<Dataset, Error> {
-        let (m, robot) = (&self.manifest, self.manifest.robot.as_ref());
         let mut warnings = Vec::new();
-        let shape = self.shape(&mut warnings)?;
         self.check_target()?;
         let parts = self.parts(&mut warnings)?;
+        self.dataset_of(parts, warnings)
+    }
+
+    /// What the manifest says of the cell, before there are captures.
+    pub(super) fn cell(&self) -> Result<Dataset, Error> {
+        self.check_target()?;
+        self.dataset_of(Parts::default(), vec![])
+    }
+
+    fn dataset_of(&self, parts: Parts, mut warnings: Vec<Warning>) -> Result<Dataset, Error> {
+        let (m, robot) = (&self.manifest, self.manifest.robot.as_ref());
+        let shape = self.shape(&mut warnings)?;
         let intrinsics = self.intrinsics(&parts)?;
         let correspondences = match &m.point_pairs {
             Some(spec) => {

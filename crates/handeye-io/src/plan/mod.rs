@@ -94,11 +94,24 @@ pub fn plan(
     options: &PlanOptions,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<CellPlan, Error> {
-    let place = Place::file(&dataset.manifest);
-    let refused = |source| Error::Values { place: place.clone(), source };
     let config = Config { max_error_mm: options.tolerance_mm, ..Config::default() };
     let (calibration, session) = calibrate_dataset(dataset, &config, progress)?;
-    let (planner, joint_names, mut notes) = planner(dataset, &calibration, &session, options)?;
+    plan_after(dataset, calibration, &session, options)
+}
+
+/// The same after captures that are calibrated.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_after(
+    dataset: &Dataset,
+    calibration: Calibration,
+    session: &Session,
+    options: &PlanOptions,
+) -> Result<CellPlan, Error> {
+    let place = Place::file(&dataset.manifest);
+    let refused = |source| Error::Values { place: place.clone(), source };
+    let (planner, joint_names, mut notes) = planner(dataset, &calibration, session, options)?;
     let enough = calibration.verdict == Verdict::Accepted
         && options.tolerance_mm.is_some_and(|mm| {
             calibration.predicted_tre_mm.as_ref().is_some_and(|error| error.p95 <= ENOUGH * mm)

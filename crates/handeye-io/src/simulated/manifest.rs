@@ -98,7 +98,8 @@ fn touches(recording: &Recording) -> Option<TouchesSpec> {
     })
 }
 
-fn camera(c: &Intrinsics) -> CameraSpec {
+/// A camera's keys.
+pub(crate) fn camera(c: &Intrinsics) -> CameraSpec {
     let model = match c.distortion {
         Distortion::None => "none",
         Distortion::BrownConrady(_) => "brown-conrady",

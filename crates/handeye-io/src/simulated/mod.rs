@@ -27,6 +27,9 @@ use crate::{
     robot::arm_file,
 };
 
+pub(crate) use manifest::camera;
+pub use pictures::picture;
+
 /// Name of the file with the truth.
 pub const TRUTH: &str = "truth.json";
 /// Version of its format.

@@ -10,8 +10,8 @@ use super::ScanFormat;
 /// Metres per unit of the depth images: 0.1 mm, up to 6.5 m.
 pub(super) const DEPTH_SCALE: f64 = 1e-4;
 
-/// A grey image as PNG.
-pub(super) fn picture(image: &GrayImage) -> Vec<u8> {
+/// A grey image as the bytes of a PNG file.
+pub fn picture(image: &GrayImage) -> Vec<u8> {
     png_of(
         &image.to_u8(),
         (image.width(), image.height()),

@@ -1,0 +1,173 @@
+//! What was done in a session, a line of JSON each; a line counts once its end is written.
+
+use std::{
+    collections::BTreeSet,
+    fs::{self, File},
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use handeye::{Base, Flange, Pose};
+use serde::{Deserialize, Serialize};
+
+use super::CellSettings;
+use crate::{
+    Error, Place,
+    error::malformed,
+    files::{self, write_atomically},
+};
+
+/// A capture as it was stored.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StoredCapture {
+    /// Its name.
+    pub id: String,
+    /// Its image, relative to the folder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub image: Option<String>,
+    /// Its scan likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scan: Option<String>,
+    /// What the robot reported.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// Its joint values (rad, m), where it gave those.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<f64>,
+    /// When the robot stood there, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robot_time_s: Option<f64>,
+    /// When the picture was taken, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image_time_s: Option<f64>,
+}
+
+/// A capture that was not taken.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RefusedCapture {
+    /// Why.
+    pub why: String,
+    /// Where the robot stood; `None` where that was not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base_from_flange: Option<Pose<Base, Flange>>,
+    /// When, s.
+    pub time_s: f64,
+}
+
+/// A line of the journal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Line {
+    /// What is known of the cell from now on.
+    Cell(Box<CellSettings>),
+    /// A capture was taken.
+    Take(StoredCapture),
+    /// One was not.
+    Refuse(RefusedCapture),
+    /// A capture was deleted.
+    Delete(String),
+    /// And taken in again.
+    Restore(String),
+}
+
+/// The journal's file, and what it says.
+pub(super) struct Journal {
+    path: PathBuf,
+    lines: Vec<Line>,
+}
+
+impl Journal {
+    /// Reads a journal; one that is missing is empty. A last line without its end was never confirmed, and is taken away.
+    pub(super) fn read(path: &Path) -> Result<Self, Error> {
+        if !path.exists() {
+            return Ok(Self { path: path.into(), lines: vec![] });
+        }
+        let bytes = fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+        let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
+        if whole < bytes.len() {
+            write_atomically(path, &bytes[..whole])?;
+        }
+        if whole == 0 {
+            return Ok(Self { path: path.into(), lines: vec![] });
+        }
+        let text = files::text(path)?;
+        let line = |(k, line): (usize, &str)| {
+            serde_json::from_str(line).map_err(|e| {
+                let what = format!("is no line of a session's journal: {e}");
+                let advice =
+                    "the captures are in images/ and robot.csv: calibrate the folder as it is";
+                malformed(Place::line(path, k + 1), what, advice)
+            })
+        };
+        let lines = text.lines().enumerate().map(line).collect::<Result<_, _>>()?;
+        Ok(Self { path: path.into(), lines })
+    }
+
+    /// Writes a line and syncs it; on a full disk the journal is as before.
+    pub(super) fn append(&mut self, line: Line) -> Result<(), Error> {
+        let failed = |source| Error::Write { path: self.path.clone(), source };
+        let mut text = serde_json::to_string(&line).map_err(|e| failed(e.into()))?;
+        text.push('\n');
+        let mut file =
+            File::options().create(true).append(true).open(&self.path).map_err(failed)?;
+        let length = file.metadata().map_err(failed)?.len();
+        let written = file.write_all(text.as_bytes()).and_then(|()| file.sync_all());
+        if let Err(source) = written {
+            file.set_len(length).ok();
+            return Err(failed(source));
+        }
+        self.lines.push(line);
+        Ok(())
+    }
+
+    /// What is known of the cell.
+    pub(super) fn settings(&self) -> Option<&CellSettings> {
+        self.lines.iter().rev().find_map(|line| match line {
+            Line::Cell(settings) => Some(&**settings),
+            _ => None,
+        })
+    }
+
+    /// All captures that were ever taken.
+    pub(super) fn taken(&self) -> Vec<&StoredCapture> {
+        let of = |line| match line {
+            &Line::Take(ref capture) => Some(capture),
+            _ => None,
+        };
+        self.lines.iter().filter_map(of).collect()
+    }
+
+    /// The names of those that are deleted.
+    fn gone(&self) -> BTreeSet<&str> {
+        let mut gone = BTreeSet::new();
+        for line in &self.lines {
+            match line {
+                Line::Delete(id) => _ = gone.insert(&id[..]),
+                Line::Restore(id) => _ = gone.remove(&id[..]),
+                _ => {}
+            }
+        }
+        gone
+    }
+
+    pub(super) fn stands(&self, id: &str) -> bool {
+        !self.gone().contains(id)
+    }
+
+    pub(super) fn standing(&self) -> Vec<&StoredCapture> {
+        let gone = self.gone();
+        self.taken().into_iter().filter(|c| !gone.contains(&c.id[..])).collect()
+    }
+
+    pub(super) fn deleted(&self) -> Vec<&StoredCapture> {
+        let gone = self.gone();
+        self.taken().into_iter().filter(|c| gone.contains(&c.id[..])).collect()
+    }
+
+    pub(super) fn refused(&self) -> Vec<&RefusedCapture> {
+        let of = |line| match line {
+            &Line::Refuse(ref refused) => Some(refused),
+            _ => None,
+        };
+        self.lines.iter().filter_map(of).collect()
+    }
+}

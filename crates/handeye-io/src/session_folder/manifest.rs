@@ -1,0 +1,91 @@
+//! The manifest of a session's folder.
+
+use handeye::{Camera, Intrinsics, Mount, Pose, Setup, TargetModel};
+use serde::{Deserialize, Serialize};
+
+use super::{NOTATION, StoredCapture};
+use crate::{
+    camera::CameraSpec,
+    dataset::{
+        Draft,
+        manifest::{
+            GuessSpec, ImagesSpec, LimitsSpec, Pairing, RobotDirection, RobotSpec, ScansSpec,
+        },
+    },
+    units::LengthUnit,
+};
+
+/// What is known of a cell before its captures are taken.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CellSettings {
+    /// Who carries the camera.
+    pub setup: Setup,
+    /// What it looks at.
+    pub target: TargetModel,
+    /// The camera; without intrinsics they are calibrated from the views.
+    pub intrinsics: Option<Intrinsics>,
+    /// Error that is tolerated (95 %), mm.
+    pub tolerance_mm: f64,
+    /// How poses are typed and shown, a name of a robot's notation.
+    pub notation: String,
+    /// Roughly where the camera sits, with standard deviations (mm, degrees).
+    pub guess: Option<CameraGuess>,
+}
+
+/// Roughly where a camera sits.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct CameraGuess {
+    /// In the flange or the base.
+    pub mount_from_camera: Pose<Mount, Camera>,
+    /// How well its position is known, along each axis, mm.
+    pub sigma_mm: f64,
+    /// How well its direction is known, about each axis, degrees.
+    pub sigma_deg: f64,
+}
+
+/// The text of the manifest.
+pub(super) fn text(settings: &CellSettings, captures: &[&StoredCapture]) -> String {
+    let mut draft = Draft::new();
+    draft.head("The captures of a session; `handeye session` goes on with it, `handeye calibrate` calibrates it.");
+    draft.set_target(settings.target.clone());
+    let m = &mut draft.manifest;
+    m.setup = settings.setup;
+    m.camera = Some(camera(settings.intrinsics.as_ref()));
+    m.robot = Some(RobotSpec {
+        poses: "robot.csv".into(),
+        direction: Some(RobotDirection::BaseFromFlange),
+        notation: Some(NOTATION.into()),
+        length_unit: Some(LengthUnit::Metre),
+        ..RobotSpec::default()
+    });
+    // both are paired by the number in their names: a capture that is half there is not used
+    m.captures.pairing = Pairing::Number;
+    let has_scans = captures.iter().any(|c| c.scan.is_some());
+    m.images = Some(ImagesSpec::of("images/*"));
+    m.scans = has_scans.then(|| ScansSpec { files: "scans/*".into(), ..ScansSpec::default() });
+    m.limits = LimitsSpec { max_error_mm: Some(settings.tolerance_mm) };
+    m.guess = settings.guess.map(|guess| guess_keys(&guess));
+    draft.written().0
+}
+
+fn camera(intrinsics: Option<&Intrinsics>) -> CameraSpec {
+    match intrinsics {
+        Some(camera) => crate::simulated::camera(camera),
+        None => CameraSpec {
+            calibrate: Some(handeye::intrinsics::LensModel::default()),
+            ..CameraSpec::default()
+        },
+    }
+}
+
+fn guess_keys(guess: &CameraGuess) -> GuessSpec {
+    let pose = guess.mount_from_camera;
+    let rotation = pose.rotation();
+    GuessSpec {
+        translation_mm: (pose.translation() * 1e3).into(),
+        optical_axis: rotation.column(2).into_owned().into(),
+        image_x: rotation.column(0).into_owned().into(),
+        sigma_mm: Some(guess.sigma_mm),
+        sigma_deg: Some(guess.sigma_deg),
+    }
+}

@@ -1,0 +1,303 @@
+//! A folder that grows capture by capture, and is an ordinary dataset at any moment.
+//!
+//! ```text
+//! handeye.toml        the manifest
+//! robot.csv           the flange's pose in each capture
+//! images/001.png      scans/001.ply
+//! journal.jsonl       what was done, a line each: the truth, from which the rest follows
+//! deleted/            images and scans of captures that were deleted, for those who want them back
+//! ```
+//!
+//! A capture's files are written aside and synced first, then its line in the journal, then they are renamed into place
+//! and the table of poses is written anew. A program that is killed in between leaves a capture that is whole, or one
+//! that nobody was told of: [`SessionFolder::open`] makes the folder agree with its journal again.
+
+mod journal;
+mod manifest;
+
+use std::{
+    fs::{self, File, TryLockError},
+    path::{Path, PathBuf},
+};
+
+use handeye::{Base, Flange, Pose};
+
+use crate::{Dataset, Error, MANIFEST, Writing, error::unusable, files::write_atomically};
+use journal::{Journal, Line};
+pub use journal::{RefusedCapture, StoredCapture};
+pub use manifest::{CameraGuess, CellSettings};
+
+/// The journal's name.
+const JOURNAL: &str = "journal.jsonl";
+/// Where files of deleted captures are kept.
+const DELETED: &str = "deleted";
+/// The notation of the table of poses: nothing is lost in it.
+const NOTATION: &str = "quaternion-xyzw";
+/// No session has more captures.
+const MOST_CAPTURES: u32 = 9999;
+
+/// The folder of a session; no other program writes to it as long as this exists.
+pub struct SessionFolder {
+    root: PathBuf,
+    journal: Journal,
+    settings: CellSettings,
+    _lock: File,
+}
+
+/// What a capture consists of.
+#[derive(Debug, Clone)]
+pub struct NewCapture<'a> {
+    /// The flange's pose, as the robot reported it.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// Joint values (rad, m), where the robot gave those.
+    pub joints: &'a [f64],
+    /// When the robot stood there, s.
+    pub robot_time_s: Option<f64>,
+    /// When the picture was taken, s, by the same clock.
+    pub image_time_s: Option<f64>,
+    /// The image's file: its ending (`png`) and its bytes.
+    pub image: Option<(&'a str, &'a [u8])>,
+    /// The scan's file likewise.
+    pub scan: Option<(&'a str, &'a [u8])>,
+}
+
+impl SessionFolder {
+    /// Opens a folder that a session has written, or begins one in an empty or missing folder. `settings` are asked for in
+    /// a new one.
+    ///
+    /// # Errors
+    /// A folder that holds something else, or that another session writes to.
+    pub fn open(root: &Path, settings: Option<&CellSettings>) -> Result<Self, Error> {
+        fs::create_dir_all(root).map_err(|source| write(root, source))?;
+        let lock = locked(root)?;
+        let path = root.join(JOURNAL);
+        let is_new = !path.exists();
+        if is_new && has_files(root) {
+            return Err(unusable(
+                root,
+                format!(
+                    "holds files, but no {JOURNAL} of a session: give an empty or a new folder"
+                ),
+            ));
+        }
+        let mut journal = Journal::read(&path)?;
+        let settings = match (journal.settings(), settings) {
+            (Some(own), _) => own.clone(),
+            (None, Some(new)) => {
+                journal.append(Line::Cell(Box::new(new.clone())))?;
+                new.clone()
+            }
+            (None, None) => {
+                return Err(unusable(root, "is new: a session needs to know the cell (settings)"));
+            }
+        };
+        let folder = Self { root: root.into(), journal, settings, _lock: lock };
+        folder.settle()?;
+        Ok(folder)
+    }
+
+    /// Whether a session has begun in a folder.
+    pub fn is_one(root: &Path) -> bool {
+        root.join(JOURNAL).is_file()
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.root
+    }
+
+    /// What is known of the cell.
+    pub fn settings(&self) -> &CellSettings {
+        &self.settings
+    }
+
+    /// The captures that stand, in the order in which they were taken.
+    pub fn captures(&self) -> Vec<&StoredCapture> {
+        self.journal.standing()
+    }
+
+    /// Captures that were deleted.
+    pub fn deleted(&self) -> Vec<&StoredCapture> {
+        self.journal.deleted()
+    }
+
+    /// Captures that were not taken, and why.
+    pub fn refused(&self) -> Vec<&RefusedCapture> {
+        self.journal.refused()
+    }
+
+    /// The dataset of the captures that stand; without any it has none.
+    ///
+    /// # Errors
+    /// As [`Dataset::open`].
+    pub fn dataset(&self) -> Result<Dataset, Error> {
+        match self.captures().is_empty() {
+            true => Dataset::without_captures(&self.root.join(MANIFEST)),
+            false => Dataset::open(&self.root),
+        }
+    }
+
+    /// Other settings of the cell, as long as there are no captures.
+    ///
+    /// # Errors
+    /// [`Error::Unusable`] once there are captures; a folder that cannot be written.
+    pub fn set(&mut self, settings: &CellSettings) -> Result<(), Error> {
+        let is_same_but_limit =
+            CellSettings { tolerance_mm: self.settings.tolerance_mm, ..settings.clone() }
+                == self.settings;
+        if !is_same_but_limit && !self.journal.taken().is_empty() {
+            return Err(unusable(
+                &self.root,
+                "has captures of the cell as it was: begin a session in a new folder for another camera, board or setup",
+            ));
+        }
+        self.journal.append(Line::Cell(Box::new(settings.clone())))?;
+        self.settings = settings.clone();
+        self.settle()
+    }
+
+    /// Stores a capture; what it returns, its name, is never used for another.
+    ///
+    /// # Errors
+    /// A folder that cannot be written, as when the disk is full: then the capture is not there at all.
+    pub fn take(&mut self, capture: &NewCapture) -> Result<String, Error> {
+        let number = self.journal.taken().len() as u32 + 1;
+        if number > MOST_CAPTURES {
+            return Err(unusable(&self.root, format!("has {MOST_CAPTURES} captures already")));
+        }
+        let id = format!("{number:03}");
+        let mut aside = vec![];
+        let mut place = |folder: &str, file: Option<(&str, &[u8])>| -> Result<_, Error> {
+            let Some((ending, bytes)) = file else { return Ok(None) };
+            let name = format!("{folder}/{id}.{ending}");
+            let path = self.aside(&name);
+            make_parent(&path)?;
+            aside.push(path.clone());
+            write_atomically(&path, bytes)?;
+            Ok(Some(name))
+        };
+        let files = place("images", capture.image)
+            .and_then(|image| Ok((image, place("scans", capture.scan)?)));
+        let written = files.and_then(|(image, scan)| {
+            let line = Line::Take(StoredCapture {
+                id: id.clone(),
+                image,
+                scan,
+                base_from_flange: capture.base_from_flange,
+                joints: capture.joints.to_vec(),
+                robot_time_s: capture.robot_time_s,
+                image_time_s: capture.image_time_s,
+            });
+            self.journal.append(line)
+        });
+        if written.is_err() {
+            aside.iter().for_each(|path| _ = fs::remove_file(path));
+        }
+        written?;
+        self.settle()?;
+        Ok(id)
+    }
+
+    /// Remembers a capture that was not taken, and why.
+    ///
+    /// # Errors
+    /// A folder that cannot be written.
+    pub fn refuse(&mut self, refused: RefusedCapture) -> Result<(), Error> {
+        self.journal.append(Line::Refuse(refused))
+    }
+
+    /// Takes a capture out; its files are kept aside.
+    ///
+    /// # Errors
+    /// No such capture; a folder that cannot be written.
+    pub fn delete(&mut self, id: &str) -> Result<(), Error> {
+        if !self.captures().iter().any(|c| c.id == id) {
+            return Err(unusable(&self.root, format!("has no capture {id}")));
+        }
+        self.journal.append(Line::Delete(id.into()))?;
+        self.settle()
+    }
+
+    /// Takes a deleted capture in again.
+    ///
+    /// # Errors
+    /// As [`SessionFolder::delete`].
+    pub fn restore(&mut self, id: &str) -> Result<(), Error> {
+        if !self.deleted().iter().any(|c| c.id == id) {
+            return Err(unusable(&self.root, format!("has no deleted capture {id}")));
+        }
+        self.journal.append(Line::Restore(id.into()))?;
+        self.settle()
+    }
+
+    /// Where a file lies that is not part of the dataset (yet, or any more).
+    fn aside(&self, name: &str) -> PathBuf {
+        self.root.join(DELETED).join(name)
+    }
+
+    /// Makes files agree with the journal: what stands lies in its place, what was deleted aside; then table and manifest.
+    fn settle(&self) -> Result<(), Error> {
+        for capture in self.journal.taken() {
+            let stands = self.journal.stands(&capture.id);
+            for name in [&capture.image, &capture.scan].into_iter().flatten() {
+                let (aside, there) = (self.aside(name), self.root.join(name));
+                let (from, to) = if stands { (aside, there) } else { (there, aside) };
+                if from.exists() {
+                    make_parent(&to)?;
+                    fs::rename(&from, &to).map_err(|source| write(&to, source))?;
+                }
+            }
+        }
+        self.write_if_changed("robot.csv", &self.table())?;
+        self.write_if_changed(MANIFEST, &manifest::text(&self.settings, &self.journal.standing()))
+    }
+
+    fn table(&self) -> String {
+        let poses = self.captures();
+        let poses = poses.iter().map(|c| (&c.id[..], &c.base_from_flange));
+        Writing::of(NOTATION).map_or_else(|_| String::new(), |writing| writing.table(poses))
+    }
+
+    fn write_if_changed(&self, name: &str, text: &str) -> Result<(), Error> {
+        let path = self.root.join(name);
+        match fs::read(&path).is_ok_and(|old| old == text.as_bytes()) {
+            true => Ok(()),
+            false => write_atomically(&path, text.as_bytes()),
+        }
+    }
+}
+
+fn write(path: &Path, source: std::io::Error) -> Error {
+    Error::Write { path: path.into(), source }
+}
+
+fn make_parent(path: &Path) -> Result<(), Error> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    fs::create_dir_all(folder).map_err(|source| write(folder, source))
+}
+
+/// Whether there is anything but hidden files.
+fn has_files(root: &Path) -> bool {
+    let is_visible = |entry: fs::DirEntry| !entry.file_name().to_string_lossy().starts_with('.');
+    fs::read_dir(root).is_ok_and(|all| all.flatten().any(is_visible))
+}
+
+/// A lock that ends with the program: two sessions do not write to one folder.
+fn locked(root: &Path) -> Result<File, Error> {
+    let path = root.join(".session.lock");
+    let file = File::options().create(true).truncate(false).write(true).open(&path);
+    let file = file.map_err(|source| write(&path, source))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(unusable(
+            root,
+            "is in use by another session: end that one, or open its address in another browser",
+        )),
+        // a file system without locks
+        Err(TryLockError::Error(e)) if e.kind() == std::io::ErrorKind::Unsupported => Ok(file),
+        Err(TryLockError::Error(source)) => Err(write(&path, source)),
+    }
+}
+
+#[cfg(test)]
+mod tests;

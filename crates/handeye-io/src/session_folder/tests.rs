@@ -1,0 +1,165 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use handeye::{
+    Setup,
+    simulate::{Cell, Recording},
+};
+
+use super::*;
+use crate::{files::process, simulated, temporary_folder};
+
+static FOLDERS: AtomicUsize = AtomicUsize::new(0);
+
+fn new_folder() -> PathBuf {
+    let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
+    let root = temporary_folder().join(format!("handeye-session-{}-{number}", process()));
+    fs::remove_dir_all(&root).ok();
+    root
+}
+
+fn cell() -> Cell {
+    let intrinsics = handeye::Intrinsics::pinhole(480, 300, 450.0, 450.0, 239.5, 149.5);
+    Cell { intrinsics, captures: 4, touches: 0, ..Cell::new(Setup::EyeInHand, 3) }
+}
+
+fn settings(cell: &Cell) -> CellSettings {
+    CellSettings {
+        setup: cell.setup,
+        target: cell.target.clone(),
+        intrinsics: Some(cell.intrinsics),
+        tolerance_mm: 1.0,
+        notation: "ur".into(),
+        guess: None,
+    }
+}
+
+/// Takes captures of a simulated cell; returns their names.
+fn take(folder: &mut SessionFolder, recording: &Recording, which: &[usize]) -> Vec<String> {
+    let one = |&k: &usize| {
+        let png = simulated::picture(&recording.picture(k));
+        folder
+            .take(&NewCapture {
+                base_from_flange: recording.base_from_flange[k],
+                joints: &[],
+                robot_time_s: Some(k as f64),
+                image_time_s: None,
+                image: Some(("png", &png)),
+                scan: None,
+            })
+            .unwrap()
+    };
+    which.iter().map(one).collect()
+}
+
+fn names(folder: &SessionFolder) -> Vec<String> {
+    folder.captures().iter().map(|c| c.id.clone()).collect()
+}
+
+fn names_in(dataset: &Dataset) -> Vec<String> {
+    dataset.captures.iter().map(|c| c.id.clone()).collect()
+}
+
+#[test]
+fn the_folder_is_a_dataset_at_any_moment() {
+    let (root, cell) = (new_folder(), cell());
+    let recording = cell.record(1).unwrap();
+    let mut folder = SessionFolder::open(&root, Some(&settings(&cell))).unwrap();
+    assert_eq!(folder.dataset().unwrap().target, Some(cell.target.clone()));
+
+    assert_eq!(take(&mut folder, &recording, &[0, 1, 2]), ["001", "002", "003"]);
+    folder.delete("002").unwrap();
+    assert_eq!(take(&mut folder, &recording, &[3]), ["004"]);
+
+    let dataset = Dataset::open(&root).unwrap();
+    assert_eq!(names_in(&dataset), ["001", "003", "004"]);
+    assert!(dataset.warnings.is_empty(), "{:?}", dataset.warnings);
+    let pose = dataset.captures[1].base_from_flange;
+    assert!(pose.distance_to(&recording.base_from_flange[2]) < 2e-9);
+    assert_eq!(dataset.limits.max_error, Some(1e-3));
+
+    folder.restore("002").unwrap();
+    assert_eq!(names_in(&folder.dataset().unwrap()), ["001", "002", "003", "004"]);
+    assert!(folder.delete("009").unwrap_err().to_string().contains("no capture 009"));
+    fs::remove_dir_all(root).unwrap();
+}
+
+#[test]
+fn a_session_goes_on_where_it_was() {
+    let (root, cell) = (new_folder(), cell());
+    let recording = cell.record(1).unwrap();
+    let mut folder = SessionFolder::open(&root, Some(&settings(&cell))).unwrap();
+    take(&mut folder, &recording, &[0, 1]);
+    folder.delete("001").unwrap();
+    let why = "no board".to_owned();
+    let refused = RefusedCapture { why, base_from_flange: None, time_s: 1.0 };
+    folder.refuse(refused.clone()).unwrap();
+    let held = SessionFolder::open(&root, None).err().unwrap().to_string();
+    assert!(held.contains("in use by another session"), "{held}");
+    drop(folder);
+
+    let mut folder = SessionFolder::open(&root, None).unwrap();
+    assert_eq!(names(&folder), ["002"]);
+    assert_eq!(folder.deleted()[0].id, "001");
+    assert_eq!(folder.refused(), [&refused]);
+    assert_eq!(folder.settings(), &settings(&cell));
+    assert_eq!(take(&mut folder, &recording, &[2]), ["003"]);
+    let other = CellSettings { setup: Setup::EyeToHand, ..settings(&cell) };
+    assert!(folder.set(&other).unwrap_err().to_string().contains("begin a session in a new"));
+    folder.set(&CellSettings { tolerance_mm: 0.4, ..settings(&cell) }).unwrap();
+    assert_eq!(folder.dataset().unwrap().limits.max_error, Some(0.4e-3));
+    fs::remove_dir_all(root).unwrap();
+}
+
+#[test]
+fn a_program_killed_at_any_step_of_a_capture_loses_nothing_that_was_confirmed() {
+    let (root, cell) = (new_folder(), cell());
+    let recording = cell.record(1).unwrap();
+    let mut folder = SessionFolder::open(&root, Some(&settings(&cell))).unwrap();
+    take(&mut folder, &recording, &[0, 1]);
+    let before: Vec<_> =
+        ["robot.csv", JOURNAL].map(|name| fs::read(root.join(name)).unwrap()).into();
+    take(&mut folder, &recording, &[2]);
+    drop(folder);
+    let (image, aside) = (root.join("images/003.png"), root.join("deleted/images/003.png"));
+    let journal = fs::read(root.join(JOURNAL)).unwrap();
+
+    // killed after the line, before its image was in place: the capture is whole
+    fs::rename(&image, &aside).unwrap();
+    fs::write(root.join("robot.csv"), &before[0]).unwrap();
+    assert_eq!(names_in(&Dataset::open(&root).unwrap()), ["001", "002"]);
+    assert_eq!(names(&SessionFolder::open(&root, None).unwrap()), ["001", "002", "003"]);
+    assert_eq!(names_in(&Dataset::open(&root).unwrap()), ["001", "002", "003"]);
+
+    // killed before the table was written: the folder can be used even now
+    fs::write(root.join("robot.csv"), &before[0]).unwrap();
+    assert_eq!(names_in(&Dataset::open(&root).unwrap()), ["001", "002"]);
+    assert_eq!(names(&SessionFolder::open(&root, None).unwrap()), ["001", "002", "003"]);
+
+    // killed within the line: it was never confirmed, and its name is free
+    for end in [before[1].len(), before[1].len() + 1, journal.len() - 1] {
+        if image.exists() {
+            fs::rename(&image, &aside).unwrap();
+        }
+        fs::write(root.join("robot.csv"), &before[0]).unwrap();
+        fs::write(root.join(JOURNAL), &journal[..end]).unwrap();
+        let mut folder = SessionFolder::open(&root, None).unwrap();
+        assert_eq!(names(&folder), ["001", "002"]);
+        assert_eq!(take(&mut folder, &recording, &[3]), ["003"]);
+        let pose = folder.captures()[2].base_from_flange;
+        assert!(pose.distance_to(&recording.base_from_flange[3]) < 1e-12);
+    }
+    fs::remove_dir_all(root).unwrap();
+}
+
+#[test]
+fn other_folders_and_damaged_journals_are_refused_with_what_to_do() {
+    let (root, cell) = (new_folder(), cell());
+    fs::create_dir_all(&root).unwrap();
+    fs::write(root.join("notes.txt"), "mine").unwrap();
+    let message = SessionFolder::open(&root, Some(&settings(&cell))).err().unwrap().to_string();
+    assert!(message.contains("give an empty or a new folder"), "{message}");
+    fs::write(root.join(JOURNAL), "{\"cell\": 3}\n").unwrap();
+    let message = SessionFolder::open(&root, None).err().unwrap().to_string();
+    assert!(message.contains("line 1") && message.contains("calibrate the folder"), "{message}");
+    fs::remove_dir_all(root).unwrap();
+}
