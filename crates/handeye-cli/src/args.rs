@@ -60,6 +60,9 @@ pub enum Command {
     Compare(crate::compare::CompareArgs),
     /// Plan the views to take next: poses of the robot, what each brings, and corners to touch.
     Plan(Box<crate::plan::PlanArgs>),
+    /// A guided live calibration in the browser: what to show, where to drive next, whether it is good, when it is enough.
+    #[cfg(feature = "session")]
+    Session(Box<crate::session::SessionArgs>),
     /// Calibrate a tool tip (TCP position) from flange poses with the tip on one fixed point (pivot calibration).
     Tcp(crate::tcp::TcpArgs),
     /// Correct robot poses for the pose-dependent robot error that a calibration has estimated.

@@ -18,15 +18,16 @@ const OPENER: &[&str] = if cfg!(target_os = "windows") {
 
 /// Opens a page; where nothing here opens pages, says so and goes on.
 pub fn open(page: &Path) {
+    let page = std::path::absolute(page).unwrap_or_else(|_| page.into());
+    open_address(&page.display().to_string());
+}
+
+/// The same with an address.
+pub fn open_address(address: &str) {
     let quiet = |command: &mut Command| {
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().map(drop)
     };
-    let page = std::path::absolute(page).unwrap_or_else(|_| page.into());
-    if let Err(error) = quiet(Command::new(OPENER[0]).args(&OPENER[1..]).arg(&page)) {
-        note!(
-            "the page cannot be opened ({}: {error}); open it by hand: {}",
-            OPENER[0],
-            page.display()
-        );
+    if let Err(error) = quiet(Command::new(OPENER[0]).args(&OPENER[1..]).arg(address)) {
+        note!("the page cannot be opened ({}: {error}); open it by hand: {address}", OPENER[0]);
     }
 }

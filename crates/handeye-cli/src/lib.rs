@@ -23,6 +23,8 @@ mod plan;
 mod poses;
 mod progress;
 mod register;
+#[cfg(feature = "session")]
+mod session;
 mod simulate;
 mod solve;
 mod target;
@@ -100,6 +102,8 @@ fn run(program: &Program) -> Result<u8, Failure> {
         Command::Compare(args) => compare::run(args, &program.global),
         Command::Compensate(args) => compensate::run(args, &program.global),
         Command::Plan(args) => plan::run(args, &program.global),
+        #[cfg(feature = "session")]
+        Command::Session(args) => session::run(args, &program.global),
         Command::Tcp(args) => tcp::run(args, &program.global),
         Command::Verify(args) => verify::run(args, &program.global),
         Command::Check(args) => check::run(args, &program.global),

@@ -140,6 +140,7 @@ fn options(args: &PlanArgs, dataset: &Dataset) -> Result<PlanOptions, Failure> {
         now: args.joints.clone(),
         distances_m: args.nearest_mm.map(metres).zip(args.farthest_mm.map(metres)),
         touches: args.touches,
+        ..PlanOptions::default()
     })
 }
 

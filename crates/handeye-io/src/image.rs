@@ -138,6 +138,37 @@ fn scaled(
     Ok(values.into_iter().map(|v| v * (255.0 / white)).collect())
 }
 
+/// Quality of small copies: what pages show.
+const SMALL_QUALITY: u8 = 72;
+
+/// A copy for pages, at most so wide (px): JPEG, its size, and pixels of the image for one of its own (area average).
+pub fn small_jpeg(picture: &GrayImage, widest: usize) -> Option<(Vec<u8>, (usize, usize), usize)> {
+    let factor = picture.width().div_ceil(widest).max(1);
+    let (w, h) = (picture.width() / factor, picture.height() / factor);
+    let mut small = Vec::with_capacity(w * h);
+    for y in 0..h {
+        for x in 0..w {
+            small.push(average(picture, x * factor, y * factor, factor));
+        }
+    }
+    let mut jpeg = Vec::new();
+    image::codecs::jpeg::JpegEncoder::new_with_quality(&mut jpeg, SMALL_QUALITY)
+        .encode(
+            &small,
+            u32::try_from(w).ok()?,
+            u32::try_from(h).ok()?,
+            image::ExtendedColorType::L8,
+        )
+        .ok()?;
+    Some((jpeg, (w, h), factor))
+}
+
+fn average(image: &GrayImage, x: usize, y: usize, n: usize) -> u8 {
+    let sum: f32 =
+        (0..n).flat_map(|j| (0..n).map(move |i| (i, j))).map(|(i, j)| image.at(x + i, y + j)).sum();
+    (sum / (n * n) as f32).round().clamp(0.0, 255.0) as u8
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

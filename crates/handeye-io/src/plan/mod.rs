@@ -42,6 +42,8 @@ pub struct PlanOptions {
     pub distances_m: Option<(f64, f64)>,
     /// Whether corners to touch are planned as well.
     pub touches: bool,
+    /// Poses that nobody goes to (again): nothing near them is planned.
+    pub failed: Vec<Pose<Base, Flange>>,
 }
 
 /// A URDF that the command line names.
@@ -169,7 +171,8 @@ fn planner(
             "has no intrinsics yet: give [camera], or take captures until they can be calibrated",
         )
     })?;
-    let (taken, failed) = taken(calibration, session);
+    let (taken, mut failed) = taken(calibration, session);
+    failed.extend_from_slice(&options.failed);
     let answer = &calibration.hand_eye;
     let (hand_eye, guess) = match (answer.mount_from_camera, answer.anchor_from_target) {
         (Some(mount_from_camera), Some(anchor_from_target)) => {

@@ -63,25 +63,9 @@ impl Picture {
         image: &GrayImage,
         corners: Vec<MarkedCorner>,
     ) -> Option<Self> {
-        let factor = image.width().div_ceil(WIDTH).max(1);
-        let (w, h) = (image.width() / factor, image.height() / factor);
-        let mut small = Vec::with_capacity(w * h);
-        for y in 0..h {
-            for x in 0..w {
-                small.push(average(image, x * factor, y * factor, factor));
-            }
-        }
-        let mut jpeg = Vec::new();
-        ::image::codecs::jpeg::JpegEncoder::new_with_quality(&mut jpeg, 72)
-            .encode(
-                &small,
-                u32::try_from(w).ok()?,
-                u32::try_from(h).ok()?,
-                ::image::ExtendedColorType::L8,
-            )
-            .ok()?;
+        let (jpeg, size, factor) = crate::image::small_jpeg(image, WIDTH)?;
         let shrink = 1.0 / factor as f64;
-        Some(Self { id: id.into(), caption, used, jpeg, size: (w, h), shrink, corners })
+        Some(Self { id: id.into(), caption, used, jpeg, size, shrink, corners })
     }
 
     /// Its figure, residuals magnified; those beyond `far` (px) stand out.
@@ -117,12 +101,6 @@ impl Picture {
             id = escape(&self.id)
         )
     }
-}
-
-fn average(image: &GrayImage, x: usize, y: usize, n: usize) -> u8 {
-    let sum: f32 =
-        (0..n).flat_map(|j| (0..n).map(move |i| (i, j))).map(|(i, j)| image.at(x + i, y + j)).sum();
-    (sum / (n * n) as f32).round().clamp(0.0, 255.0) as u8
 }
 
 /// How much longer residuals are drawn than they are: the 90 % one becomes half the scale bar; a

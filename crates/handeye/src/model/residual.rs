@@ -31,7 +31,7 @@ impl Residual {
     }
 
     /// Between two poses.
-    pub(crate) fn between<A, B>(a: &Pose<A, B>, b: &Pose<A, B>) -> Self {
+    pub fn between<A, B>(a: &Pose<A, B>, b: &Pose<A, B>) -> Self {
         Self { angle: a.angle_to(b), distance: a.distance_to(b) }
     }
 
@@ -49,7 +49,7 @@ impl Residual {
     }
 
     /// Whether both are below a limit.
-    pub(crate) fn is_within(self, limit: Self) -> bool {
+    pub fn is_within(self, limit: Self) -> bool {
         self.angle < limit.angle && self.distance < limit.distance
     }
 

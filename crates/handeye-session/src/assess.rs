@@ -1,0 +1,119 @@
+//! What the captures in a session's folder are worth, by the functions that `handeye calibrate` and `handeye plan` use: the
+//! folder is read, measured (each file once) and calibrated, and the next view is planned.
+
+use handeye::{
+    Base, Calibration, Camera, Config, Flange, ImageCorner, Pose, Session, Target, Verdict,
+    nalgebra::Vector2, tools::plan::NextView,
+};
+use handeye_io::{
+    Error, SessionFolder,
+    calibrate::calibrate_measured,
+    measure::{self, Measurements},
+    plan::{self, PlanOptions},
+};
+
+/// What the captures are worth.
+#[derive(Debug, Clone)]
+pub struct Assessment {
+    /// The calibration of the captures; a verdict is part of it.
+    pub calibration: Calibration,
+    /// What was measured in each capture.
+    pub measured: Vec<MeasuredCapture>,
+    /// The view to take next.
+    pub next: Option<ProposedView>,
+    /// Why there is none.
+    pub no_next: Option<String>,
+    /// Whether the captures are enough for the tolerance.
+    pub enough: bool,
+}
+
+/// What was measured in a capture.
+#[derive(Debug, Clone)]
+pub struct MeasuredCapture {
+    /// Its name.
+    pub id: String,
+    /// Its corners.
+    pub corners: Vec<ImageCorner>,
+    /// Found minus predicted by the calibration, px; none where it is not known.
+    pub residuals: Vec<Vector2<f64>>,
+}
+
+/// A view to take, and how it looks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProposedView {
+    /// The view.
+    pub view: NextView,
+    /// Where the corners are to be seen, px.
+    pub corners: Vec<Vector2<f64>>,
+}
+
+/// Assesses a folder with captures; `not_near` are poses that nobody goes to (again).
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn assess(
+    folder: &SessionFolder,
+    before: &mut Measurements,
+    not_near: &[Pose<Base, Flange>],
+) -> Result<Assessment, Error> {
+    let dataset = folder.dataset()?;
+    let measured = measure::measure_again(&dataset, before, &|_, _| {})?;
+    let calibration = calibrate_measured(&dataset, &measured, &Config::default())?;
+    let session = &measured.session;
+    let options = PlanOptions {
+        count: 1,
+        tolerance_mm: Some(folder.settings().tolerance_mm),
+        failed: not_near.to_vec(),
+        ..PlanOptions::default()
+    };
+    let planned = plan::plan_after(&dataset, calibration.clone(), session, &options);
+    let (next, no_next, enough) = match planned {
+        Ok(plan) => (plan.route.views.into_iter().next(), plan.route.stopped, plan.enough),
+        Err(error) => (None, Some(error.to_string()), false),
+    };
+    let next = next.map(|view| proposed(view, session));
+    let measured = measured_captures(session, &calibration);
+    Ok(Assessment { calibration, measured, next, no_next, enough })
+}
+
+impl Assessment {
+    /// The error that the calibration states (95 %), mm; `None` where it determines none.
+    pub fn p95_mm(&self) -> Option<f64> {
+        let is_known = self.calibration.verdict != Verdict::Undetermined;
+        let error = self.calibration.predicted_tre_mm.as_ref().filter(|_| is_known)?;
+        Some(error.at_task_p95.unwrap_or(error.p95))
+    }
+}
+
+fn proposed(view: NextView, session: &Session) -> ProposedView {
+    let seen = session.camera.zip(session.target.as_ref());
+    let corners = seen.map_or(vec![], |(camera, target)| {
+        let pixel =
+            |c: &handeye::Point<Target>| camera.project(&(view.camera_from_target * *c).vector());
+        target.corners().iter().filter_map(pixel).collect()
+    });
+    ProposedView { view, corners }
+}
+
+fn measured_captures(session: &Session, calibration: &Calibration) -> Vec<MeasuredCapture> {
+    let one = |o: &handeye::Observation| {
+        let result = calibration.captures.iter().find(|c| c.id == o.capture);
+        let seen = result.and_then(|c| c.camera_from_target);
+        let residuals = seen.map_or(vec![], |pose| residuals(session, &pose, &o.corners));
+        MeasuredCapture { id: o.capture.clone(), corners: o.corners.clone(), residuals }
+    };
+    session.observations.iter().map(one).collect()
+}
+
+fn residuals(
+    session: &Session,
+    camera_from_target: &Pose<Camera, Target>,
+    corners: &[ImageCorner],
+) -> Vec<Vector2<f64>> {
+    let (Some(camera), Some(target)) = (session.camera, &session.target) else { return vec![] };
+    let off = |c: &ImageCorner| {
+        let there = *camera_from_target * target.corner(c.id)?;
+        Some(c.pixel - camera.project(&there.vector())?)
+    };
+    corners.iter().map(|c| off(c).unwrap_or_else(Vector2::zeros)).collect()
+}

@@ -1,0 +1,148 @@
+//! What people and scripts ask of a session: the same from the page, by HTTP and from a file.
+
+use handeye::{Intrinsics, Setup, TargetModel};
+use serde::{Deserialize, Serialize};
+
+/// A step of a session.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Step {
+    /// Who carries the camera, and which error is tolerated.
+    Cell,
+    /// Pictures come.
+    Camera,
+    /// Poses come.
+    Robot,
+    /// The board is found.
+    Board,
+    /// Captures are taken.
+    Capture,
+    /// Corners are touched.
+    Touch,
+    /// The result holds in views that it does not come from.
+    Verify,
+    /// The result is written.
+    Result,
+}
+
+impl Step {
+    /// All, in order.
+    pub const ALL: [Step; 8] = [
+        Step::Cell,
+        Step::Camera,
+        Step::Robot,
+        Step::Board,
+        Step::Capture,
+        Step::Touch,
+        Step::Verify,
+        Step::Result,
+    ];
+
+    /// The one after it.
+    pub fn next(self) -> Option<Step> {
+        Self::ALL.into_iter().find(|step| *step > self)
+    }
+}
+
+/// A command: `{"do": "take"}`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Command {
+    /// What a step shows is right: go on.
+    Confirm {
+        /// The step.
+        step: Step,
+    },
+    /// To another step.
+    Go {
+        /// The step.
+        step: Step,
+    },
+    /// Setup and tolerance.
+    Cell {
+        /// Who carries the camera.
+        #[serde(default)]
+        setup: Option<Setup>,
+        /// Error that is tolerated (95 %), mm.
+        #[serde(default)]
+        tolerance_mm: Option<f64>,
+    },
+    /// The board.
+    Target {
+        /// As a manifest's `[target]` has it.
+        target: TargetModel,
+    },
+    /// The camera's intrinsics; `null` to calibrate them from the views.
+    Camera {
+        /// As `camera` in a result has them.
+        intrinsics: Option<Intrinsics>,
+    },
+    /// How poses are typed and shown.
+    Notation {
+        /// A name of a robot's notation, such as `ur`.
+        name: String,
+    },
+    /// Take a capture as soon as robot and picture stand.
+    Take,
+    /// Take captures without being asked, once at each pose.
+    Automatic {
+        /// Whether.
+        on: bool,
+    },
+    /// No longer wait for a standstill.
+    Cancel,
+    /// A pose read from the pendant.
+    Pose {
+        /// Its numbers, in the notation.
+        text: String,
+    },
+    /// Take a capture out.
+    Delete {
+        /// Its name.
+        id: String,
+    },
+    /// Take it in again.
+    Restore {
+        /// Its name.
+        id: String,
+    },
+    /// Take a capture out, and another one where it was taken.
+    Retake {
+        /// Its name.
+        id: String,
+    },
+    /// Undo the last capture, deletion or restoring.
+    Undo,
+    /// Propose another view, not near this one.
+    Skip {
+        /// Why, in a person's words.
+        #[serde(default)]
+        why: String,
+    },
+    /// The captures are enough: write the result.
+    Finish,
+    /// Virtual cell: drive the robot.
+    Drive {
+        /// Where to.
+        to: Destination,
+    },
+    /// Virtual cell: move the robot a little, in the camera's axes.
+    Jog {
+        /// By so much, mm.
+        #[serde(default)]
+        move_mm: [f64; 3],
+        /// About its axes by so much, degrees.
+        #[serde(default)]
+        turn_deg: [f64; 3],
+    },
+}
+
+/// Where the robot of a virtual cell can be driven.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Destination {
+    /// The next view.
+    Next,
+    /// A view that is used to verify the result.
+    Check,
+}

@@ -1,0 +1,210 @@
+//! What to do next, in one sentence, and what is known of each step.
+
+use handeye::{Setup, Verdict};
+use handeye_io::StoredCapture;
+
+use super::{Engine, Step, rest::Motion};
+
+/// What is known of a step's choice.
+pub(super) struct Proof {
+    /// A sentence.
+    pub(super) text: String,
+    /// Whether it is enough to go on.
+    pub(super) proven: bool,
+}
+
+fn proof(proven: bool, text: impl Into<String>) -> Proof {
+    Proof { text: text.into(), proven }
+}
+
+impl Engine {
+    pub(super) fn proof(&self, step: Step) -> Proof {
+        match step {
+            Step::Cell => self.cell_proof(),
+            Step::Camera => self.camera_proof(),
+            Step::Robot => self.robot_proof(),
+            Step::Board => self.board_proof(),
+            Step::Capture => self.capture_proof(),
+            Step::Touch => {
+                proof(true, "no corners are touched: the views alone determine the answer")
+            }
+            Step::Verify => proof(true, "not verified by further views"),
+            Step::Result => match &self.written {
+                Some(written) => proof(true, format!("written to {}", written.folder)),
+                None => proof(false, "no result is written yet"),
+            },
+        }
+    }
+
+    fn cell_proof(&self) -> Proof {
+        let who = match self.folder.settings.setup {
+            Setup::EyeInHand => "the robot carries the camera (eye-in-hand)",
+            Setup::EyeToHand => {
+                "the camera stands beside the robot, which carries the board (eye-to-hand)"
+            }
+        };
+        proof(true, format!("{who}; {} mm are tolerated (95 %)", self.folder.settings.tolerance_mm))
+    }
+
+    fn camera_proof(&self) -> Proof {
+        let Some(last) = self.pictures.back() else {
+            return proof(false, "no picture has come yet");
+        };
+        let (width, height) = last.size;
+        let silent = self.now - last.time_s;
+        if silent > 2.0 {
+            return proof(false, format!("no picture for {silent:.0} s"));
+        }
+        let given = self.folder.settings.intrinsics.map(|c| (c.width, c.height));
+        if given.is_some_and(|size| size.0 > 0 && size != (width, height)) {
+            let (w, h) = given.unwrap_or_default();
+            return proof(
+                false,
+                format!(
+                    "the pictures have {width} x {height} pixels, the intrinsics are for {w} x {h}"
+                ),
+            );
+        }
+        let lens = if given.is_some() {
+            "intrinsics are given"
+        } else {
+            "intrinsics are calibrated from the views"
+        };
+        proof(true, format!("pictures of {width} x {height} pixels; {lens}"))
+    }
+
+    fn robot_proof(&self) -> Proof {
+        let Some(last) = self.robot.back() else {
+            return proof(false, "the robot has not sent a pose yet");
+        };
+        let silent = self.now - last.time_s;
+        if silent > 2.0 {
+            return proof(false, format!("no pose for {silent:.0} s"));
+        }
+        let at = last.base_from_flange.translation() * 1e3;
+        proof(true, format!("the flange is at x {:.1}, y {:.1}, z {:.1} mm", at.x, at.y, at.z))
+    }
+
+    fn board_proof(&self) -> Proof {
+        match self.pictures.back().map(|p| &p.corners) {
+            None => proof(false, "no picture has come yet"),
+            Some(Ok(found)) => {
+                let all = self.folder.settings.target.corners().len();
+                proof(true, format!("{} of {all} corners are found", found.len()))
+            }
+            Some(Err(why)) => proof(false, format!("the board is not found: {why}")),
+        }
+    }
+
+    fn capture_proof(&self) -> Proof {
+        let count = self.folder.captures.len();
+        let Some(assessed) = self.assessed.as_ref().filter(|_| !self.assessing) else {
+            return proof(false, format!("{count} captures"));
+        };
+        let limit = self.folder.settings.tolerance_mm;
+        match assessed.p95_mm() {
+            _ if assessed.enough => {
+                let mm = assessed.p95_mm().unwrap_or_default();
+                proof(true, format!("{count} captures; {mm:.2} mm (95 %), of {limit} mm"))
+            }
+            Some(mm) => proof(
+                false,
+                format!("{count} captures; {mm:.2} mm (95 %), {limit} mm are tolerated"),
+            ),
+            None => proof(false, format!("{count} captures do not determine the answer yet")),
+        }
+    }
+
+    /// What to do next.
+    pub(super) fn say(&self) -> String {
+        let known = self.proof(self.step);
+        match self.step {
+            Step::Cell => "Is this your cell? Confirm who carries the camera, and which error your job tolerates.".into(),
+            Step::Camera | Step::Robot | Step::Board if !known.proven => {
+                format!("{}.", capitalised(&known.text))
+            }
+            Step::Camera => "Is this the picture of your camera? Confirm it.".into(),
+            Step::Robot => "Move the robot by hand: do the numbers move with it? Then confirm it.".into(),
+            Step::Board => "The board is found. Confirm that its size is measured, not read off a drawing.".into(),
+            Step::Capture => self.say_capture(),
+            Step::Touch => "Touch corners of the board with the tool's tip, or go on without.".into(),
+            Step::Verify => "Verify the result in views that it does not come from, or go on without.".into(),
+            Step::Result => self.say_result(),
+        }
+    }
+
+    fn say_capture(&self) -> String {
+        if self.storing {
+            return "The capture is being stored.".into();
+        }
+        if let Some(wish) = &self.wish {
+            return format!(
+                "Hold still: {}.",
+                if wish.why.is_empty() { "waiting for a standstill" } else { &wish.why }
+            );
+        }
+        if self.assessing {
+            return "The captures are being assessed.".into();
+        }
+        let Some(assessed) = &self.assessed else {
+            return "Move the robot until the camera sees the whole board, then take the first capture.".into();
+        };
+        if assessed.enough {
+            let mm = assessed.p95_mm().unwrap_or_default();
+            return format!(
+                "Enough: the calibration states {mm:.2} mm (95 %), and {} mm are tolerated. Go on.",
+                self.folder.settings.tolerance_mm
+            );
+        }
+        match (&assessed.next, &assessed.no_next) {
+            (Some(next), _) => format!("Drive to the next view: {}.", next.view.reason()),
+            (None, Some(_)) if self.folder.captures.len() < 4 => first_views(&self.folder.captures),
+            (None, Some(why)) => format!("No next view is found: {why}."),
+            (None, None) => "No next view is found.".into(),
+        }
+    }
+
+    fn say_result(&self) -> String {
+        let Some(assessed) = &self.assessed else { return "There is no result yet.".into() };
+        let result = &assessed.calibration;
+        match (result.verdict, assessed.p95_mm()) {
+            (Verdict::Accepted, Some(mm)) => {
+                format!("Accepted: {mm:.2} mm (95 %). Copy the transform, or open the report.")
+            }
+            (Verdict::Rejected, _) => {
+                format!("Rejected: {}. Do not use this transform.", reasons(&result.reasons))
+            }
+            _ => format!("Undetermined: {}. Take more captures.", reasons(&result.reasons)),
+        }
+    }
+}
+
+fn reasons(all: &[String]) -> String {
+    let text = all
+        .first()
+        .map_or("the captures do not determine the answer", |first| first.trim_end_matches('.'));
+    text.to_owned()
+}
+
+/// Views before anything can be planned: they differ in what every cell needs.
+fn first_views(captures: &[StoredCapture]) -> String {
+    let tilt = match captures.len() {
+        1 => "Tilt the view by about 25 degrees about the image's x",
+        2 => "Now tilt it by about 25 degrees about the image's y",
+        _ => "Now rotate it by about 40 degrees about the optical axis, tilted",
+    };
+    format!("{tilt}, with the whole board in the picture, and take a capture.")
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// Whether a device stands, and a sentence on that.
+pub(super) fn standing(motion: &Motion, now: f64, name: &str) -> (bool, String) {
+    match motion {
+        Motion::Stands(since) => (true, format!("{name} stands since {:.1} s", now - since)),
+        Motion::Moves(why) => (false, why.clone()),
+    }
+}

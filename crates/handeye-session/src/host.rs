@@ -1,0 +1,151 @@
+//! Does what the engine wants done: stores, assesses, writes.
+
+use std::{collections::VecDeque, path::Path, sync::Arc};
+
+use handeye::{Config, GrayImage};
+use handeye_io::{
+    Error, NewCapture, ResultFolder, SessionFolder,
+    calibrate::{calibrate_dataset, write_run},
+    measure::Measurements,
+    report::dataset_html,
+    simulated,
+};
+
+use crate::{
+    assess::assess,
+    engine::{Effect, FolderState, Input, Written},
+    sources::virtual_cell::VirtualCell,
+};
+
+/// Pictures that may still be stored, by their numbers.
+#[derive(Default)]
+pub struct Pictures(VecDeque<(u64, Arc<GrayImage>)>);
+
+/// A capture is of one of the last pictures.
+const KEPT_PICTURES: usize = 16;
+
+impl Pictures {
+    /// Keeps a picture, and forgets old ones.
+    pub fn keep(&mut self, frame: u64, picture: Arc<GrayImage>) {
+        self.0.push_back((frame, picture));
+        if self.0.len() > KEPT_PICTURES {
+            self.0.pop_front();
+        }
+    }
+
+    /// One of them.
+    pub fn get(&self, frame: u64) -> Option<Arc<GrayImage>> {
+        self.0.iter().find(|(number, _)| *number == frame).map(|(_, picture)| picture.clone())
+    }
+
+    /// The newest.
+    pub fn newest(&self) -> Option<(u64, Arc<GrayImage>)> {
+        self.0.back().cloned()
+    }
+}
+
+/// The folder, and what was measured in it.
+pub struct Host {
+    folder: SessionFolder,
+    measurements: Measurements,
+}
+
+/// The folder of the result in a session's folder.
+pub const RESULT: &str = "result";
+
+impl Host {
+    /// Of a folder that is open.
+    pub fn new(folder: SessionFolder) -> Self {
+        Self { folder, measurements: Measurements::default() }
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// What the folder holds.
+    pub fn state(&self) -> FolderState {
+        let owned = |all: Vec<&handeye_io::StoredCapture>| all.into_iter().cloned().collect();
+        FolderState {
+            settings: self.folder.settings().clone(),
+            captures: owned(self.folder.captures()),
+            deleted: self.folder.deleted().iter().map(|c| c.id.clone()).collect(),
+            refused: self.folder.refused().into_iter().cloned().collect(),
+        }
+    }
+
+    /// Does it; returns what it led to. Effects of a virtual cell are not for it.
+    pub fn perform(&mut self, effect: Effect, picture: Option<Arc<GrayImage>>) -> Vec<Input> {
+        match effect {
+            Effect::Store { robot, image_time_s, .. } => {
+                let Some(picture) = picture else {
+                    return vec![Input::Stored(Err(
+                        "the picture is gone: take the capture again".into()
+                    ))];
+                };
+                let png = simulated::picture(&picture);
+                let stored = self.folder.take(&NewCapture {
+                    base_from_flange: robot.base_from_flange,
+                    joints: &robot.joints,
+                    robot_time_s: Some(robot.time_s),
+                    image_time_s: Some(image_time_s),
+                    image: Some(("png", &png)),
+                    scan: None,
+                });
+                let stored = stored.map_err(|e| e.to_string());
+                vec![Input::Stored(stored), Input::Folder(self.state())]
+            }
+            Effect::Refuse(refused) => {
+                let done = self.folder.refuse(refused);
+                self.changed(done)
+            }
+            Effect::Delete(id) => {
+                let done = self.folder.delete(&id);
+                self.changed(done)
+            }
+            Effect::Restore(id) => {
+                let done = self.folder.restore(&id);
+                self.changed(done)
+            }
+            Effect::Configure(settings) => {
+                let done = self.folder.set(&settings);
+                self.changed(done)
+            }
+            Effect::Assess { generation, not_near } => {
+                let assessment = assess(&self.folder, &mut self.measurements, &not_near);
+                let assessment = assessment.map(Arc::new).map_err(|e| e.to_string());
+                vec![Input::Assessed { generation, assessment }]
+            }
+            Effect::Write => vec![Input::Written(self.write().map_err(|e| e.to_string()))],
+            Effect::Drive(_) | Effect::Jog(..) => vec![],
+        }
+    }
+
+    fn changed(&self, done: Result<(), Error>) -> Vec<Input> {
+        let failed = done.err().map(|e| Input::Failed(e.to_string()));
+        failed.into_iter().chain([Input::Folder(self.state())]).collect()
+    }
+
+    /// Writes the result as `handeye calibrate --out result` does, the same bytes.
+    fn write(&self) -> Result<Written, Error> {
+        let dataset = self.folder.dataset()?;
+        let out = self.folder.path().join(RESULT);
+        let results = ResultFolder::open(&out)?;
+        let (calibration, session) = calibrate_dataset(&dataset, &Config::default(), &|_, _| {})?;
+        let page = dataset_html(&dataset, &calibration, &session);
+        write_run((&out, &results), Some(&dataset), &calibration, &page, vec![])?;
+        let files = vec!["calibration.json".into(), "report.html".into()];
+        Ok(Written { folder: out.display().to_string(), files })
+    }
+}
+
+/// Drives a virtual cell where the engine says so; whether the effect was one of those.
+pub fn drive(cell: &VirtualCell, effect: &Effect, now: f64) -> bool {
+    match effect {
+        Effect::Drive(to) => cell.drive(*to, now),
+        Effect::Jog(by, turn) => cell.jog(*by, *turn, now),
+        _ => return false,
+    }
+    true
+}

@@ -1,0 +1,13 @@
+//! Guided live hand-eye calibration. The session is a folder: captures are stored before anyone hears of them, the manifest is
+//! an ordinary one, and everything shown is computed from the folder by the functions that `handeye calibrate` uses.
+//!
+//! [`engine`] decides (pure: inputs in, effects out), [`sources`] give poses and pictures, [`host`] does what the engine
+//! wants done, and [`script`] plays a session without a page.
+
+pub mod assess;
+pub mod engine;
+pub mod host;
+pub mod live;
+pub mod script;
+pub mod server;
+pub mod sources;

@@ -1,0 +1,242 @@
+//! What the server answers.
+
+use std::{path::PathBuf, time::Duration};
+
+use axum::{
+    Router,
+    body::Bytes,
+    extract::{Path, Query, State},
+    http::{HeaderName, HeaderValue, StatusCode, header},
+    middleware,
+    response::{IntoResponse, Response},
+    routing::{get, post},
+};
+use handeye_io::{export, read_image, read_result, small_jpeg};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::guard::{self, Guard};
+use crate::{engine::Command, host::RESULT, live::Live};
+
+/// What every answer needs.
+#[derive(Clone)]
+pub(super) struct App {
+    pub(super) live: Live,
+    pub(super) guard: Guard,
+}
+
+/// A state that does not change is sent again after so long.
+const STATE_PATIENCE: Duration = Duration::from_secs(20);
+/// A picture is waited for so long.
+const PICTURE_PATIENCE: Duration = Duration::from_secs(5);
+/// Width of pictures on the page, px.
+const PICTURE_WIDTH: usize = 1280;
+/// No script but the page's own, nothing from elsewhere.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
+     connect-src 'self'; frame-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// A report is a page with its scripts in it: it may do nothing else.
+const REPORT_POLICY: &str = "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; \
+     style-src 'unsafe-inline'; img-src data: blob:; font-src data:";
+
+pub(super) fn router(live: Live, guard: Guard) -> Router {
+    let app = App { live, guard };
+    Router::new()
+        .route("/", get(page))
+        .route("/session.js", get(script))
+        .route("/session.css", get(style))
+        .route("/api/state", get(state))
+        .route("/api/do", post(command))
+        .route("/api/live.jpg", get(live_picture))
+        .route("/api/captures/{name}", get(capture_picture))
+        .route("/api/report", get(report))
+        .route("/api/formats", get(formats))
+        .route("/api/export", get(exported))
+        .fallback(nothing_there)
+        .layer(middleware::from_fn_with_state(app.clone(), guard::check))
+        .with_state(app)
+}
+
+/// An error as every answer has it.
+pub(super) fn refusal(status: StatusCode, message: &str, advice: &str) -> Response {
+    answer_json(status, &json!({ "error": { "message": message, "advice": advice } }))
+}
+
+fn answer_json(status: StatusCode, value: &Value) -> Response {
+    content(status, "application/json", value.to_string().into())
+}
+
+/// Bytes of a type, with what keeps browsers from making something else of them.
+fn content(status: StatusCode, of: &'static str, bytes: Bytes) -> Response {
+    let fixed = HeaderValue::from_static;
+    let headers = [
+        (header::CONTENT_TYPE, fixed(of)),
+        (header::CONTENT_SECURITY_POLICY, fixed(POLICY)),
+        (header::X_CONTENT_TYPE_OPTIONS, fixed("nosniff")),
+        (header::REFERRER_POLICY, fixed("no-referrer")),
+        (header::CACHE_CONTROL, fixed("no-store")),
+    ];
+    (status, headers, bytes).into_response()
+}
+
+async fn page() -> Response {
+    content(
+        StatusCode::OK,
+        "text/html; charset=utf-8",
+        include_bytes!("../../web/dist/index.html").as_slice().into(),
+    )
+}
+
+async fn script() -> Response {
+    content(
+        StatusCode::OK,
+        "text/javascript; charset=utf-8",
+        include_bytes!("../../web/dist/session.js").as_slice().into(),
+    )
+}
+
+async fn style() -> Response {
+    content(
+        StatusCode::OK,
+        "text/css; charset=utf-8",
+        include_bytes!("../../web/dist/session.css").as_slice().into(),
+    )
+}
+
+async fn nothing_there() -> Response {
+    refusal(StatusCode::NOT_FOUND, "there is nothing here", "see the list of addresses in the book")
+}
+
+#[derive(Deserialize)]
+struct After {
+    after: Option<u64>,
+}
+
+async fn state(State(app): State<App>, Query(After { after }): Query<After>) -> Response {
+    let mut shown = app.live.shown();
+    if let Some(after) = after {
+        let newer = shown.wait_for(|state| state.version > after);
+        tokio::time::timeout(STATE_PATIENCE, newer).await.ok();
+    }
+    let json = shown.borrow_and_update().json.clone();
+    content(StatusCode::OK, "application/json", Bytes::copy_from_slice(json.as_bytes()))
+}
+
+async fn command(State(app): State<App>, body: Bytes) -> Response {
+    let command: Command = match serde_json::from_slice(&body) {
+        Ok(command) => command,
+        Err(error) => {
+            let message = format!("this is no command: {error}");
+            return refusal(
+                StatusCode::BAD_REQUEST,
+                &message,
+                "commands are like {\"do\": \"take\"}",
+            );
+        }
+    };
+    match app.live.command(command).await {
+        Ok(version) => answer_json(StatusCode::OK, &json!({ "version": version })),
+        Err(why) => {
+            let status = if why.later { StatusCode::CONFLICT } else { StatusCode::BAD_REQUEST };
+            refusal(status, &why.message, "")
+        }
+    }
+}
+
+async fn live_picture(State(app): State<App>, Query(After { after }): Query<After>) -> Response {
+    let mut frames = app.live.frames();
+    let newer = frames.wait_for(|frame| *frame > after.unwrap_or(0));
+    if tokio::time::timeout(PICTURE_PATIENCE, newer).await.is_err() {
+        return StatusCode::NO_CONTENT.into_response();
+    }
+    let Some((frame, picture)) = app.live.newest_picture() else {
+        return StatusCode::NO_CONTENT.into_response();
+    };
+    let shrunk = tokio::task::spawn_blocking(move || small_jpeg(&picture, PICTURE_WIDTH)).await;
+    let Some((jpeg, ..)) = shrunk.ok().flatten() else {
+        return StatusCode::NO_CONTENT.into_response();
+    };
+    let mut response = content(StatusCode::OK, "image/jpeg", jpeg.into());
+    response.headers_mut().insert(HeaderName::from_static("x-frame"), frame.into());
+    response
+}
+
+/// The picture of a capture: its name is a number, and nothing else is looked for.
+async fn capture_picture(State(app): State<App>, Path(name): Path<String>) -> Response {
+    let missing = || refusal(StatusCode::NOT_FOUND, "there is no such capture", "");
+    let Some(id) = name.strip_suffix(".jpg").filter(|id| is_id(id)) else { return missing() };
+    let folder = app.live.folder().to_path_buf();
+    let file = format!("images/{id}.png");
+    let small = move || {
+        let places = [folder.join(&file), folder.join("deleted").join(&file)];
+        let path: &PathBuf = places.iter().find(|path| path.is_file())?;
+        small_jpeg(&read_image(path, None).ok()?, PICTURE_WIDTH)
+    };
+    match tokio::task::spawn_blocking(small).await.ok().flatten() {
+        Some((jpeg, ..)) => content(StatusCode::OK, "image/jpeg", jpeg.into()),
+        None => missing(),
+    }
+}
+
+fn is_id(id: &str) -> bool {
+    (1..=4).contains(&id.len()) && id.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+async fn report(State(app): State<App>) -> Response {
+    match std::fs::read(app.live.folder().join(RESULT).join("report.html")) {
+        Ok(page) => {
+            let mut response = content(StatusCode::OK, "text/html; charset=utf-8", page.into());
+            let policy = HeaderValue::from_static(REPORT_POLICY);
+            response.headers_mut().insert(header::CONTENT_SECURITY_POLICY, policy);
+            response
+        }
+        Err(_) => {
+            refusal(StatusCode::NOT_FOUND, "there is no report yet", "finish the captures first")
+        }
+    }
+}
+
+async fn formats() -> Response {
+    let all: Vec<Value> =
+        export::Format::names().into_iter().map(|name| json!({ "name": name })).collect();
+    answer_json(StatusCode::OK, &json!(all))
+}
+
+#[derive(Deserialize)]
+struct Wanted {
+    format: String,
+}
+
+async fn exported(State(app): State<App>, Query(Wanted { format }): Query<Wanted>) -> Response {
+    let bad = |what: &str| refusal(StatusCode::BAD_REQUEST, what, "");
+    let format = match export::Format::named(&format) {
+        Ok(format) => format,
+        Err(what) => return bad(&what),
+    };
+    let path = app.live.folder().join(RESULT).join("calibration.json");
+    let result = match read_result(&path) {
+        Ok(result) => result,
+        Err(error) => {
+            return refusal(StatusCode::CONFLICT, &error.to_string(), "finish the captures first");
+        }
+    };
+    if result.verdict != handeye::Verdict::Accepted {
+        let what = "the result is not accepted, and is not exported";
+        return refusal(StatusCode::CONFLICT, what, "take more captures");
+    }
+    match export::CameraPose::of(&result, None, None, std::slice::from_ref(&format)) {
+        Ok(Some(pose)) => {
+            let name = format.file_name(pose.name);
+            let mut response = content(
+                StatusCode::OK,
+                "application/octet-stream",
+                export::render(&pose, &format).into(),
+            );
+            if let Ok(value) = HeaderValue::from_str(&format!("attachment; filename=\"{name}\"")) {
+                response.headers_mut().insert(header::CONTENT_DISPOSITION, value);
+            }
+            response
+        }
+        Ok(None) => refusal(StatusCode::CONFLICT, "the result determines no pose", ""),
+        Err(what) => bad(&what),
+    }
+}

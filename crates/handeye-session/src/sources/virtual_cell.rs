@@ -1,0 +1,210 @@
+//! A cell that exists in memory alone: to try a session in the first minute, and to test everything with a known truth.
+
+use std::sync::{Mutex, PoisonError};
+
+use handeye::{
+    Base, Error, Flange, GrayImage, HandEye, Intrinsics, Pose, Setup,
+    math::random::Random,
+    nalgebra::{Rotation3, UnitQuaternion, Vector3},
+    simulate::{Cell, CellNoise, Optics, Scene},
+};
+use handeye_io::{CameraGuess, CellSettings};
+
+use crate::engine::rest::RobotSample;
+
+/// What is wrong with a virtual cell, on purpose.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Faults {
+    /// Pictures come so much later, s.
+    pub picture_delay_s: f64,
+    /// The robot creeps where it should stand, m/s.
+    pub creep_m_s: f64,
+    /// Likewise about an axis, rad/s.
+    pub creep_rad_s: f64,
+}
+
+/// A virtual robot, camera and board.
+pub struct VirtualCell {
+    cell: Cell,
+    faults: Faults,
+    guess: CameraGuess,
+    robot: Mutex<Robot>,
+}
+
+/// The robot's motions: true poses, and what it errs by at their ends.
+struct Robot {
+    legs: Vec<Leg>,
+    random: Random,
+}
+
+struct Leg {
+    starts_s: f64,
+    takes_s: f64,
+    from: Pose<Base, Flange>,
+    to: Pose<Base, Flange>,
+    errors: [Vector3<f64>; 4],
+}
+
+/// Speeds of the robot.
+const SPEED_M_S: f64 = 0.4;
+const SPEED_RAD_S: f64 = 1.2;
+/// Legs are kept for pictures that come late.
+const KEPT_LEGS: usize = 20;
+/// What the robot reports scatters by, m and rad.
+const ENCODERS: (f64, f64) = (2e-6, 2e-6);
+/// How far off the first guess is, m and rad, along and about each axis.
+const GUESS_OFF: (f64, f64) = (0.02, 0.05);
+/// The camera's picture, px.
+const SIZE: (u32, u32) = (1280, 800);
+/// Its focal length, px.
+const FOCAL_PX: f64 = 1200.0;
+
+impl VirtualCell {
+    /// A cell; equal seeds give equal cells.
+    ///
+    /// # Errors
+    /// A cell that shows nothing of its board.
+    pub fn new(setup: Setup, seed: u64, faults: Faults) -> Result<Self, Error> {
+        let centre = |pixels: u32| 0.5 * (f64::from(pixels) - 1.0);
+        let camera =
+            Intrinsics::pinhole(SIZE.0, SIZE.1, FOCAL_PX, FOCAL_PX, centre(SIZE.0), centre(SIZE.1));
+        let noise = CellNoise {
+            robot_absolute_m: 0.1e-3,
+            robot_absolute_rad: 0.01f64.to_radians(),
+            ..CellNoise::default()
+        };
+        let cell = Cell {
+            intrinsics: camera,
+            noise,
+            captures: 1,
+            touches: 0,
+            placements: 0,
+            ..Cell::new(setup, seed)
+        };
+        let mut random = Random::new(seed ^ 0x5e55_1011);
+        let start = cell.record(seed)?.truth.base_from_flange[0];
+        let off = Pose::from_parts(
+            Rotation3::new(random.normal3() * GUESS_OFF.1).matrix(),
+            random.normal3() * GUESS_OFF.0,
+        );
+        let guess = CameraGuess {
+            mount_from_camera: cell.hand_eye.mount_from_camera * off,
+            sigma_mm: GUESS_OFF.0 * 1e3,
+            sigma_deg: GUESS_OFF.1.to_degrees(),
+        };
+        let errors = [Vector3::zeros(); 4];
+        let leg = Leg { starts_s: f64::NEG_INFINITY, takes_s: 0.0, from: start, to: start, errors };
+        Ok(Self { cell, faults, guess, robot: Mutex::new(Robot { legs: vec![leg], random }) })
+    }
+
+    /// What a person would know of it.
+    pub fn settings(&self) -> CellSettings {
+        CellSettings {
+            setup: self.cell.setup,
+            target: self.cell.target.clone(),
+            intrinsics: Some(self.cell.intrinsics),
+            tolerance_mm: 0.5,
+            notation: "ur".into(),
+            guess: Some(self.guess),
+        }
+    }
+
+    /// Where camera and board really sit.
+    pub fn truth(&self) -> HandEye {
+        self.cell.hand_eye
+    }
+
+    /// Drives the robot to where it is to report that it is.
+    pub fn drive(&self, to: Pose<Base, Flange>, now: f64) {
+        let mut robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
+        let noise = &self.cell.noise;
+        let (rotation, position) = (
+            robot.random.normal3() * noise.robot_absolute_rad,
+            robot.random.normal3() * (noise.robot_absolute_m / 3f64.sqrt()),
+        );
+        let (from, old) = robot.at(now, &self.faults);
+        let [_, _, r, p] = old;
+        // it reports `true · exp(error)`
+        let there = to * error(&rotation, &position).inverse();
+        let off = *(from.inverse() * there).iso();
+        let takes =
+            (off.translation.vector.norm() / SPEED_M_S).max(off.rotation.angle() / SPEED_RAD_S);
+        let leg = Leg {
+            starts_s: now,
+            takes_s: 0.3 + takes,
+            from,
+            to: there,
+            errors: [r, p, rotation, position],
+        };
+        robot.legs.push(leg);
+        if robot.legs.len() > KEPT_LEGS {
+            robot.legs.remove(0);
+        }
+    }
+
+    /// Moves it a little, in the camera's axes (mm, degrees).
+    pub fn jog(&self, move_mm: [f64; 3], turn_deg: [f64; 3], now: f64) {
+        let here = self.reported(now);
+        let turn = Rotation3::new(Vector3::from(turn_deg).map(f64::to_radians));
+        let step: Pose<Flange, Flange> =
+            Pose::from_parts(turn.matrix(), Vector3::from(move_mm) * 1e-3);
+        self.drive(here * step, now);
+    }
+
+    /// What the robot reports.
+    pub fn sample(&self, now: f64) -> RobotSample {
+        let base_from_flange = self.reported(now);
+        let mut robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
+        let noise =
+            error(&(robot.random.normal3() * ENCODERS.1), &(robot.random.normal3() * ENCODERS.0));
+        RobotSample { time_s: now, base_from_flange: base_from_flange * noise, joints: vec![] }
+    }
+
+    fn reported(&self, now: f64) -> Pose<Base, Flange> {
+        let robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
+        let (there, [_, _, rotation, position]) = robot.at(now, &self.faults);
+        there * error(&rotation, &position)
+    }
+
+    /// The picture that comes at this moment; number `frame` decides on its noise.
+    pub fn picture(&self, now: f64, frame: u64) -> GrayImage {
+        let robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
+        let there = robot.at(now - self.faults.picture_delay_s, &self.faults).0;
+        drop(robot);
+        let scene = Scene {
+            target: self.cell.target.clone(),
+            camera_from_target: self.cell.hand_eye.camera_from_target(self.cell.setup, &there),
+            intrinsics: self.cell.intrinsics,
+        };
+        scene.picture(&Optics::default(), frame)
+    }
+}
+
+impl Robot {
+    /// Where it is, and what it errs by at both ends and now.
+    fn at(&self, now: f64, faults: &Faults) -> (Pose<Base, Flange>, [Vector3<f64>; 4]) {
+        let leg = self.legs.iter().rev().find(|leg| leg.starts_s <= now).unwrap_or(&self.legs[0]);
+        let share = if leg.takes_s > 0.0 {
+            ((now - leg.starts_s) / leg.takes_s).clamp(0.0, 1.0)
+        } else {
+            1.0
+        };
+        let smooth = share * share * (3.0 - 2.0 * share);
+        let off = leg.from.inverse() * leg.to;
+        let turn = UnitQuaternion::from_scaled_axis(off.iso().rotation.scaled_axis() * smooth);
+        let part: Pose<Flange, Flange> =
+            Pose::from_parts(turn.to_rotation_matrix().matrix(), off.translation() * smooth);
+        let creeping = now - (leg.starts_s.max(0.0) + leg.takes_s);
+        let creep: Pose<Flange, Flange> = Pose::from_parts(
+            Rotation3::new(Vector3::x() * (faults.creep_rad_s * creeping.max(0.0))).matrix(),
+            Vector3::x() * (faults.creep_m_s * creeping.max(0.0)),
+        );
+        let [r0, p0, r1, p1] = leg.errors;
+        let (r, p) = (r0 + (r1 - r0) * smooth, p0 + (p1 - p0) * smooth);
+        (leg.from * part * creep, [r0, p0, r, p])
+    }
+}
+
+fn error(rotation: &Vector3<f64>, position: &Vector3<f64>) -> Pose<Flange, Flange> {
+    Pose::from_parts(Rotation3::new(*rotation).matrix(), *position)
+}

@@ -1,0 +1,34 @@
+// Buttons, all made the same way: large, with a name, and not holding the focus after a touch, so that the space bar stays
+// with the primary action.
+
+import { h } from "./dom";
+import { icon, type Icon } from "./icons";
+import { named, said, type Key } from "./words";
+
+interface Look {
+  class?: string;
+  icon?: Icon;
+  bare?: boolean; // the icon alone is seen
+}
+
+export function button(key: Key, clicked: () => void, look: Look = {}): HTMLButtonElement {
+  const made = h("button", { type: "button", class: look.class });
+  made.addEventListener("click", (event) => {
+    if (event.detail > 0) made.blur();
+    clicked();
+  });
+  if (look.icon) made.append(icon(look.icon));
+  if (look.bare) named(made, key, true);
+  else made.append(said(h("span"), key));
+  return made;
+}
+
+/** A heading and what belongs to it. */
+export function card(key: Key, ...children: (Node | null)[]): HTMLElement {
+  return h("section", { class: "card" }, said(h("h2"), key), ...children);
+}
+
+/** A labelled field. */
+export function labelled(key: Key, control: HTMLElement): HTMLLabelElement {
+  return h("label", { class: "labelled" }, said(h("span"), key), control);
+}

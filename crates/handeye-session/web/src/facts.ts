@@ -1,0 +1,41 @@
+// What is known of a device or of the board, as a list of living facts with a sign before each: good, not good, unknown.
+
+import { h, kind, list, show, text } from "./dom";
+import { icon, setIcon } from "./icons";
+
+export interface Fact {
+  name: string;
+  value: string | null | undefined;
+  good?: boolean | undefined;
+}
+
+export function facts() {
+  const element = h("dl", { class: "facts" });
+  const draw = list<Fact>(
+    element,
+    ({ name }) => name,
+    () => {
+      const sign = icon("check");
+      const [name, value] = [h("dt"), h("dd")];
+      const row = h("div", {}, sign, name, value);
+      return {
+        element: row,
+        update(fact: Fact): void {
+          text(name, fact.name);
+          text(value, fact.value || "–");
+          kind(row, "good", fact.good === true);
+          kind(row, "bad", fact.good === false);
+          setIcon(sign, fact.good === false ? "warning" : "check");
+          sign.style.visibility = fact.good === undefined ? "hidden" : "visible";
+        },
+      };
+    },
+  );
+  return {
+    element,
+    update(given: Fact[]): void {
+      show(element, given.length > 0);
+      draw(given);
+    },
+  };
+}

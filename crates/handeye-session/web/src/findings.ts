@@ -1,0 +1,56 @@
+// What was found beside the answer, and the captures that were refused: the grave ones before the others.
+
+import type { App, Part } from "./app";
+import { h, kind, list, show, text } from "./dom";
+import { icon, setIcon } from "./icons";
+import type { Finding } from "./state";
+import { said } from "./words";
+
+const REFUSED_SHOWN = 3;
+
+function findingRow() {
+  const sign = icon("warning");
+  const [message, advice] = [h("p"), h("p", { class: "advice" })];
+  const element = h("li", { class: "finding" }, sign, h("div", {}, message, advice));
+  return {
+    element,
+    update(finding: Finding): void {
+      text(message, finding.message);
+      text(advice, finding.advice);
+      show(advice, Boolean(finding.advice));
+      setIcon(sign, finding.severity === "info" ? "page" : "warning");
+      kind(element, "rejects", finding.severity === "rejects");
+      kind(element, "changes", finding.severity === "changes-answer");
+    },
+  };
+}
+
+/** The findings of one severity. */
+export function makeFindings(_app: App, which: NonNullable<Finding["severity"]>): Part {
+  const rows = h("ul", { class: "findings" });
+  const id = which === "changes-answer" ? "grave" : null;
+  const element = h("section", { class: `card of-${which}`, id }, said(h("h2"), which === "info" ? "remarks" : "findings"), rows);
+  const draw = list<Finding>(rows, ({ code, message }) => `${code} ${message}`, findingRow);
+  return {
+    element,
+    update(state) {
+      const wanted = (state.progress?.findings ?? []).filter(({ severity }) => (severity ?? "info") === which);
+      draw(wanted);
+      show(element, wanted.length > 0);
+    },
+  };
+}
+
+export function makeRefused(_app: App): Part {
+  const rows = h("ul", { class: "findings" });
+  const element = h("section", { class: "card" }, said(h("h2"), "refused"), rows);
+  const draw = list<Finding>(rows, ({ code }) => code ?? "", findingRow);
+  return {
+    element,
+    update(state) {
+      const refused = [...(state.refused ?? [])].reverse().slice(0, REFUSED_SHOWN);
+      draw(refused.map(({ time_s, why }) => ({ code: `${time_s} ${why}`, severity: "changes-answer", message: why })));
+      show(element, refused.length > 0);
+    },
+  };
+}

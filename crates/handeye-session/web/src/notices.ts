@@ -1,0 +1,108 @@
+// What must not be overlooked, right below the sentence: no connection, a problem, a command that was refused, a verdict
+// that is not good, a capture that was refused. While one of the first kinds is there, nothing on the page is green.
+
+import type { App, Part } from "./app";
+import { h, kind, show, text } from "./dom";
+import { icon, type Icon } from "./icons";
+import { button } from "./controls";
+import type { Problem, State } from "./state";
+import { t } from "./words";
+
+const HOLD = 1500; // ms that a notice stays after its reason has gone, so that nothing jumps
+const REFUSED_FOR = 10_000; // ms that a refused capture is shown for
+
+interface Notice {
+  message: string;
+  advice?: string | null;
+}
+
+interface Strip {
+  element: HTMLElement;
+  set(notice: Notice | null, hold?: boolean): void;
+}
+
+function strip(look: string, sign: Icon, closed?: () => void): Strip {
+  const message = h("strong");
+  const advice = h("span");
+  const element = h("div", { class: `notice ${look}` }, icon(sign), h("p", {}, message, " ", advice));
+  if (closed) element.append(button("close", closed, { icon: "cross", bare: true, class: "plain" }));
+  element.hidden = true;
+  let gone = 0;
+  return {
+    element,
+    set(notice, hold = true) {
+      if (notice) {
+        gone = 0;
+        text(message, notice.message);
+        text(advice, notice.advice);
+        show(element, true);
+      } else if (!element.hidden) {
+        gone ||= performance.now();
+        if (!hold || performance.now() - gone > HOLD) show(element, false);
+      }
+    },
+  };
+}
+
+/** A verdict that says no: of the captures so far, of the verification, or of the result. */
+export function badVerdict(state: State): Notice | null {
+  if (state.step === "result" && state.result?.verdict && state.result.verdict !== "accepted") {
+    const key = state.result.verdict === "rejected" ? "result_rejected" : "result_undetermined";
+    return { message: t(key), advice: state.progress?.reasons?.join("; ") ?? null };
+  }
+  if (state.verify?.verdict === "does not hold") {
+    return { message: t("does_not_hold"), advice: state.verify.sentence ?? null };
+  }
+  if (state.progress?.verdict === "rejected") {
+    return { message: t("rejected_so_far"), advice: state.progress.reasons?.join("; ") ?? null };
+  }
+  return null;
+}
+
+/** The connection's notice. */
+function lostNotice(app: App): Notice | null {
+  if (app.signedOut) return { message: t("signed_out"), advice: t("signed_out_advice") };
+  if (app.lostSince === null) return null;
+  return { message: t("lost"), advice: t("lost_advice") };
+}
+
+export function makeNotices(app: App, element: HTMLElement): Part {
+  const lost = strip("bad", "warning");
+  const problem = strip("bad", "warning");
+  const refused = strip("bad", "cross", () => {
+    app.refused = null;
+    app.redraw();
+  });
+  const verdict = strip("bad", "warning");
+  const capture = strip("doubtful", "cross", () => {
+    shownUntil = 0;
+    app.redraw();
+  });
+  let shownUntil = 0;
+  let last: string | null = null;
+  const alerts = h("div", { role: "alert" }, lost.element, problem.element, refused.element);
+  const others = h("div", { role: "status" }, verdict.element, capture.element);
+  element.append(alerts, others);
+
+  const shown = (given: Problem | null | undefined): Notice | null =>
+    given ? { message: given.message || t("not_sent"), advice: given.advice ?? null } : null;
+
+  return {
+    element,
+    update(state) {
+      lost.set(lostNotice(app), false);
+      problem.set(shown(state.problem));
+      refused.set(shown(app.refused), false);
+      const bad = badVerdict(state);
+      verdict.set(bad);
+      const newest = state.refused?.[state.refused.length - 1];
+      const name = newest ? `${newest.time_s} ${newest.why}` : "";
+      if (last !== null && name && name !== last) shownUntil = performance.now() + REFUSED_FOR;
+      last = name;
+      const fresh = newest && performance.now() < shownUntil;
+      capture.set(fresh ? { message: t("capture_refused"), advice: newest.why } : null, false);
+      kind(document.body, "trouble", Boolean(lostNotice(app) || state.problem || app.refused || bad));
+      kind(document.body, "lost", app.lostSince !== null);
+    },
+  };
+}

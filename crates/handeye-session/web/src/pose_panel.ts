@@ -1,0 +1,118 @@
+// The pose of the next view in large digits, in the notation of the pendant, and how far the robot is from it. Where there is
+// no next view, the pose that the robot has.
+
+import { isAtNext, skip } from "./actions";
+import type { App, Part } from "./app";
+import { button } from "./controls";
+import { attribute, h, kind, list, show, text } from "./dom";
+import { columns, mm, small, type Column } from "./numbers";
+import type { Next, State } from "./state";
+import { named, said, t } from "./words";
+
+interface Digit extends Column {
+  value: number | null;
+  now: number | null;
+}
+
+const SEEN_FOR = 1200; // ms that a number is marked after it has changed
+const CHANGED = 50; // units of its last digit: more than the noise of a robot that stands
+
+/** Says for a while that a number has moved, so that one sees which follow the robot. */
+function mover() {
+  let reference: number | null = null;
+  let movedAt = -SEEN_FOR;
+  return (value: number | null, digits: number): boolean => {
+    if (value === null || reference === null) reference = value;
+    else if (Math.abs(value - reference) > CHANGED * 10 ** -digits) {
+      reference = value;
+      movedAt = performance.now();
+    }
+    return performance.now() - movedAt < SEEN_FOR;
+  };
+}
+
+function digitRow() {
+  const moved = mover();
+  const [name, value, unit, now] = [h("strong"), h("b"), h("span"), h("small")];
+  const element = h("div", { class: "digit" }, h("dt", {}, name, unit, now), h("dd", {}, value));
+  return {
+    element,
+    update(digit: Digit): void {
+      kind(element, "moved", digit.now === null && moved(digit.value, digit.digits));
+      text(name, digit.name);
+      text(value, digit.value === null ? "–" : digit.value.toFixed(digit.digits));
+      text(unit, digit.unit && ` ${digit.unit}`);
+      text(now, digit.now === null ? "" : t("now_at", { value: digit.now.toFixed(digit.digits) }));
+    },
+  };
+}
+
+/** The numbers to show: those of the pose, or of the joints. */
+function digits(state: State, joints: boolean): Digit[] {
+  const { robot, next, cell } = state;
+  const wanted = state.step === "capture" ? next : null;
+  const shown: Next = wanted ?? robot ?? {};
+  const values = (joints ? shown.joints_deg : shown.numbers) ?? [];
+  const now = wanted ? (joints ? robot?.joints_deg : robot?.numbers) : null;
+  const names = joints ? values.map((_, i) => `J${i + 1}`) : shown.columns;
+  const units = joints ? values.map(() => "°") : shown.units;
+  return columns(names, values.length, cell?.notation, units).map((column, i) => ({
+    ...column,
+    digits: joints ? 2 : column.digits,
+    value: values[i] ?? null,
+    now: now?.length === values.length ? (now[i] ?? null) : null,
+  }));
+}
+
+export function makePosePanel(app: App): Part {
+  const title = h("h2");
+  const off = h("p", { class: "off" });
+  const gain = h("p", { class: "gain" });
+  const numbers = h("dl", { class: "digits" });
+  const draw = list<Digit & { key: string }>(numbers, (digit) => digit.key, digitRow);
+  const joints = h("button", { type: "button" }, said(h("span"), "joints"));
+  joints.addEventListener("click", () => app.choose({ joints: !app.choices.joints }));
+  const other = button("other_view", () => skip(app), { icon: "skip" });
+  const typed = h("input", { type: "text", autocomplete: "off", spellcheck: "false" });
+  named(typed, "typed_pose");
+  typed.addEventListener("input", () => app.choose({ typed: typed.value }));
+  const typing = h("div", { class: "typing" }, typed);
+  const element = h(
+    "section",
+    { class: "pose" },
+    h("div", { class: "top" }, title, off),
+    numbers,
+    typing,
+    h("div", { class: "foot" }, gain, joints, other),
+  );
+  return {
+    element,
+    update(state) {
+      const next = state.step === "capture" ? state.next : null;
+      text(title, next ? t("next_view", { number: next.number ?? "" }) : t("robot_now"));
+      const there = next ? isAtNext(state) : null;
+      text(off, next ? offText(state) : state.robot?.connected ? (state.robot.why ?? "") : t("no_robot"));
+      kind(off, "there", there === true);
+      kind(off, "away", there === false);
+      const hasGain = typeof next?.before_mm === "number" && typeof next.after_mm === "number";
+      text(gain, hasGain ? t("gain", { before: mm(next?.before_mm), after: mm(next?.after_mm) }) : "");
+      const hasJoints = Boolean((next ?? state.robot)?.joints_deg?.length);
+      const shown = digits(state, app.choices.joints && hasJoints);
+      draw(shown.map((digit, i) => ({ ...digit, key: `${i} ${digit.name}` })));
+      kind(numbers, "many", shown.length > 9);
+      show(joints, hasJoints);
+      attribute(joints, "aria-pressed", String(app.choices.joints));
+      show(other, Boolean(next));
+      show(typing, state.robot?.connected === false);
+      attribute(typed, "placeholder", t("typed_pose_example", { columns: (state.robot?.columns ?? []).join(" ") }));
+      if (document.activeElement !== typed && typed.value !== app.choices.typed) typed.value = app.choices.typed;
+    },
+  };
+}
+
+function offText(state: State): string {
+  const off = state.next?.off;
+  if (!off || typeof off.mm !== "number") return "";
+  if (isAtNext(state)) return t("at_view");
+  return t("away", { mm: mm(off.mm), deg: small(off.deg) });
+}

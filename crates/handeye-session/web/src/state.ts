@@ -1,0 +1,187 @@
+// What the server says about the session: the state, as JSON. Every part may be missing or null, so that an older page and a
+// newer server get on.
+
+export type Pair = [number, number];
+export type Maybe<T> = T | null | undefined;
+
+/** `a_from_b`: takes points of `from` to `to`. */
+export interface Pose {
+  to?: string;
+  from?: string;
+  translation_m: [number, number, number];
+  rotation_xyzw: [number, number, number, number];
+}
+
+export const STEPS = ["cell", "camera", "robot", "board", "capture", "touch", "verify", "result"] as const;
+export type StepName = (typeof STEPS)[number];
+
+export interface Step {
+  name: StepName;
+  state: "done" | "now" | "open" | "locked";
+  proof?: Maybe<string>;
+  proven?: boolean;
+}
+
+export interface Problem {
+  code?: string;
+  message: string;
+  advice?: Maybe<string>;
+}
+
+/** A target as `[target]` of `handeye.toml` has it. */
+export type Target = { kind: string } & Record<string, unknown>;
+
+export interface Intrinsics {
+  width: number;
+  height: number;
+  fx: number;
+  fy: number;
+  cx: number;
+  cy: number;
+  distortion?: number[];
+}
+
+export type Setup = "eye-in-hand" | "eye-to-hand";
+
+export interface Cell {
+  setup?: Setup;
+  tolerance_mm?: number;
+  target?: Maybe<Target>;
+  target_text?: string;
+  intrinsics?: Maybe<Intrinsics>;
+  notation?: string;
+  is_virtual?: boolean;
+}
+
+export interface Robot {
+  connected?: boolean;
+  name?: string;
+  stands?: boolean;
+  why?: string;
+  columns?: string[];
+  units?: string[];
+  numbers?: Maybe<number[]>;
+  joints_deg?: Maybe<number[]>;
+  base_from_flange?: Maybe<Pose>;
+}
+
+export interface Camera {
+  connected?: boolean;
+  name?: string;
+  width?: number;
+  height?: number;
+  frame?: number;
+  age_s?: Maybe<number>;
+  stands?: boolean;
+  why?: string;
+  corners?: Maybe<Pair[]>;
+  found?: Maybe<string>;
+  missing?: Maybe<string>;
+  delay_s?: Maybe<number>;
+}
+
+export interface Next {
+  number?: number;
+  reason?: string;
+  before_mm?: Maybe<number>;
+  after_mm?: Maybe<number>;
+  columns?: string[];
+  units?: string[];
+  numbers?: Maybe<number[]>;
+  joints_deg?: Maybe<number[]>;
+  base_from_flange?: Maybe<Pose>;
+  camera_from_target?: Maybe<Pose>;
+  ghost?: Maybe<Pair[]>;
+  ghost_corners?: Maybe<Pair[]>;
+  off?: Maybe<{ mm?: Maybe<number>; deg?: Maybe<number> }>;
+}
+
+export interface Capture {
+  id: string;
+  time_s?: number;
+  used?: boolean;
+  reason?: Maybe<string>;
+  residual_px?: Maybe<number>;
+  residual_mm?: Maybe<number>;
+  residual_deg?: Maybe<number>;
+  held_out_mm?: Maybe<number>;
+  corners?: number;
+  corners_3d?: number;
+  base_from_flange?: Maybe<Pose>;
+  camera_from_target?: Maybe<Pose>;
+  points?: Maybe<Pair[]>;
+  arrows?: Maybe<Pair[]>;
+}
+
+export type Verdict = "accepted" | "rejected" | "undetermined";
+
+export interface Direction {
+  name: string;
+  sigma?: Maybe<number>;
+  unit?: string;
+}
+
+export interface Finding {
+  code?: string;
+  severity?: "info" | "changes-answer" | "rejects";
+  message: string;
+  advice?: Maybe<string>;
+}
+
+export interface Progress {
+  captures?: number;
+  verdict?: Verdict;
+  reasons?: string[];
+  p95_mm?: Maybe<number>;
+  tolerance_mm?: Maybe<number>;
+  enough?: boolean;
+  undetermined?: string[];
+  directions?: Direction[];
+  history?: [number, Maybe<number>][];
+  findings?: Finding[];
+  mount_from_camera?: Maybe<Pose>;
+  anchor_from_target?: Maybe<Pose>;
+  transform_text?: Maybe<string>;
+}
+
+export interface Verify {
+  views?: { id: string; error_mm?: Maybe<number> }[];
+  worst_mm?: Maybe<number>;
+  verdict?: "holds" | "does not hold" | "too few";
+  sentence?: string;
+}
+
+export interface Result {
+  files?: string[];
+  verdict?: Verdict;
+  headline?: string;
+  exports?: { name: string; text: string }[];
+}
+
+export interface State {
+  version: number;
+  folder?: string;
+  title?: string;
+  language?: string;
+  step?: StepName;
+  steps?: Step[];
+  say?: string;
+  problem?: Maybe<Problem>;
+  cell?: Maybe<Cell>;
+  robot?: Maybe<Robot>;
+  camera?: Maybe<Camera>;
+  next?: Maybe<Next>;
+  taking?: Maybe<{ since_s?: number; why?: Maybe<string> }>;
+  automatic?: boolean;
+  captures?: Maybe<Capture[]>;
+  deleted?: Maybe<{ id: string }[]>;
+  refused?: Maybe<{ time_s?: number; why: string }[]>;
+  can_undo?: Maybe<string>;
+  assessing?: boolean;
+  progress?: Maybe<Progress>;
+  verify?: Maybe<Verify>;
+  result?: Maybe<Result>;
+  virtual_cell?: Maybe<{ truth_error_mm?: Maybe<number>; driving?: boolean }>;
+}
+
+export type Command = { do: string } & Record<string, unknown>;

@@ -1,0 +1,54 @@
+// The page's own sentences in the language that is chosen. Elements remember their sentence, so that another language reaches
+// all of them at once.
+
+import { SENTENCES, type Key } from "./sentences";
+
+export type Language = "en" | "de";
+export type { Key };
+
+let language: Language = "en";
+
+export function currentLanguage(): Language {
+  return language;
+}
+
+/** A sentence; `{name}` in it is replaced by the value of that name. */
+export function t(key: Key, values: Record<string, string | number> = {}): string {
+  const [english, german] = SENTENCES[key];
+  return (language === "de" ? german : english).replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole));
+}
+
+/** The element's text is this sentence, in whatever language. */
+export function said<E extends Element>(element: E, key: Key): E {
+  if (element.getAttribute("data-say") !== key) {
+    element.setAttribute("data-say", key);
+    element.textContent = t(key);
+  }
+  return element;
+}
+
+/** The element's name for those who do not see it, and its tooltip. */
+export function named<E extends Element>(element: E, key: Key, tooltip = false): E {
+  if (element.getAttribute("data-name") !== key) {
+    element.setAttribute("data-name", key);
+    if (tooltip) element.setAttribute("data-tooltip", "");
+    rename(element);
+  }
+  return element;
+}
+
+function rename(element: Element): void {
+  const name = t(element.getAttribute("data-name") as Key);
+  element.setAttribute("aria-label", name);
+  if (element.hasAttribute("data-tooltip")) element.setAttribute("title", name);
+}
+
+export function speak(wanted: Language): void {
+  if (wanted === language) return;
+  language = wanted;
+  document.documentElement.lang = wanted;
+  for (const element of document.querySelectorAll("[data-say]")) {
+    element.textContent = t(element.getAttribute("data-say") as Key);
+  }
+  document.querySelectorAll("[data-name]").forEach(rename);
+}
