@@ -8,7 +8,7 @@ use std::{
 use handeye::{Calibration, Config, Session, Verdict, calibrate::findings, register::IcpConfig};
 use handeye_io::{
     Dataset, ResultFolder,
-    calibrate::{calibrate_dataset, write_run},
+    calibrate::{calibrate_dataset, is_too_inaccurate_alone, write_run},
     checkup::can_be_checked,
     export::Format,
     report::dataset_html,
@@ -100,14 +100,6 @@ fn export_accepted(
         crate::output::note!("nothing exported: the verdict is not `accepted`");
     }
     Ok(vec![])
-}
-
-/// Whether nothing speaks against the answer but that it may be wrong by more than is allowed.
-fn is_too_inaccurate_alone(calibration: &Calibration) -> bool {
-    let predicted =
-        calibration.predicted_tre_mm.as_ref().map(|tre| tre.at_task_p95.unwrap_or(tre.p95));
-    let limit = calibration.max_error_mm;
-    calibration.reasons.len() == 1 && predicted.zip(limit).is_some_and(|(mm, limit)| mm > limit)
 }
 
 fn config(args: &CalibrateArgs) -> Result<Config, Failure> {

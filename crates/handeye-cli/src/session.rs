@@ -3,12 +3,15 @@
 use std::{fs, net::IpAddr, path::PathBuf};
 
 use clap::Args;
-use handeye::Setup;
-use handeye_io::{Place, SessionFolder, process, temporary_folder};
+use handeye::{Setup, TargetModel};
+use handeye_io::{
+    CellSettings, Place, SessionFolder, Writing, process, read_intrinsics, read_target,
+    temporary_folder,
+};
 use handeye_session::{
     engine::view::State,
     host::Host,
-    live::Live,
+    live::{Camera, Cell, Live},
     script::{Action, Player},
     server::Server,
     sources::virtual_cell::{Faults, VirtualCell},
@@ -20,8 +23,9 @@ use crate::{args::GlobalArgs, browser, failure::Failure, output};
 #[derive(Args)]
 #[command(after_help = "Examples:\n\
 \x20 handeye session --virtual\n\
-\x20 handeye session cell/ --virtual 7 --no-open\n\
-\x20 handeye session cell/ --virtual --headless --script steps.json --json\n\
+\x20 handeye session cell/ --images-from /mnt/camera --notation kuka --target board.toml\n\
+\x20 handeye session cell/ --camera-command 'python grab.py {out}' --intrinsics camera.yaml\n\
+\x20 handeye session cell/ --virtual 7 --headless --script steps.json --json\n\
 \n\
 The folder is an ordinary dataset at any moment: `handeye calibrate FOLDER` gives the same result. Exit code of a script: \
 that of its last result, 1 where a step was refused.")]
@@ -29,13 +33,31 @@ pub struct SessionArgs {
     /// Folder of the session: new, empty, or one that a session has written [default: a temporary folder].
     pub folder: Option<PathBuf>,
     /// A virtual cell in place of camera and robot, with this seed.
-    #[arg(long = "virtual", value_name = "SEED", num_args = 0..=1, default_missing_value = "1", required = true)]
+    #[arg(long = "virtual", value_name = "SEED", num_args = 0..=1, default_missing_value = "1")]
     pub seed: Option<u64>,
-    /// Setup of the virtual cell: eye-in-hand or eye-to-hand.
+    /// Folder in which another program saves pictures; poses are typed on the page.
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["seed", "camera_command"])]
+    pub images_from: Option<PathBuf>,
+    /// Command that takes a picture and writes it to {out}; poses are typed on the page.
+    #[arg(long, value_name = "COMMAND", conflicts_with = "seed")]
+    pub camera_command: Option<String>,
+    /// Who carries the camera: eye-in-hand (the robot) or eye-to-hand.
     #[arg(long, value_name = "SETUP", default_value = "eye-in-hand", value_parser = setup)]
     pub setup: Setup,
-    /// Play a script instead of serving a page.
-    #[arg(long, requires = "script")]
+    /// Manifest or other TOML file with a `[target]` [default: a checkerboard, to be changed on the page].
+    #[arg(long, value_name = "FILE", conflicts_with = "seed")]
+    pub target: Option<PathBuf>,
+    /// File of the camera's intrinsics [default: calibrated from the views].
+    #[arg(long, value_name = "FILE", conflicts_with = "seed")]
+    pub intrinsics: Option<PathBuf>,
+    /// How poses are typed and shown, such as kuka, ur or abb.
+    #[arg(long, value_name = "MAKER", default_value = "ur")]
+    pub notation: String,
+    /// Error that is tolerated (95 %).
+    #[arg(long, value_name = "MM", default_value_t = 0.5)]
+    pub tolerance_mm: f64,
+    /// Play a script in a virtual cell instead of serving a page.
+    #[arg(long, requires = "script", requires = "seed")]
     pub headless: bool,
     /// JSON file with the steps of a script.
     #[arg(long, value_name = "FILE", requires = "headless")]
@@ -60,23 +82,62 @@ fn setup(name: &str) -> Result<Setup, String> {
 }
 
 pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
+    if !(args.tolerance_mm > 0.0 && args.tolerance_mm.is_finite()) {
+        return Err(Failure::Usage("--tolerance-mm must be positive".into()));
+    }
     let path = args
         .folder
         .clone()
         .unwrap_or_else(|| temporary_folder().join(format!("handeye-session-{}", process())));
-    let seed = args.seed.unwrap_or(1);
-    let cell = VirtualCell::new(args.setup, seed, Faults::default())
-        .map_err(|e| Failure::input("the virtual cell", e))?;
-    let folder = SessionFolder::open(&path, Some(&cell.settings()))?;
-    if *folder.settings() != cell.settings() && folder.settings().guess != cell.settings().guess {
+    let (cell, settings) = match (args.seed, &args.images_from, &args.camera_command) {
+        (Some(seed), ..) => {
+            let cell = VirtualCell::new(args.setup, seed, Faults::default())
+                .map_err(|e| Failure::input("the virtual cell", e))?;
+            let tolerance_mm = args.tolerance_mm;
+            let settings = CellSettings { tolerance_mm, ..cell.settings() };
+            (Cell::Virtual(cell), settings)
+        }
+        (None, Some(folder), _) if !folder.is_dir() => {
+            return Err(Failure::Usage(format!("{} is not a folder", folder.display())));
+        }
+        (None, Some(folder), _) => (Cell::Hand(Camera::Folder(folder.clone())), settings(args)?),
+        (None, None, Some(command)) => {
+            (Cell::Hand(Camera::Command(command.clone())), settings(args)?)
+        }
+        (None, None, None) => {
+            let what = "where do pictures come from? --virtual (to try it), --images-from FOLDER, or --camera-command COMMAND";
+            return Err(Failure::Usage(what.into()));
+        }
+    };
+    let folder = SessionFolder::open(&path, Some(&settings))?;
+    if matches!(cell, Cell::Virtual(_)) && folder.settings().guess != settings.guess {
         let what = "is the session of another cell: give the seed and setup that it began with";
         return Err(Failure::Usage(format!("{}: {what}", path.display())));
     }
     let host = Host::new(folder);
-    match &args.script {
-        Some(script) => play(&mut Player::new(host, cell), script, global),
-        None => serve(Live::begin(host, cell), args, global),
+    match (&args.script, cell) {
+        (Some(script), Cell::Virtual(cell)) => play(&mut Player::new(host, cell), script, global),
+        (_, cell) => serve(Live::begin(host, cell), args, global),
     }
+}
+
+/// What the command line says of a cell; the rest is asked on the page.
+fn settings(args: &SessionArgs) -> Result<CellSettings, Failure> {
+    let usual = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
+    let target = args.target.as_deref().map(read_target).transpose()?;
+    Writing::of(&args.notation).map_err(Failure::Usage)?;
+    Ok(CellSettings {
+        setup: args.setup,
+        target: target.unwrap_or(usual),
+        intrinsics: args
+            .intrinsics
+            .as_deref()
+            .map(|file| read_intrinsics(file, None, None))
+            .transpose()?,
+        tolerance_mm: args.tolerance_mm,
+        notation: args.notation.clone(),
+        guess: None,
+    })
 }
 
 fn play(player: &mut Player, script: &PathBuf, global: &GlobalArgs) -> Result<u8, Failure> {

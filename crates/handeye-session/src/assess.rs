@@ -7,7 +7,7 @@ use handeye::{
 };
 use handeye_io::{
     Error, SessionFolder,
-    calibrate::calibrate_measured,
+    calibrate::{calibrate_measured, is_too_inaccurate_alone},
     measure::{self, Measurements},
     plan::{self, PlanOptions},
 };
@@ -80,8 +80,12 @@ impl Assessment {
     /// The error that the calibration states (95 %), mm; `None` where it determines none.
     pub fn p95_mm(&self) -> Option<f64> {
         let is_known = self.calibration.verdict != Verdict::Undetermined;
-        let error = self.calibration.predicted_tre_mm.as_ref().filter(|_| is_known)?;
-        Some(error.at_task_p95.unwrap_or(error.p95))
+        self.calibration.predicted_tre_mm.as_ref().filter(|_| is_known).map(|error| error.p95)
+    }
+
+    /// Whether nothing is wrong but that the tolerance is not reached.
+    pub fn is_only_inaccurate(&self) -> bool {
+        self.calibration.verdict == Verdict::Rejected && is_too_inaccurate_alone(&self.calibration)
     }
 }
 

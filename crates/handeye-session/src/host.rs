@@ -1,8 +1,8 @@
 //! Does what the engine wants done: stores, assesses, writes.
 
-use std::{collections::VecDeque, path::Path, sync::Arc};
+use std::{path::Path, sync::Arc};
 
-use handeye::{Config, GrayImage};
+use handeye::Config;
 use handeye_io::{
     Error, NewCapture, ResultFolder, SessionFolder,
     calibrate::{calibrate_dataset, write_run},
@@ -14,35 +14,8 @@ use handeye_io::{
 use crate::{
     assess::assess,
     engine::{Effect, FolderState, Input, Written},
-    sources::virtual_cell::VirtualCell,
+    sources::{outlet::Picture, virtual_cell::VirtualCell},
 };
-
-/// Pictures that may still be stored, by their numbers.
-#[derive(Default)]
-pub struct Pictures(VecDeque<(u64, Arc<GrayImage>)>);
-
-/// A capture is of one of the last pictures.
-const KEPT_PICTURES: usize = 16;
-
-impl Pictures {
-    /// Keeps a picture, and forgets old ones.
-    pub fn keep(&mut self, frame: u64, picture: Arc<GrayImage>) {
-        self.0.push_back((frame, picture));
-        if self.0.len() > KEPT_PICTURES {
-            self.0.pop_front();
-        }
-    }
-
-    /// One of them.
-    pub fn get(&self, frame: u64) -> Option<Arc<GrayImage>> {
-        self.0.iter().find(|(number, _)| *number == frame).map(|(_, picture)| picture.clone())
-    }
-
-    /// The newest.
-    pub fn newest(&self) -> Option<(u64, Arc<GrayImage>)> {
-        self.0.back().cloned()
-    }
-}
 
 /// The folder, and what was measured in it.
 pub struct Host {
@@ -75,8 +48,8 @@ impl Host {
         }
     }
 
-    /// Does it; returns what it led to. Effects of a virtual cell are not for it.
-    pub fn perform(&mut self, effect: Effect, picture: Option<Arc<GrayImage>>) -> Vec<Input> {
+    /// Does it; returns what it led to. Effects for sources are not for it.
+    pub fn perform(&mut self, effect: Effect, picture: Option<Picture>) -> Vec<Input> {
         match effect {
             Effect::Store { robot, image_time_s, .. } => {
                 let Some(picture) = picture else {
@@ -84,13 +57,15 @@ impl Host {
                         "the picture is gone: take the capture again".into()
                     ))];
                 };
-                let png = simulated::picture(&picture);
+                let own = picture.file.as_ref().map(|(ending, bytes)| (&ending[..], &bytes[..]));
+                let made = own.is_none().then(|| simulated::picture(&picture.image));
+                let made = made.as_ref().map(|png| ("png", &png[..]));
                 let stored = self.folder.take(&NewCapture {
                     base_from_flange: robot.base_from_flange,
                     joints: &robot.joints,
                     robot_time_s: Some(robot.time_s),
                     image_time_s: Some(image_time_s),
-                    image: Some(("png", &png)),
+                    image: own.or(made),
                     scan: None,
                 });
                 let stored = stored.map_err(|e| e.to_string());
@@ -118,7 +93,7 @@ impl Host {
                 vec![Input::Assessed { generation, assessment }]
             }
             Effect::Write => vec![Input::Written(self.write().map_err(|e| e.to_string()))],
-            Effect::Drive(_) | Effect::Jog(..) => vec![],
+            Effect::Drive(_) | Effect::Jog(..) | Effect::Grab => vec![],
         }
     }
 

@@ -2,24 +2,43 @@
 //! slow: a disk that hangs stops captures, and neither the page nor the robot's numbers.
 
 use std::{
+    collections::VecDeque,
     path::{Path, PathBuf},
     sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
+        Arc,
         mpsc::{self, Receiver, RecvTimeoutError, Sender},
     },
     thread,
     time::{Duration, Instant},
 };
 
-use handeye::detect;
 use tokio::sync::{oneshot, watch};
 
 use crate::{
-    engine::{Command, Effect, Engine, Input, Refusal, rest::PictureSample},
-    host::{Host, Pictures, drive},
-    sources::virtual_cell::VirtualCell,
+    engine::{Command, Effect, Engine, Flow, Input, Refusal, Sources, view::CaptureDetail},
+    host::{Host, drive},
+    sources::{
+        command, folder,
+        outlet::{Outlet, Picture, Wanted},
+        virtual_cell::VirtualCell,
+    },
 };
+
+/// Where poses and pictures come from.
+pub enum Cell {
+    /// A virtual cell.
+    Virtual(VirtualCell),
+    /// Poses are typed; pictures come from somewhere.
+    Hand(Camera),
+}
+
+/// Where pictures come from, one by one.
+pub enum Camera {
+    /// A folder in which another program saves them.
+    Folder(PathBuf),
+    /// A command that takes one, with `{out}` for the file that it writes.
+    Command(String),
+}
 
 /// What is shown, as JSON, and its version.
 #[derive(Debug, Clone, Default)]
@@ -28,57 +47,55 @@ pub struct Shown {
     pub version: u64,
     /// The state.
     pub json: Arc<str>,
+    /// What was measured in captures.
+    pub details: Arc<Vec<CaptureDetail>>,
 }
 
 /// A session that runs, for those who show it and ask things of it.
 #[derive(Clone)]
 pub struct Live {
-    asked: Sender<Message>,
+    asked: Sender<Asked>,
     shown: watch::Receiver<Shown>,
     frames: watch::Receiver<u64>,
-    pictures: Arc<Mutex<Pictures>>,
+    outlet: Outlet,
     folder: PathBuf,
 }
 
-/// What comes to the engine.
-enum Message {
-    Input(Input),
-    /// A command, and who waits for the answer: the version that has it.
-    Command(Command, oneshot::Sender<Result<u64, Refusal>>),
-}
+/// A command, and who waits for the answer: the version that has it.
+struct Asked(Command, oneshot::Sender<Result<u64, Refusal>>);
 
 /// How often the state is shown anew, at most.
 const SHOWN: Duration = Duration::from_millis(100);
+/// Inputs are waited for so long before commands are looked at.
+const TICK: Duration = Duration::from_millis(20);
 /// Between two poses of a virtual robot, and two pictures of its camera.
 const POSES: Duration = Duration::from_millis(40);
 const PICTURES: Duration = Duration::from_millis(200);
 
 impl Live {
-    /// Begins a session with a virtual cell.
-    pub fn begin(host: Host, cell: VirtualCell) -> Self {
-        let (asked, inbox) = mpsc::channel();
+    /// Begins a session.
+    pub fn begin(host: Host, cell: Cell) -> Self {
+        let (asked, asking) = mpsc::channel();
+        let (inputs, inbox) = mpsc::channel();
         let (show, shown) = watch::channel(Shown::default());
         let (show_frame, frames) = watch::channel(0);
-        let pictures = Arc::new(Mutex::new(Pictures::default()));
         let folder = host.path().to_path_buf();
-        let cell = Arc::new(cell);
-        let begin = Instant::now();
-        let clock = move || begin.elapsed().as_secs_f64();
-        robot(cell.clone(), asked.clone(), clock);
-        camera(cell.clone(), asked.clone(), pictures.clone(), show_frame, clock);
-        let (engine, effects) = Engine::new(host.state(), true);
-        let work = worker(host, asked.clone());
+        let state = host.state();
+        let outlet = Outlet::new(inputs.clone(), wanted(&state.settings), show_frame);
+        let (sources, equipment) = connect(cell, &outlet);
+        let (engine, effects) = Engine::new(state, sources);
         let runner = Runner {
             engine,
-            cell,
-            work,
-            pictures: pictures.clone(),
+            equipment,
+            work: worker(host, inputs),
+            outlet: outlet.clone(),
             show,
             folder: folder.clone(),
-            clock: Box::new(clock),
+            details: Arc::default(),
+            detailed: 0,
         };
-        thread::spawn(move || runner.run(&inbox, effects));
-        Self { asked, shown, frames, pictures, folder }
+        thread::spawn(move || runner.run((&inbox, &asking), effects));
+        Self { asked, shown, frames, outlet, folder }
     }
 
     /// Asks for something; the answer comes at once, what it leads to is in the state.
@@ -88,7 +105,7 @@ impl Live {
     pub async fn command(&self, command: Command) -> Result<u64, Refusal> {
         let (answer, answered) = oneshot::channel();
         let gone = || Refusal { message: "the session has ended".into(), later: true };
-        self.asked.send(Message::Command(command, answer)).map_err(|_| gone())?;
+        self.asked.send(Asked(command, answer)).map_err(|_| gone())?;
         answered.await.unwrap_or_else(|_| Err(gone()))
     }
 
@@ -103,8 +120,8 @@ impl Live {
     }
 
     /// The newest picture, and its number.
-    pub fn newest_picture(&self) -> Option<(u64, Arc<handeye::GrayImage>)> {
-        self.pictures.lock().unwrap_or_else(PoisonError::into_inner).newest()
+    pub fn newest_picture(&self) -> Option<(u64, Picture)> {
+        self.outlet.pictures().newest()
     }
 
     /// The folder.
@@ -113,94 +130,138 @@ impl Live {
     }
 }
 
+fn wanted(settings: &handeye_io::CellSettings) -> Wanted {
+    Wanted { target: settings.target.clone(), intrinsics: settings.intrinsics }
+}
+
+/// What effects for sources go to.
+enum Equipment {
+    Virtual(Arc<VirtualCell>),
+    Command(Sender<()>),
+    Nothing,
+}
+
+/// Starts the threads of the sources.
+fn connect(cell: Cell, outlet: &Outlet) -> (Sources, Equipment) {
+    let by_hand = |takes_pictures| Sources {
+        robot: Flow::Single,
+        camera: Flow::Single,
+        takes_pictures,
+        is_virtual: false,
+    };
+    match cell {
+        Cell::Virtual(cell) => {
+            let cell = Arc::new(cell);
+            virtual_robot(cell.clone(), outlet.clone());
+            virtual_camera(cell.clone(), outlet.clone());
+            (Sources::VIRTUAL, Equipment::Virtual(cell))
+        }
+        Cell::Hand(Camera::Folder(path)) => {
+            folder::watch(path, outlet.clone());
+            (by_hand(false), Equipment::Nothing)
+        }
+        Cell::Hand(Camera::Command(line)) => {
+            (by_hand(true), Equipment::Command(command::grabber(line, outlet.clone())))
+        }
+    }
+}
+
 /// The engine's thread.
 struct Runner {
     engine: Engine,
-    cell: Arc<VirtualCell>,
-    work: Sender<(Effect, Option<Arc<handeye::GrayImage>>)>,
-    pictures: Arc<Mutex<Pictures>>,
+    equipment: Equipment,
+    work: Sender<(Effect, Option<Picture>)>,
+    outlet: Outlet,
     show: watch::Sender<Shown>,
     folder: PathBuf,
-    clock: Box<dyn Fn() -> f64 + Send>,
+    details: Arc<Vec<CaptureDetail>>,
+    detailed: u64,
 }
 
 impl Runner {
-    fn run(mut self, inbox: &Receiver<Message>, effects: Vec<Effect>) {
+    fn run(mut self, (inbox, asking): (&Receiver<Input>, &Receiver<Asked>), effects: Vec<Effect>) {
         self.perform(effects);
-        let mut shown = Instant::now() - SHOWN;
+        let mut shown: Option<Instant> = None;
         loop {
             let mut urgent = false;
-            match inbox.recv_timeout(SHOWN) {
-                Ok(message) => urgent = self.take(message),
+            match inbox.recv_timeout(TICK) {
+                Ok(input) => urgent = self.take(input),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return,
             }
-            while let Ok(message) = inbox.try_recv() {
-                urgent |= self.take(message);
+            while let Ok(input) = inbox.try_recv() {
+                urgent |= self.take(input);
             }
-            let effects = self.engine.step(Input::Clock((self.clock)())).unwrap_or_default();
-            self.perform(effects);
-            if urgent || shown.elapsed() >= SHOWN {
-                shown = Instant::now();
+            while let Ok(asked) = asking.try_recv() {
+                self.answer(asked);
+                urgent = true;
+            }
+            if urgent || shown.is_none_or(|at| at.elapsed() >= SHOWN) {
+                let effects = self.engine.step(Input::Clock(self.outlet.now())).unwrap_or_default();
+                self.perform(effects);
+                shown = Some(Instant::now());
                 self.publish();
             }
         }
     }
 
     /// Whether the state is to be shown at once.
-    fn take(&mut self, message: Message) -> bool {
-        match message {
-            Message::Input(input) => {
-                let is_rare =
-                    !matches!(input, Input::Robot(_) | Input::Picture(_) | Input::Clock(_));
-                let effects = self.engine.step(input).unwrap_or_default();
-                self.perform(effects);
-                is_rare
-            }
-            Message::Command(command, answer) => {
-                let done = self.engine.step(Input::Command(command));
-                let version = done.map(|effects| {
-                    self.perform(effects);
-                    self.engine.version()
-                });
-                // whoever asked may be gone
-                answer.send(version).ok();
-                true
-            }
+    fn take(&mut self, input: Input) -> bool {
+        let is_rare = !matches!(input, Input::Robot(_) | Input::Picture(_) | Input::Clock(_));
+        if let Input::Folder(state) = &input {
+            self.outlet.want(wanted(&state.settings));
         }
+        let effects = self.engine.step(input).unwrap_or_default();
+        self.perform(effects);
+        is_rare
+    }
+
+    fn answer(&mut self, Asked(command, answer): Asked) {
+        let done = self.engine.step(Input::Command(command));
+        let version = done.map(|effects| {
+            self.perform(effects);
+            self.engine.version()
+        });
+        // whoever asked may be gone
+        answer.send(version).ok();
     }
 
     fn perform(&mut self, effects: Vec<Effect>) {
         for effect in effects {
-            if drive(&self.cell, &effect, (self.clock)()) {
-                continue;
-            }
-            let picture = match &effect {
-                Effect::Store { frame, .. } => {
-                    self.pictures.lock().unwrap_or_else(PoisonError::into_inner).get(*frame)
+            match (&effect, &self.equipment) {
+                (Effect::Drive(_) | Effect::Jog(..), Equipment::Virtual(cell)) => {
+                    drive(cell, &effect, self.outlet.now());
                 }
-                _ => None,
-            };
-            self.work.send((effect, picture)).ok();
+                (Effect::Grab, Equipment::Command(ask)) => _ = ask.send(()),
+                _ => {
+                    let picture = match &effect {
+                        Effect::Store { frame, .. } => self.outlet.pictures().get(*frame),
+                        _ => None,
+                    };
+                    self.work.send((effect, picture)).ok();
+                }
+            }
         }
     }
 
-    fn publish(&self) {
+    fn publish(&mut self) {
         let title = self.folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let state = self.engine.view(&self.folder.display().to_string(), &title);
-        let json = serde_json::to_string(&state).unwrap_or_default();
-        self.show.send_replace(Shown { version: state.version, json: json.into() });
+        if self.detailed != state.assessed {
+            (self.detailed, self.details) = (state.assessed, Arc::new(self.engine.details()));
+        }
+        let json = serde_json::to_string(&state).unwrap_or_default().into();
+        let details = self.details.clone();
+        self.show.send_replace(Shown { version: state.version, json, details });
     }
 }
 
 /// The folder's thread.
-fn worker(
-    mut host: Host,
-    back: Sender<Message>,
-) -> Sender<(Effect, Option<Arc<handeye::GrayImage>>)> {
-    let (work, waiting) = mpsc::channel::<(Effect, Option<Arc<handeye::GrayImage>>)>();
+fn worker(mut host: Host, back: Sender<Input>) -> Sender<(Effect, Option<Picture>)> {
+    let (work, waiting) = mpsc::channel::<(Effect, Option<Picture>)>();
+    let is_assess = |effect: &Effect| matches!(effect, Effect::Assess { .. });
     thread::spawn(move || {
-        let mut queue = std::collections::VecDeque::new();
+        let mut queue = VecDeque::new();
         loop {
             if queue.is_empty() {
                 let Ok(next) = waiting.recv() else { return };
@@ -209,12 +270,11 @@ fn worker(
             queue.extend(waiting.try_iter());
             let Some((effect, picture)) = queue.pop_front() else { continue };
             // of several assessments only the last is asked for
-            let is_assess = |e: &Effect| matches!(e, Effect::Assess { .. });
             if is_assess(&effect) && queue.iter().any(|(later, _)| is_assess(later)) {
                 continue;
             }
             for input in host.perform(effect, picture) {
-                if back.send(Message::Input(input)).is_err() {
+                if back.send(input).is_err() {
                     return;
                 }
             }
@@ -223,40 +283,21 @@ fn worker(
     work
 }
 
-fn robot(cell: Arc<VirtualCell>, to: Sender<Message>, clock: impl Fn() -> f64 + Send + 'static) {
+fn virtual_robot(cell: Arc<VirtualCell>, outlet: Outlet) {
     thread::spawn(move || {
-        while to.send(Message::Input(Input::Robot(cell.sample(clock())))).is_ok() {
+        while outlet.robot(cell.sample(outlet.now())) {
             thread::sleep(POSES);
         }
     });
 }
 
-fn camera(
-    cell: Arc<VirtualCell>,
-    to: Sender<Message>,
-    pictures: Arc<Mutex<Pictures>>,
-    show_frame: watch::Sender<u64>,
-    clock: impl Fn() -> f64 + Send + 'static,
-) {
-    let ended = AtomicBool::new(false);
-    let (target, intrinsics) = (cell.settings().target, cell.settings().intrinsics);
+fn virtual_camera(cell: Arc<VirtualCell>, outlet: Outlet) {
     thread::spawn(move || {
-        let mut frame = 0;
-        while !ended.load(Ordering::Relaxed) {
+        for frame in 1.. {
             let begin = Instant::now();
-            frame += 1;
-            let time_s = clock();
-            let picture = Arc::new(cell.picture(time_s, frame));
-            pictures.lock().unwrap_or_else(PoisonError::into_inner).keep(frame, picture.clone());
-            show_frame.send_replace(frame);
-            let corners = detect::detect_with(&picture, &target, intrinsics.as_ref());
-            let sample = PictureSample {
-                frame,
-                time_s,
-                size: (picture.width() as u32, picture.height() as u32),
-                corners: corners.map_err(|e| e.to_string()),
-            };
-            if to.send(Message::Input(Input::Picture(sample))).is_err() {
+            let time_s = outlet.now();
+            let image = Arc::new(cell.picture(time_s, frame));
+            if !outlet.picture(Picture { image, file: None }, time_s) {
                 return;
             }
             thread::sleep(PICTURES.saturating_sub(begin.elapsed()));

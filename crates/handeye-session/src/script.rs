@@ -13,9 +13,12 @@ use handeye::{TargetModel, detect};
 use serde::Deserialize;
 
 use crate::{
-    engine::{Command, Effect, Engine, Input, rest::PictureSample, view::State},
-    host::{Host, Pictures, drive},
-    sources::virtual_cell::VirtualCell,
+    engine::{Command, Effect, Engine, Input, Sources, rest::PictureSample, view::State},
+    host::{Host, drive},
+    sources::{
+        outlet::{Picture, Pictures},
+        virtual_cell::VirtualCell,
+    },
 };
 
 /// A line of a script.
@@ -79,7 +82,7 @@ impl Player {
     pub fn new(host: Host, cell: VirtualCell) -> Self {
         let folder = host.state();
         let target = folder.settings.target.clone();
-        let (engine, effects) = Engine::new(folder, true);
+        let (engine, effects) = Engine::new(folder, Sources::VIRTUAL);
         let (pictures, inputs) = (Pictures::default(), VecDeque::new());
         let mut player = Self { engine, host, cell, pictures, target, now: 0.0, frame: 0, inputs };
         player.perform(effects);
@@ -169,7 +172,7 @@ impl Player {
             self.frame += 1;
             if self.frame.is_multiple_of(TICKS) {
                 let picture = Arc::new(self.cell.picture(self.now, self.frame));
-                self.pictures.keep(self.frame, picture.clone());
+                self.pictures.keep(self.frame, Picture { image: picture.clone(), file: None });
                 let camera = self.engine.settings().intrinsics;
                 let corners = detect::detect_with(&picture, &self.target, camera.as_ref());
                 self.inputs.push_back(Input::Picture(PictureSample {

@@ -12,7 +12,7 @@ use super::manifest::{
 use crate::{
     error::{Error, Place, malformed},
     files,
-    robot::{ArmModel, Notation, Rotation, Units, Urdf, suspicious_values},
+    robot::{ArmModel, Column, Notation, Quantity, Rotation, Units, Urdf, suspicious_values},
     table::{self, Layout, Record},
     units::{AngleUnit, farthest, too_far},
 };
@@ -317,6 +317,36 @@ impl Writing {
     /// The names of a pose's numbers, in order.
     pub fn names(&self) -> Vec<&'static str> {
         self.notation.columns.iter().filter_map(|c| c.names.first().copied()).collect()
+    }
+
+    /// Their units, in order; empty for numbers without one.
+    pub fn units(&self) -> Vec<&'static str> {
+        let unit = |column: &Column| match column.quantity {
+            Quantity::Length => self.units.length.name(),
+            Quantity::Angle if self.units.angle == AngleUnit::Degree => "°",
+            Quantity::Angle => "rad",
+            Quantity::Plain => "",
+        };
+        self.notation.columns.iter().map(unit).collect()
+    }
+
+    /// A pose of the flange as it is typed from a pendant.
+    ///
+    /// # Errors
+    /// What was read instead.
+    pub fn typed(&self, text: &str) -> Result<Pose<Base, Flange>, String> {
+        let values = self.notation.typed(text)?;
+        let written = self.notation.pose(&values, self.units)?;
+        if let Some(far) = farthest(written.translation.vector.as_slice()) {
+            let unit = self.units.length.name();
+            return Err(format!(
+                "{far:.0} m is farther than any robot reaches: lengths of {} are in {unit}",
+                self.notation.name
+            ));
+        }
+        let written = if self.inverted { written.inverse() } else { written };
+        let base_from_tool: Pose<Base, Tool> = Pose::claim(written);
+        Ok(base_from_tool * self.flange_from_tool.inverse())
     }
 
     /// A pose of the flange as numbers, in order.

@@ -9,6 +9,7 @@ mod generic;
 mod makers;
 mod rotation;
 mod suspicion;
+mod typed;
 mod universal_robots;
 mod urdf;
 mod urdf_shapes;

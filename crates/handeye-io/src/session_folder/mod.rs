@@ -248,6 +248,10 @@ impl SessionFolder {
                 }
             }
         }
+        // only those that are empty go
+        ["deleted/images", "deleted/scans", DELETED]
+            .iter()
+            .for_each(|name| _ = fs::remove_dir(self.root.join(name)));
         self.write_if_changed("robot.csv", &self.table())?;
         self.write_if_changed(MANIFEST, &manifest::text(&self.settings, &self.journal.standing()))
     }

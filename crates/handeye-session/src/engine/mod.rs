@@ -8,6 +8,7 @@
 //! capture is part of the state.
 
 mod command;
+mod hand;
 pub mod rest;
 mod say;
 pub mod view;
@@ -47,6 +48,43 @@ pub enum Input {
     },
     /// The result was written, or why not.
     Written(Result<Written, String>),
+    /// A source has trouble.
+    Trouble {
+        /// A fixed name.
+        code: String,
+        /// What.
+        message: String,
+        /// What to do.
+        advice: String,
+    },
+}
+
+/// How poses or pictures come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// All the time: whether they stand is seen.
+    Stream,
+    /// One by one, from a person or a program that knows when.
+    Single,
+}
+
+/// What a session has for sources.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sources {
+    /// How poses come.
+    pub robot: Flow,
+    /// How pictures come.
+    pub camera: Flow,
+    /// Whether a picture is taken when it is asked for.
+    pub takes_pictures: bool,
+    /// Whether robot and camera are virtual.
+    pub is_virtual: bool,
+}
+
+impl Sources {
+    /// Those of a virtual cell.
+    pub const VIRTUAL: Self =
+        Self { robot: Flow::Stream, camera: Flow::Stream, takes_pictures: false, is_virtual: true };
 }
 
 /// The files of a result.
@@ -100,6 +138,8 @@ pub enum Effect {
     },
     /// Write the result.
     Write,
+    /// Take a picture.
+    Grab,
     /// Drive the robot of a virtual cell; no other robot can be moved.
     Drive(Pose<Base, Flange>),
     /// Move the robot of a virtual cell a little, in the camera's axes (mm, degrees).
@@ -138,7 +178,7 @@ pub struct Engine {
     version: u64,
     step: Step,
     farthest: Step,
-    is_virtual: bool,
+    sources: Sources,
     folder: FolderState,
     robot: VecDeque<RobotSample>,
     pictures: VecDeque<PictureSample>,
@@ -154,9 +194,12 @@ pub struct Engine {
     assessed: Option<Arc<Assessment>>,
     generation: u64,
     assessing: bool,
+    assessments: u64,
     history: Vec<(usize, f64)>,
     problem: Option<view::Problem>,
     written: Option<Written>,
+    used: hand::Used,
+    grabbing: bool,
 }
 
 /// A capture that is waited for.
@@ -178,7 +221,7 @@ enum Change {
 
 impl Engine {
     /// A session of a folder as it is; with captures it goes on with them.
-    pub fn new(folder: FolderState, is_virtual: bool) -> (Self, Vec<Effect>) {
+    pub fn new(folder: FolderState, sources: Sources) -> (Self, Vec<Effect>) {
         let silent = || Motion::Moves("nothing has come yet".into());
         let step = if folder.captures.is_empty() { Step::Cell } else { Step::Capture };
         let mut engine = Self {
@@ -186,7 +229,7 @@ impl Engine {
             version: 1,
             step,
             farthest: step,
-            is_virtual,
+            sources,
             folder,
             robot: VecDeque::new(),
             pictures: VecDeque::new(),
@@ -206,9 +249,12 @@ impl Engine {
             assessed: None,
             generation: 0,
             assessing: false,
+            assessments: 0,
             history: vec![],
             problem: None,
             written: None,
+            used: hand::Used::default(),
+            grabbing: false,
         };
         let effects = engine.assess();
         (engine, effects)
@@ -250,6 +296,11 @@ impl Engine {
             }
             Input::Assessed { generation, assessment } => self.assessed(generation, assessment),
             Input::Written(written) => self.result(written),
+            Input::Trouble { code, message, advice } => {
+                (self.grabbing, self.wish) = (false, None);
+                self.problem = Some(view::Problem { code, message, advice });
+                vec![]
+            }
         };
         self.version += 1;
         Ok(effects)
@@ -264,10 +315,13 @@ impl Engine {
         }
         self.now = self.now.max(sample.time_s);
         self.robot.push_back(sample);
-        while self.robot.front().is_some_and(|old| old.time_s < self.now - KEPT_S) {
+        while self.robot.len() > 1 && self.robot[0].time_s < self.now - KEPT_S {
             self.robot.pop_front();
         }
-        vec![]
+        match self.is_by_hand() {
+            true => self.wait(),
+            false => vec![],
+        }
     }
 
     fn picture(&mut self, sample: PictureSample) -> Vec<Effect> {
@@ -276,8 +330,11 @@ impl Engine {
             self.memory.picture = None;
         }
         self.now = self.now.max(sample.time_s);
+        self.grabbing = false;
+        // looked at again, for another board
+        self.pictures.retain(|old| old.frame != sample.frame);
         self.pictures.push_back(sample);
-        while self.pictures.front().is_some_and(|old| old.time_s < self.now - KEPT_S) {
+        while self.pictures.len() > 1 && self.pictures[0].time_s < self.now - KEPT_S {
             self.pictures.pop_front();
         }
         self.wait()
@@ -300,6 +357,9 @@ impl Engine {
                 self.delays.pop_front();
             }
         }
+        if self.is_by_hand() {
+            self.rest.ready = self.ready_by_hand();
+        }
         if self.automatic && self.wish.is_none() && !self.storing && self.is_elsewhere() {
             self.wish = Some(Wish { since: self.now, why: String::new(), unseen_since: None });
         }
@@ -321,6 +381,7 @@ impl Engine {
     }
 
     fn fulfil(&mut self) -> Vec<Effect> {
+        let by_hand = self.is_by_hand();
         let Some(wish) = &mut self.wish else { return vec![] };
         let ready = match &self.rest.ready {
             Ok(frame) => Ok(*frame),
@@ -339,7 +400,15 @@ impl Engine {
                     image_time_s: picture.time_s - self.delay().unwrap_or(0.0),
                 };
                 (self.wish, self.storing, self.problem) = (None, true, None);
+                self.used.note(frame, robot.time_s);
                 vec![effect]
+            }
+            Err(why) if by_hand => {
+                wish.why = why;
+                match self.unseen_by_hand() {
+                    Some(why) => self.refuse(why),
+                    None => self.grab(),
+                }
             }
             Err(why) => {
                 let stands = matches!(self.rest.robot, Motion::Stands(since) if self.now - since > LOOKING_S);
@@ -418,6 +487,7 @@ impl Engine {
             return vec![];
         }
         self.assessing = false;
+        self.assessments += 1;
         match assessment {
             Ok(assessment) => {
                 let count = self.folder.captures.len();
@@ -498,9 +568,7 @@ impl Engine {
                 self.wish = None;
                 Ok(vec![])
             }
-            Command::Pose { .. } => {
-                Err(later("poses come from the robot in this session, none are typed".into()))
-            }
+            Command::Pose { text } => self.typed(&text),
             Command::Delete { id } => self.delete(id),
             Command::Restore { id } => self.restore(id),
             Command::Retake { id } => self.delete(id),
@@ -513,7 +581,7 @@ impl Engine {
             }
             Command::Finish => self.finish(),
             Command::Drive { to } => self.drive(to),
-            Command::Jog { move_mm, turn_deg } => match self.is_virtual {
+            Command::Jog { move_mm, turn_deg } => match self.sources.is_virtual {
                 true => Ok(vec![Effect::Jog(move_mm, turn_deg)]),
                 false => Err(only_virtual()),
             },
@@ -553,7 +621,7 @@ impl Engine {
                 "there are captures of the cell as it was: begin a session in a new folder for another camera, board or setup".into(),
             ));
         }
-        if is_other && self.is_virtual {
+        if is_other && self.sources.is_virtual {
             return Err(wrong("a virtual cell has its own setup, camera and board"));
         }
         Ok(vec![Effect::Configure(settings)])
@@ -570,7 +638,7 @@ impl Engine {
             self.wish = Some(Wish { since: self.now, why: String::new(), unseen_since: None });
         }
         self.problem = None;
-        Ok(self.fulfil())
+        Ok(self.wait())
     }
 
     fn delete(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
@@ -605,7 +673,7 @@ impl Engine {
     }
 
     fn drive(&mut self, to: Destination) -> Result<Vec<Effect>, Refusal> {
-        if !self.is_virtual {
+        if !self.sources.is_virtual {
             return Err(only_virtual());
         }
         match (to, self.next()) {

@@ -7,7 +7,7 @@ use handeye::{
 use handeye_io::{StoredCapture, Writing};
 use serde::Serialize;
 
-use super::{Change, Engine, LATE_S, Step, rest::RobotSample, say::standing};
+use super::{Change, Engine, Flow, LATE_S, Step, rest::RobotSample, say::standing};
 use crate::assess::{Assessment, MeasuredCapture, ProposedView};
 
 /// A pixel.
@@ -52,6 +52,8 @@ pub struct State {
     pub can_undo: Option<String>,
     /// Whether the captures are being assessed.
     pub assessing: bool,
+    /// Changes with every assessment: details of captures are to be asked for again.
+    pub assessed: u64,
     /// How far the captures go.
     pub progress: Option<Progress>,
     /// The verification, which is not part of sessions yet.
@@ -108,12 +110,16 @@ pub struct CellView {
 pub struct RobotView {
     /// Whether poses come.
     pub connected: bool,
+    /// Whether they are typed from the pendant.
+    pub typed: bool,
     /// Whether it stands.
     pub stands: bool,
     /// In a sentence.
     pub why: String,
     /// Names of the numbers.
     pub columns: Vec<&'static str>,
+    /// Their units.
+    pub units: Vec<&'static str>,
     /// Its pose in the notation.
     pub numbers: Vec<f64>,
     /// Its joint values, degrees or mm.
@@ -127,6 +133,8 @@ pub struct RobotView {
 pub struct CameraView {
     /// Whether pictures come.
     pub connected: bool,
+    /// Whether they come one by one.
+    pub single: bool,
     /// Width, px.
     pub width: u32,
     /// Height, px.
@@ -162,6 +170,8 @@ pub struct NextView {
     pub after_mm: Option<f64>,
     /// Names of the numbers.
     pub columns: Vec<&'static str>,
+    /// Their units.
+    pub units: Vec<&'static str>,
     /// The pose in the notation.
     pub numbers: Vec<f64>,
     /// Joint values, degrees or mm, where the arm is known.
@@ -223,9 +233,16 @@ pub struct CaptureView {
     pub base_from_flange: Pose<Base, Flange>,
     /// Where the board was.
     pub camera_from_target: Option<Pose<Camera, Target>>,
+}
+
+/// What was measured in a capture's picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct CaptureDetail {
+    /// Its name.
+    pub id: String,
     /// Its corners in the picture.
     pub points: Vec<Pixel>,
-    /// Found minus predicted.
+    /// Found minus predicted; `None` while that is not known.
     pub arrows: Option<Vec<Pixel>>,
 }
 
@@ -250,7 +267,7 @@ pub struct RefusedView {
 pub struct Progress {
     /// How many captures.
     pub captures: usize,
-    /// The verdict on them.
+    /// The verdict on them; undetermined, too, while nothing is wrong but that the tolerance is not reached yet.
     pub verdict: Verdict,
     /// Why.
     pub reasons: Vec<String>,
@@ -322,7 +339,7 @@ impl Engine {
                 target: settings.target.clone(),
                 intrinsics: settings.intrinsics,
                 notation: settings.notation.clone(),
-                is_virtual: self.is_virtual,
+                is_virtual: self.sources.is_virtual,
             },
             robot: self.robot_view(writing.as_ref()),
             camera: self.camera_view(),
@@ -346,10 +363,12 @@ impl Engine {
                 Change::Restored(id) => format!("restore {id}"),
             }),
             assessing: self.assessing,
+            assessed: self.assessments,
             progress: self.assessed.as_ref().map(|a| self.progress(a)),
             verify: None,
             result: self.result_view(),
             virtual_cell: self
+                .sources
                 .is_virtual
                 .then(|| VirtualView { driving: !standing(&self.rest.robot, self.now, "").0 }),
         }
@@ -378,14 +397,21 @@ impl Engine {
     }
 
     fn robot_view(&self, writing: Option<&Writing>) -> RobotView {
-        let (stands, why) = standing(&self.rest.robot, self.now, "the robot");
         let last: Option<&RobotSample> = self.robot.back();
+        let typed = self.sources.robot == Flow::Single;
+        let (stands, why) = match last {
+            Some(last) if typed => (true, format!("typed {:.0} s ago", self.now - last.time_s)),
+            None if typed => (false, "no pose has been typed yet".into()),
+            _ => standing(&self.rest.robot, self.now, "the robot"),
+        };
         let pose = last.map(|s| s.base_from_flange);
         RobotView {
-            connected: last.is_some_and(|s| self.now - s.time_s < 2.0),
+            connected: last.is_some_and(|s| typed || self.now - s.time_s < 2.0),
+            typed,
             stands,
             why,
             columns: writing.map_or(vec![], Writing::names),
+            units: writing.map_or(vec![], Writing::units),
             numbers: writing.zip(pose).map_or(vec![], |(w, pose)| w.numbers(&pose)),
             joints_deg: last.filter(|s| !s.joints.is_empty()).map(|s| degrees(&s.joints)),
             base_from_flange: pose,
@@ -393,12 +419,17 @@ impl Engine {
     }
 
     fn camera_view(&self) -> CameraView {
-        let (stands, why) = standing(&self.rest.picture, self.now, "the picture");
         let last = self.pictures.back();
+        let single = self.sources.camera == Flow::Single;
+        let (stands, why) = match last {
+            Some(last) if single => (true, format!("came {:.0} s ago", self.now - last.time_s)),
+            _ => standing(&self.rest.picture, self.now, "the picture"),
+        };
         let all = self.folder.settings.target.corners().len();
         let corners = last.and_then(|p| p.corners.as_ref().ok());
         CameraView {
-            connected: last.is_some_and(|p| self.now - p.time_s < 2.0),
+            connected: last.is_some_and(|p| single || self.now - p.time_s < 2.0),
+            single,
             width: last.map_or(0, |p| p.size.0),
             height: last.map_or(0, |p| p.size.1),
             frame: last.map_or(0, |p| p.frame),
@@ -426,6 +457,7 @@ impl Engine {
             before_mm: view.before.as_ref().map(|error| error.p95),
             after_mm: view.after.as_ref().map(|error| error.p95),
             columns: writing.map_or(vec![], Writing::names),
+            units: writing.map_or(vec![], Writing::units),
             numbers: writing.map_or(vec![], |w| w.numbers(&pose)),
             joints_deg: view.station.joints.as_deref().map(degrees),
             base_from_flange: pose,
@@ -440,8 +472,6 @@ impl Engine {
         let assessed = self.assessed.as_ref();
         let result =
             assessed.and_then(|a| a.calibration.captures.iter().find(|c| c.id == stored.id));
-        let measured: Option<&MeasuredCapture> =
-            assessed.and_then(|a| a.measured.iter().find(|m| m.id == stored.id));
         CaptureView {
             id: stored.id.clone(),
             time_s: stored.robot_time_s,
@@ -455,19 +485,27 @@ impl Engine {
             corners_3d: result.map_or(0, |c| c.corners_3d),
             base_from_flange: stored.base_from_flange,
             camera_from_target: result.and_then(|c| c.camera_from_target),
-            points: measured
-                .map_or(vec![], |m| m.corners.iter().map(|c| pixel(&c.pixel)).collect()),
-            arrows: measured
-                .filter(|m| !m.residuals.is_empty())
-                .map(|m| m.residuals.iter().map(pixel).collect()),
         }
+    }
+
+    /// What was measured in the captures, beside the state: it is much, and changes with an assessment only.
+    pub fn details(&self) -> Vec<CaptureDetail> {
+        let one = |m: &MeasuredCapture| CaptureDetail {
+            id: m.id.clone(),
+            points: m.corners.iter().map(|c| pixel(&c.pixel)).collect(),
+            arrows: (!m.residuals.is_empty()).then(|| m.residuals.iter().map(pixel).collect()),
+        };
+        self.assessed.as_ref().map_or(vec![], |a| a.measured.iter().map(one).collect())
     }
 
     fn progress(&self, assessed: &Assessment) -> Progress {
         let result = &assessed.calibration;
         Progress {
             captures: result.captures.len(),
-            verdict: result.verdict,
+            verdict: match assessed.is_only_inaccurate() {
+                true => Verdict::Undetermined,
+                false => result.verdict,
+            },
             reasons: result.reasons.clone(),
             p95_mm: assessed.p95_mm(),
             tolerance_mm: self.folder.settings.tolerance_mm,

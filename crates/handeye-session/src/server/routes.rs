@@ -1,6 +1,6 @@
 //! What the server answers.
 
-use std::{path::PathBuf, time::Duration};
+use std::time::Duration;
 
 use axum::{
     Router,
@@ -47,7 +47,7 @@ pub(super) fn router(live: Live, guard: Guard) -> Router {
         .route("/api/state", get(state))
         .route("/api/do", post(command))
         .route("/api/live.jpg", get(live_picture))
-        .route("/api/captures/{name}", get(capture_picture))
+        .route("/api/captures/{name}", get(capture))
         .route("/api/report", get(report))
         .route("/api/formats", get(formats))
         .route("/api/export", get(exported))
@@ -151,7 +151,8 @@ async fn live_picture(State(app): State<App>, Query(After { after }): Query<Afte
     let Some((frame, picture)) = app.live.newest_picture() else {
         return StatusCode::NO_CONTENT.into_response();
     };
-    let shrunk = tokio::task::spawn_blocking(move || small_jpeg(&picture, PICTURE_WIDTH)).await;
+    let shrunk =
+        tokio::task::spawn_blocking(move || small_jpeg(&picture.image, PICTURE_WIDTH)).await;
     let Some((jpeg, ..)) = shrunk.ok().flatten() else {
         return StatusCode::NO_CONTENT.into_response();
     };
@@ -160,21 +161,39 @@ async fn live_picture(State(app): State<App>, Query(After { after }): Query<Afte
     response
 }
 
-/// The picture of a capture: its name is a number, and nothing else is looked for.
-async fn capture_picture(State(app): State<App>, Path(name): Path<String>) -> Response {
+/// The picture of a capture, or what was measured in it: its name is a number, and nothing else is looked for.
+async fn capture(State(app): State<App>, Path(name): Path<String>) -> Response {
     let missing = || refusal(StatusCode::NOT_FOUND, "there is no such capture", "");
-    let Some(id) = name.strip_suffix(".jpg").filter(|id| is_id(id)) else { return missing() };
-    let folder = app.live.folder().to_path_buf();
-    let file = format!("images/{id}.png");
-    let small = move || {
-        let places = [folder.join(&file), folder.join("deleted").join(&file)];
-        let path: &PathBuf = places.iter().find(|path| path.is_file())?;
-        small_jpeg(&read_image(path, None).ok()?, PICTURE_WIDTH)
+    let Some((id, ending)) = name.split_once('.').filter(|(id, _)| is_id(id)) else {
+        return missing();
     };
-    match tokio::task::spawn_blocking(small).await.ok().flatten() {
-        Some((jpeg, ..)) => content(StatusCode::OK, "image/jpeg", jpeg.into()),
-        None => missing(),
+    match ending {
+        "json" => {
+            let details = app.live.shown().borrow().details.clone();
+            match details.iter().find(|detail| detail.id == id) {
+                Some(detail) => answer_json(StatusCode::OK, &json!(detail)),
+                None => missing(),
+            }
+        }
+        "jpg" => {
+            let (folder, id) = (app.live.folder().to_path_buf(), id.to_owned());
+            let small = move || small_jpeg(&capture_image(&folder, &id)?, PICTURE_WIDTH);
+            match tokio::task::spawn_blocking(small).await.ok().flatten() {
+                Some((jpeg, ..)) => content(StatusCode::OK, "image/jpeg", jpeg.into()),
+                None => missing(),
+            }
+        }
+        _ => missing(),
     }
+}
+
+/// A capture's image, whether it stands or was deleted.
+fn capture_image(folder: &std::path::Path, id: &str) -> Option<handeye::GrayImage> {
+    let places = [folder.join("images"), folder.join("deleted/images")];
+    let mut files =
+        places.iter().filter_map(|place| std::fs::read_dir(place).ok()).flatten().flatten();
+    let is_own = |file: &std::fs::DirEntry| file.path().file_stem().is_some_and(|stem| stem == id);
+    read_image(&files.find(is_own)?.path(), None).ok()
 }
 
 fn is_id(id: &str) -> bool {

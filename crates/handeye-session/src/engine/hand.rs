@@ -1,0 +1,114 @@
+//! Captures whose pose or picture does not stream: poses typed from the pendant, pictures saved by another program or taken
+//! when they are asked for. Nobody sees whether robot and camera stand; but a pose and a picture are used once, and one that
+//! is older than what the other shows is none of it.
+
+use handeye_io::Writing;
+
+use super::{
+    Effect, Engine, Flow, Refusal, later,
+    rest::{Motion, RobotSample},
+    wrong,
+};
+
+/// The last pose and picture that a capture was made of.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Used {
+    frame: Option<u64>,
+    pose_s: Option<f64>,
+}
+
+impl Used {
+    pub(super) fn note(&mut self, frame: u64, pose_s: f64) {
+        *self = Self { frame: Some(frame), pose_s: Some(pose_s) };
+    }
+}
+
+impl Engine {
+    /// Whether one of the two does not stream.
+    pub(super) fn is_by_hand(&self) -> bool {
+        [self.sources.robot, self.sources.camera].contains(&Flow::Single)
+    }
+
+    /// The number of the picture that may be taken, or what is still missing.
+    pub(super) fn ready_by_hand(&self) -> Result<u64, String> {
+        let robot_since = match (self.sources.robot, &self.rest.robot) {
+            (Flow::Stream, Motion::Stands(since)) => *since,
+            (Flow::Stream, Motion::Moves(why)) => return Err(why.clone()),
+            (Flow::Single, _) => self.typed_at().ok_or("type the pose that the pendant shows")?,
+        };
+        let picture = self.pictures.back();
+        match self.sources.camera {
+            Flow::Stream => {
+                let since = match &self.rest.picture {
+                    Motion::Stands(since) => *since,
+                    Motion::Moves(why) => return Err(why.clone()),
+                };
+                let newest = picture.ok_or("no picture has come yet")?;
+                match since < robot_since {
+                    true => Ok(newest.frame),
+                    false => {
+                        Err("the picture has changed since the pose was typed: type that of now"
+                            .into())
+                    }
+                }
+            }
+            Flow::Single => {
+                let newest = picture.filter(|p| Some(p.frame) != self.used.frame);
+                let newest = newest.ok_or("waiting for the picture of this pose")?;
+                let is_old = self.sources.robot == Flow::Stream && newest.time_s < robot_since;
+                match &newest.corners {
+                    _ if is_old => {
+                        Err("the picture is of before the standstill: take another one".into())
+                    }
+                    Ok(_) => Ok(newest.frame),
+                    Err(why) => Err(format!("the board is not found: {why}")),
+                }
+            }
+        }
+    }
+
+    /// When the pose was typed that no capture was made of yet.
+    fn typed_at(&self) -> Option<f64> {
+        let typed = self.robot.back()?.time_s;
+        (self.used.pose_s != Some(typed)).then_some(typed)
+    }
+
+    /// Why a picture that has come is of no use.
+    pub(super) fn unseen_by_hand(&mut self) -> Option<String> {
+        let newest = self.pictures.back().filter(|p| Some(p.frame) != self.used.frame)?;
+        if self.sources.camera == Flow::Stream {
+            return None;
+        }
+        let why = newest.corners.as_ref().err()?;
+        let why = format!("the board is not found: {why}");
+        // the pose stays: another picture of it may come
+        self.used.frame = Some(newest.frame);
+        Some(why)
+    }
+
+    /// Asks for the picture, where that can be asked for and the robot stands.
+    pub(super) fn grab(&mut self) -> Vec<Effect> {
+        let has_pose = match self.sources.robot {
+            Flow::Stream => matches!(self.rest.robot, Motion::Stands(_)),
+            Flow::Single => self.typed_at().is_some(),
+        };
+        if self.grabbing || !self.sources.takes_pictures || !has_pose {
+            return vec![];
+        }
+        self.grabbing = true;
+        vec![Effect::Grab]
+    }
+
+    /// A pose that was typed.
+    pub(super) fn typed(&mut self, text: &str) -> Result<Vec<Effect>, Refusal> {
+        if self.sources.robot == Flow::Stream {
+            return Err(later("poses come from the robot in this session, none are typed".into()));
+        }
+        let writing = Writing::of(&self.folder.settings.notation).map_err(wrong)?;
+        let base_from_flange = writing.typed(text).map_err(wrong)?;
+        // each has a time of its own
+        let last = self.robot.back().map_or(f64::NEG_INFINITY, |s| s.time_s);
+        let time_s = self.now.max(last + 1e-6);
+        Ok(self.robot_at(RobotSample { time_s, base_from_flange, joints: vec![] }))
+    }
+}

@@ -1,0 +1,142 @@
+//! A command that takes a picture: it covers every camera whose maker has a library in any language. `{out}` in it is the
+//! file that it writes. It comes from the manifest's side, the command line, and never from the page.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Child, Command, Stdio},
+    sync::mpsc::{self, Sender},
+    thread,
+    time::{Duration, Instant},
+};
+
+use super::{
+    folder,
+    outlet::{Outlet, Picture},
+};
+
+/// A command that takes longer hangs.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Of what it prints, so much is shown.
+const SHOWN_CHARS: usize = 300;
+
+/// Waits to be asked for pictures, and takes them by the command; the answer is the sender to ask by.
+pub fn grabber(command: String, outlet: Outlet) -> Sender<()> {
+    let (ask, asked) = mpsc::channel();
+    thread::spawn(move || {
+        while asked.recv().is_ok() {
+            // several askings at once are one
+            while asked.try_recv().is_ok() {}
+            let alive = match grab(&command, PATIENCE) {
+                Ok(picture) => outlet.picture(picture, outlet.now()),
+                Err(why) => outlet.trouble(
+                    "no-picture",
+                    why,
+                    "run the command by hand: does it write the picture?",
+                ),
+            };
+            if !alive {
+                return;
+            }
+        }
+    });
+    ask
+}
+
+/// Takes one picture.
+fn grab(command: &str, patience: Duration) -> Result<Picture, String> {
+    let folder =
+        handeye_io::temporary_folder().join(format!("handeye-grab-{}", handeye_io::process()));
+    fs::remove_dir_all(&folder).ok();
+    fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let taken = grab_in(&folder, command, patience);
+    fs::remove_dir_all(&folder).ok();
+    taken
+}
+
+fn grab_in(folder: &Path, command: &str, patience: Duration) -> Result<Picture, String> {
+    let out = folder.join("picture.png");
+    let (printed, errors) = (folder.join("stdout"), folder.join("stderr"));
+    let file =
+        |path: &PathBuf| fs::File::create(path).map_err(|e| format!("{}: {e}", path.display()));
+    let child = shell(&command.replace("{out}", &out.display().to_string()))
+        .stdin(Stdio::null())
+        .stdout(file(&printed)?)
+        .stderr(file(&errors)?)
+        .spawn()
+        .map_err(|e| format!("the command cannot be run: {e}"))?;
+    let said = || {
+        let text = [&errors, &printed].map(|path| fs::read(path).unwrap_or_default()).concat();
+        let text = String::from_utf8_lossy(&text);
+        let last: Vec<char> = text.trim().chars().rev().take(SHOWN_CHARS).collect();
+        last.into_iter().rev().filter(|c| !c.is_control() || *c == '\n').collect::<String>()
+    };
+    match ended(child, patience)? {
+        None => {
+            return Err(format!(
+                "the command has not ended after {} s: {}",
+                patience.as_secs(),
+                said()
+            ));
+        }
+        Some(false) => return Err(format!("the command has failed: {}", said())),
+        Some(true) => {}
+    }
+    let length = fs::metadata(&out)
+        .map_err(|_| format!("the command has written no picture to {{out}}: {}", said()))?
+        .len();
+    folder::read(&out, length).map(|(picture, _)| picture)
+}
+
+fn shell(command: &str) -> Command {
+    let (program, option) = if cfg!(windows) { ("cmd", "/C") } else { ("sh", "-c") };
+    let mut shell = Command::new(program);
+    // in place of the shell, so that ending it ends the command
+    let command = if cfg!(windows) { command.to_owned() } else { format!("exec {command}") };
+    shell.args([option, &command]);
+    shell
+}
+
+/// Whether it has succeeded; `None` where it had to be ended.
+fn ended(mut child: Child, patience: Duration) -> Result<Option<bool>, String> {
+    let begin = Instant::now();
+    while begin.elapsed() < patience {
+        match child.try_wait() {
+            Ok(Some(status)) => return Ok(Some(status.success())),
+            Ok(None) => thread::sleep(Duration::from_millis(20)),
+            Err(e) => return Err(format!("the command is lost: {e}")),
+        }
+    }
+    child.kill().ok();
+    child.wait().ok();
+    Ok(None)
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use handeye_io::simulated;
+
+    use super::*;
+
+    #[test]
+    fn commands_that_fail_hang_or_write_rubbish_are_named() {
+        let source =
+            std::env::temp_dir().join(format!("handeye-grab-source-{}.png", std::process::id()));
+        let png = simulated::picture(&handeye::GrayImage::new(32, 16, vec![9.0; 512]).unwrap());
+        fs::write(&source, &png).unwrap();
+        let quick = Duration::from_millis(600);
+        let picture = grab(&format!("cp {} {{out}}", source.display()), quick).unwrap();
+        assert_eq!(picture.file.unwrap().1[..], png[..]);
+        for (command, said) in [
+            ("sh -c 'echo no camera 4711 >&2; exit 3'", "no camera 4711"),
+            ("sleep 30", "has not ended"),
+            ("true", "written no picture"),
+            ("sh -c 'echo half > {out}'", "picture.png"),
+            ("this-is-no-program", "has failed"),
+        ] {
+            let message = grab(command, quick).unwrap_err();
+            assert!(message.contains(said), "{command}: {message}");
+        }
+        fs::remove_file(source).unwrap();
+    }
+}
