@@ -14,6 +14,7 @@ mod real_data;
 mod register;
 mod scene;
 mod scripts;
+mod session;
 mod simulate_and_demo;
 mod solve;
 mod view;

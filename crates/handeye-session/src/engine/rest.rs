@@ -273,12 +273,12 @@ fn picture_motion(pictures: &[PictureSample], memory: &mut Memory, now: f64) -> 
         return Motion::Moves(format!("no picture for {:.0} s", now - last.time_s));
     }
     let corners = match &last.corners {
-        Ok(corners) => corners,
+        Ok(corners) => Sorted::new(corners),
         Err(why) => return Motion::Moves(format!("the board is not found: {why}")),
     };
     // how far the corners were from where they are
     let shift = |p: &PictureSample| {
-        p.corners.as_ref().ok().and_then(|before| Shift::between(before, corners))
+        p.corners.as_ref().ok().and_then(|before| Shift::between(before, &corners))
     };
     let shifts: Vec<(f64, Option<Shift>)> = pictures.iter().map(|p| (p.time_s, shift(p))).collect();
     let mut moves = "the picture has just come to rest".to_owned();
@@ -319,6 +319,21 @@ fn picture_since(shifts: &[(f64, Option<Shift>)]) -> Option<f64> {
     shifts.get(last + 1).map(|(time, _)| *time)
 }
 
+/// Corners by their ids.
+struct Sorted(Vec<ImageCorner>);
+
+impl Sorted {
+    fn new(corners: &[ImageCorner]) -> Self {
+        let mut sorted = corners.to_vec();
+        sorted.sort_by_key(|corner| corner.id);
+        Self(sorted)
+    }
+
+    fn find(&self, id: u32) -> Option<&ImageCorner> {
+        self.0.binary_search_by_key(&id, |corner| corner.id).ok().map(|k| &self.0[k])
+    }
+}
+
 /// How far the target has moved in the image between two pictures, as an affine motion of its corners.
 #[derive(Clone, Copy)]
 struct Shift {
@@ -330,9 +345,9 @@ struct Shift {
 
 impl Shift {
     /// `None` where too few corners are in both.
-    fn between(before: &[ImageCorner], after: &[ImageCorner]) -> Option<Self> {
+    fn between(before: &[ImageCorner], after: &Sorted) -> Option<Self> {
         let pair = |b: &ImageCorner| {
-            let a = after.iter().find(|a| a.id == b.id)?;
+            let a = after.find(b.id)?;
             Some((a.pixel, b.pixel - a.pixel))
         };
         let pairs: Vec<(Vector2<f64>, Vector2<f64>)> = before.iter().filter_map(pair).collect();
@@ -354,8 +369,12 @@ impl Shift {
         let square =
             |f: &dyn Fn(&(Vector2<f64>, Vector2<f64>)) -> f64| pairs.iter().map(f).sum::<f64>();
         let length = (square(&|(at, _)| moved(at).norm_squared()) / n).sqrt();
+        // of few corners the scatter says little: they are no better than what is stated of them
+        let stated = |c: &ImageCorner| c.covariance.trace() / 2.0;
+        let mean = |all: &[ImageCorner]| all.iter().map(stated).sum::<f64>() / all.len() as f64;
         let freedom = (2.0 * n - 6.0).max(1.0);
-        let scatter = (square(&|(at, by)| (by - moved(at)).norm_squared()) / freedom).sqrt();
+        let scatter = square(&|(at, by)| (by - moved(at)).norm_squared()) / freedom;
+        let scatter = scatter.max(mean(before) + mean(&after.0)).sqrt();
         // six numbers are fitted to 2n
         Some(Self { length, sigma: scatter.max(LEAST_PX) * (6.0 / n).sqrt() })
     }

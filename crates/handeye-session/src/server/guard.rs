@@ -1,5 +1,7 @@
 //! Who may ask: those who have the token, from no page but the session's own.
 
+use std::time::Duration;
+
 use axum::{
     body::Body,
     extract::{Request, State},
@@ -88,8 +90,21 @@ pub(super) async fn check(State(app): State<App>, request: Request, next: Next) 
     if !guard.has_token(headers) {
         return not_signed_in();
     }
-    next.run(request).await
+    let length = text(header::CONTENT_LENGTH).and_then(|length| length.parse().ok());
+    if length.is_some_and(|bytes: u64| bytes > LARGEST_BYTES) {
+        let advice = "pictures come from the camera's side, not from the page";
+        return refusal(StatusCode::PAYLOAD_TOO_LARGE, "this is too much", advice);
+    }
+    let answered = tokio::time::timeout(PATIENCE, next.run(request)).await;
+    answered.unwrap_or_else(|_| {
+        refusal(StatusCode::REQUEST_TIMEOUT, "the request has not come to its end", "ask again")
+    })
 }
+
+/// No command is longer, bytes.
+const LARGEST_BYTES: u64 = 1 << 20;
+/// A request that is still being sent after so long is given up.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 fn token_in(query: Option<&str>) -> Option<&str> {
     query?.split('&').find_map(|pair| pair.strip_prefix("token="))

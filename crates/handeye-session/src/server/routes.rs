@@ -113,10 +113,8 @@ struct After {
 
 async fn state(State(app): State<App>, Query(After { after }): Query<After>) -> Response {
     let mut shown = app.live.shown();
-    if let Some(after) = after {
-        let newer = shown.wait_for(|state| state.version > after);
-        tokio::time::timeout(STATE_PATIENCE, newer).await.ok();
-    }
+    let newer = shown.wait_for(|state| state.version > after.unwrap_or(0));
+    tokio::time::timeout(STATE_PATIENCE, newer).await.ok();
     let json = shown.borrow_and_update().json.clone();
     content(StatusCode::OK, "application/json", Bytes::copy_from_slice(json.as_bytes()))
 }

@@ -3,9 +3,9 @@
 use std::sync::{Mutex, PoisonError};
 
 use handeye::{
-    Base, Error, Flange, GrayImage, HandEye, Intrinsics, Pose, Setup,
+    Base, Error, Flange, GrayImage, HandEye, ImageCorner, Intrinsics, Pose, Setup,
     math::random::Random,
-    nalgebra::{Rotation3, UnitQuaternion, Vector3},
+    nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3},
     simulate::{Cell, CellNoise, Optics, Scene},
 };
 use handeye_io::{CameraGuess, CellSettings};
@@ -166,17 +166,38 @@ impl VirtualCell {
         there * error(&rotation, &position)
     }
 
+    /// Where the flange really is now.
+    pub fn standing(&self, now: f64) -> Pose<Base, Flange> {
+        let robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
+        robot.at(now, &self.faults).0
+    }
+
+    /// Where the flange really is in the picture that comes at this moment.
+    pub fn pictured(&self, now: f64) -> Pose<Base, Flange> {
+        self.standing(now - self.faults.picture_delay_s)
+    }
+
+    fn scene(&self, now: f64) -> Scene {
+        let seen = self.cell.hand_eye.camera_from_target(self.cell.setup, &self.pictured(now));
+        let (target, intrinsics) = (self.cell.target.clone(), self.cell.intrinsics);
+        Scene { target, camera_from_target: seen, intrinsics }
+    }
+
+    /// The corners of that picture, projected with noise instead of detected: quick.
+    pub fn corners(&self, now: f64, random: &mut Random) -> Vec<ImageCorner> {
+        let sigma = self.cell.noise.corner_px;
+        let covariance = Matrix2::identity() * sigma * sigma;
+        let mut noisy = |(id, exact): (u32, Vector2<f64>)| {
+            let pixel = exact + Vector2::new(random.normal(), random.normal()) * sigma;
+            ImageCorner { id, pixel, covariance }
+        };
+        let exact = self.scene(now).corners();
+        exact.into_iter().map(&mut noisy).collect()
+    }
+
     /// The picture that comes at this moment; number `frame` decides on its noise.
     pub fn picture(&self, now: f64, frame: u64) -> GrayImage {
-        let robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
-        let there = robot.at(now - self.faults.picture_delay_s, &self.faults).0;
-        drop(robot);
-        let scene = Scene {
-            target: self.cell.target.clone(),
-            camera_from_target: self.cell.hand_eye.camera_from_target(self.cell.setup, &there),
-            intrinsics: self.cell.intrinsics,
-        };
-        scene.picture(&Optics::default(), frame)
+        self.scene(now).picture(&Optics::default(), frame)
     }
 }
 

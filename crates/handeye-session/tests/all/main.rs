@@ -1,3 +1,22 @@
-//! Sessions from outside: with a virtual cell, whose truth is known.
+//! Sessions from outside: with virtual cells, whose truth is known.
 
+mod by_hand;
+mod standstill;
 mod virtual_cell;
+
+use std::{
+    fs,
+    path::PathBuf,
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+static FOLDERS: AtomicUsize = AtomicUsize::new(0);
+
+/// A name for a folder that is not there yet.
+fn new_folder() -> PathBuf {
+    let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
+    let name = format!("handeye-live-{}-{number}", std::process::id());
+    let root = std::env::temp_dir().join(name);
+    fs::remove_dir_all(&root).ok();
+    root
+}

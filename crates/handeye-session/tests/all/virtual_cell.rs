@@ -1,8 +1,6 @@
-use std::{
-    fs,
-    path::PathBuf,
-    sync::atomic::{AtomicUsize, Ordering},
-};
+//! A session from nothing to a result, played by a script.
+
+use std::{fs, path::Path};
 
 use handeye::{Config, Setup, Verdict};
 use handeye_io::{Dataset, SessionFolder, calibrate::calibrate_dataset, read_result};
@@ -13,18 +11,10 @@ use handeye_session::{
     sources::virtual_cell::{Faults, VirtualCell},
 };
 
-static FOLDERS: AtomicUsize = AtomicUsize::new(0);
+use crate::new_folder;
 
-fn new_folder() -> PathBuf {
-    let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
-    let name = format!("handeye-virtual-{}-{number}", std::process::id());
-    let root = std::env::temp_dir().join(name);
-    fs::remove_dir_all(&root).ok();
-    root
-}
-
-fn player(root: &std::path::Path, setup: Setup, seed: u64, faults: Faults) -> Player {
-    let cell = VirtualCell::new(setup, seed, faults).unwrap();
+fn player(root: &Path, setup: Setup, seed: u64) -> Player {
+    let cell = VirtualCell::new(setup, seed, Faults::default()).unwrap();
     let folder = SessionFolder::open(root, Some(&cell.settings())).unwrap();
     Player::new(Host::new(folder), cell)
 }
@@ -36,35 +26,106 @@ fn begin(player: &mut Player) {
     player.command(Command::Take).unwrap();
 }
 
+fn script(text: &str) -> Vec<Action> {
+    serde_json::from_str(text).unwrap()
+}
+
 const UNTIL_ENOUGH: &str = r#"[{"repeat": [{"do": "drive", "to": "next"}, {"do": "take"}], "until": "enough", "most": 30}]"#;
 
 #[test]
 fn a_session_in_a_virtual_cell_ends_with_a_result_that_is_true() {
     for setup in [Setup::EyeInHand, Setup::EyeToHand] {
         let root = new_folder();
-        let mut player = player(&root, setup, 7, Faults::default());
+        let mut player = player(&root, setup, 7);
         begin(&mut player);
-        let actions: Vec<Action> = serde_json::from_str(UNTIL_ENOUGH).unwrap();
-        player.play(&actions).unwrap();
+        player.play(&script(UNTIL_ENOUGH)).unwrap();
         let state = player.state();
         let progress = state.progress.as_ref().unwrap();
-        println!("{} captures: {:?}; {:?}", progress.captures, progress.history, state.refused);
         assert!(progress.enough && progress.verdict == Verdict::Accepted, "{}", state.say);
+        let stated = progress.p95_mm.unwrap();
         player.command(Command::Finish).unwrap();
         assert!(player.state().say.starts_with("Accepted"), "{}", player.state().say);
 
         let result = read_result(&root.join("result/calibration.json")).unwrap();
         let found = result.hand_eye.mount_from_camera.unwrap();
-        let truth = player.cell().truth().mount_from_camera;
-        let off_mm = found.distance_to(&truth) * 1e3;
-        println!("off by {off_mm:.3} mm, {:.3} degrees", found.angle_to(&truth).to_degrees());
+        let off_mm = found.distance_to(&player.cell().truth().mount_from_camera) * 1e3;
+        println!(
+            "{setup:?}: {} captures, {stated:.2} mm, off by {off_mm:.3} mm",
+            progress.captures
+        );
         assert!(off_mm < 0.5, "{off_mm}");
 
         // the folder is an ordinary dataset, with the same answer
         let dataset = Dataset::open(&root).unwrap();
         let (again, _) = calibrate_dataset(&dataset, &Config::default(), &|_, _| {}).unwrap();
         assert_eq!(again.hand_eye, result.hand_eye);
+        assert_eq!(again.run_id, result.run_id);
         drop(player);
         fs::remove_dir_all(root).unwrap();
     }
+}
+
+#[test]
+fn captures_are_deleted_restored_undone_and_skipped() {
+    let root = new_folder();
+    let mut player = player(&root, Setup::EyeInHand, 5);
+    begin(&mut player);
+    let one_more = script(r#"[{"do": "drive", "to": "next"}, {"do": "take"}]"#);
+    (0..3).for_each(|_| player.play(&one_more).unwrap());
+    let names = |player: &Player| -> Vec<String> {
+        player.state().captures.iter().map(|c| c.id.clone()).collect()
+    };
+    assert_eq!(names(&player), ["001", "002", "003", "004"]);
+    player.command(Command::Delete { id: "002".into() }).unwrap();
+    assert_eq!(names(&player), ["001", "003", "004"]);
+    assert_eq!(player.state().deleted[0].id, "002");
+    player.command(Command::Undo).unwrap();
+    assert_eq!(names(&player), ["001", "002", "003", "004"]);
+    player.command(Command::Undo).unwrap(); // the last capture
+    assert_eq!(names(&player), ["001", "002", "003"]);
+    player.command(Command::Restore { id: "004".into() }).unwrap();
+    assert_eq!(names(&player), ["001", "002", "003", "004"]);
+    for (command, said) in [
+        (Command::Delete { id: "017".into() }, "no capture 017"),
+        (Command::Restore { id: "001".into() }, "no deleted capture 001"),
+        (Command::Go { step: Step::Result }, "not open yet"),
+        (Command::Cell { setup: None, tolerance_mm: Some(-1.0) }, "positive"),
+        (Command::Cell { setup: Some(Setup::EyeToHand), tolerance_mm: None }, "new folder"),
+        (Command::Notation { name: "robo".into() }, "there are matrix4x4"),
+        (Command::Pose { text: "1 2 3".into() }, "none are typed"),
+    ] {
+        let why = player.command(command).unwrap_err();
+        assert!(why.contains(said), "{why}");
+    }
+    // a view that nobody can go to is not proposed again, nor anything near it
+    let before = player.state().next.unwrap().base_from_flange;
+    player.command(Command::Skip { why: "cannot reach".into() }).unwrap();
+    let after = player.state().next.unwrap().base_from_flange;
+    assert!(after.distance_to(&before) > 0.05 || after.angle_to(&before) > 0.1);
+    // the tolerance may change at any time
+    player.command(Command::Cell { setup: None, tolerance_mm: Some(5.0) }).unwrap();
+    assert_eq!(Dataset::open(&root).unwrap().limits.max_error, Some(5e-3));
+    assert_eq!(names(&player).len(), 4);
+    drop(player);
+    fs::remove_dir_all(root).unwrap();
+}
+
+#[test]
+fn where_the_board_is_not_seen_no_capture_is_taken() {
+    let root = new_folder();
+    let mut player = player(&root, Setup::EyeInHand, 5);
+    begin(&mut player);
+    // the camera looks away
+    player.command(Command::Jog { move_mm: [0.0; 3], turn_deg: [0.0, 60.0, 0.0] }).unwrap();
+    player.command(Command::Take).unwrap();
+    let state = player.state();
+    assert_eq!(state.captures.len(), 1);
+    assert!(state.refused[0].why.contains("the board is not found"), "{}", state.refused[0].why);
+    assert_eq!(state.problem.unwrap().code, "not-taken");
+    drop(player);
+    // it is remembered: nobody is sent there again
+    let folder = SessionFolder::open(&root, None).unwrap();
+    assert!(folder.refused()[0].base_from_flange.is_some());
+    drop(folder);
+    fs::remove_dir_all(root).unwrap();
 }

@@ -13,7 +13,7 @@ function verdictText(state: State): string {
   const progress = state.progress;
   if (!progress) return t("no_progress");
   if (progress.verdict === "rejected") return t("verdict_rejected");
-  if (typeof progress.p95_mm !== "number" || progress.verdict === "undetermined") return t("verdict_undetermined");
+  if (typeof progress.p95_mm !== "number") return t("verdict_undetermined");
   return isEnough(state) ? t("verdict_enough") : t("verdict_more");
 }
 

@@ -2,7 +2,7 @@
 
 import { selectedCapture, type App } from "./app";
 import type { Icon } from "./icons";
-import type { State, StepName } from "./state";
+import { isOutlier, STEPS, type State, type Step, type StepName } from "./state";
 import type { Key } from "./words";
 
 export interface Action {
@@ -17,10 +17,10 @@ const AT_VIEW_MM = 2; // nearer than this and AT_VIEW_DEG, the robot is at the n
 const AT_VIEW_DEG = 1;
 const FEWEST_TO_FINISH = 3;
 
-/** Whether the robot is at the next view; null where nobody knows. */
+/** Whether the robot is at the next view; null where nobody knows: a pose that was typed is where it has been. */
 export function isAtNext(state: State): boolean | null {
   const off = state.next?.off;
-  if (typeof off?.mm !== "number") return null;
+  if (typeof off?.mm !== "number" || state.robot?.typed) return null;
   return off.mm < AT_VIEW_MM && (off.deg ?? 0) < AT_VIEW_DEG;
 }
 
@@ -39,38 +39,68 @@ export function isEnough(state: State): boolean {
   return state.progress?.enough === true && (state.progress.verdict ?? "accepted") === "accepted";
 }
 
-export function canTake(state: State): boolean {
-  return !state.taking && !state.virtual_cell?.driving;
+/** What was there when a capture was asked for here: until something has come of it, no second one is. */
+let asked: { outcomes: number; at: number } | null = null;
+const ASKED_FOR = 20_000; // ms after which this is over in any case
+
+const outcomes = (state: State): number =>
+  (state.captures?.length ?? 0) + (state.deleted?.length ?? 0) + (state.refused?.length ?? 0);
+
+function isStoring(state: State): boolean {
+  if (asked && state.taking) asked.at = performance.now();
+  if (asked && (asked.outcomes !== outcomes(state) || state.problem || performance.now() - asked.at > ASKED_FOR)) asked = null;
+  return asked !== null;
 }
 
-/** Takes a capture, of the pose that was typed where the robot is not connected. */
-async function take(app: App): Promise<void> {
+/** Whether a capture can be asked for. */
+export function canTake(state: State): boolean {
+  return !state.taking && !state.virtual_cell?.driving && !isStoring(state);
+}
+
+/** Sends the pose that was typed, where one was. False where it was refused. */
+export async function sendTyped(app: App): Promise<boolean> {
   const pose = app.choices.typed.trim();
-  if (!app.state?.robot?.connected && pose) {
-    if (!(await app.send({ do: "pose", text: pose }))) return;
-    app.choose({ typed: "" });
-  }
-  await app.send({ do: "take" });
+  if (!app.state?.robot?.typed || !pose) return true;
+  if (!(await app.send({ do: "pose", text: pose }))) return false;
+  app.choose({ typed: "" });
+  return true;
+}
+
+/** Takes a capture, of the pose that was typed where poses are. */
+export async function take(app: App): Promise<void> {
+  if (!(await sendTyped(app)) || !app.state || app.state.taking) return;
+  asked = { outcomes: outcomes(app.state), at: performance.now() };
+  if (!(await app.send({ do: "take" }))) asked = null;
+}
+
+/** No longer waits for a standstill. */
+export function cancel(app: App): void {
+  asked = null;
+  void app.send({ do: "cancel" });
 }
 
 function takeAction(app: App, state: State): Action {
-  return { label: state.taking ? "waiting_for_rest" : "take", enabled: canTake(state), run: () => void take(app) };
+  const byHand = state.robot?.typed || state.camera?.single;
+  const label = !state.taking ? "take" : byHand ? "waiting_for_both" : "waiting_for_rest";
+  return { label, enabled: canTake(state), run: () => void take(app) };
 }
 
 function inCapture(app: App, state: State): Action {
   if (state.virtual_cell?.driving) return act(app, "driving", { do: "cancel" }, false);
   if (state.taking) return takeAction(app, state);
+  if (state.assessing || isStoring(state)) return act(app, "assessing_now", { do: "cancel" }, false);
   if (isEnough(state)) return act(app, "finish", { do: "finish" });
   if (state.virtual_cell && isAtNext(state) === false) return act(app, "drive", { do: "drive", to: "next" });
   return takeAction(app, state);
 }
 
 function inVerify(app: App, state: State): Action {
-  const views = state.verify?.views?.length ?? 0;
+  if (!state.verify) return act(app, "go_on", { do: "confirm", step: "verify" });
+  const views = state.verify.views?.length ?? 0;
   if (state.virtual_cell?.driving) return act(app, "driving", { do: "cancel" }, false);
   if (state.taking) return takeAction(app, state);
-  if (state.verify?.verdict === "holds") return act(app, "to_result", { do: "confirm", step: "verify" });
-  if (state.verify?.verdict === "does not hold") return act(app, "back_to_captures", { do: "go", step: "capture" });
+  if (state.verify.verdict === "holds") return act(app, "to_result", { do: "confirm", step: "verify" });
+  if (state.verify.verdict === "does not hold") return act(app, "back_to_captures", { do: "go", step: "capture" });
   if (state.virtual_cell && checksBeforeDrive !== views) {
     return {
       label: "drive_check",
@@ -96,34 +126,56 @@ function primaryOf(app: App, state: State): Action {
     case "touch":
       return act(app, "go_on", { do: "confirm", step: "touch" });
     case "result":
+      if (!state.result) return act(app, "back_to_captures", { do: "go", step: "capture" });
       return { label: "open_report", enabled: true, icon: "page", run: openReport };
+    case "robot":
+      return { label: "confirm", enabled: isProven(state) || app.choices.typed.trim() !== "", run: () => void confirmRobot(app) };
     default:
-      return act(app, "confirm", { do: "confirm", step: state.step ?? "cell" });
+      return act(app, "confirm", { do: "confirm", step: state.step ?? "cell" }, isProven(state));
   }
+}
+
+/** Whether what the step shows is enough to go on. */
+const isProven = (state: State): boolean => state.steps?.find(({ name }) => name === state.step)?.proven !== false;
+
+async function confirmRobot(app: App): Promise<void> {
+  if (await sendTyped(app)) await app.send({ do: "confirm", step: "robot" });
 }
 
 /** The actions beside the primary one. */
 export function secondary(app: App, state: State): Action[] {
-  const cancel = state.taking ? [act(app, "cancel", { do: "cancel" })] : [];
+  const stop = state.taking ? [{ label: "cancel" as const, enabled: true, run: () => cancel(app) }] : [];
   const isTaking = primary(app, state).label === "take" || state.taking;
   switch (state.step) {
     case "capture":
       return [
-        ...cancel,
+        ...stop,
         ...(isTaking ? [] : [takeAction(app, state)]),
         { ...act(app, "automatic", { do: "automatic", on: !state.automatic }), on: state.automatic === true },
       ];
     case "verify":
-      return [...cancel, ...(isTaking ? [] : [takeAction(app, state)])];
+      return [...stop, ...(isTaking || !state.verify ? [] : [takeAction(app, state)])];
     case "result":
-      return [act(app, "back_to_captures", { do: "go", step: "capture" })];
+      return state.result ? [act(app, "back_to_captures", { do: "go", step: "capture" })] : [];
     default:
-      return cancel;
+      return stop;
   }
 }
 
 export function canFinish(state: State): boolean {
-  return (state.captures?.filter((capture) => capture.used !== false).length ?? 0) >= FEWEST_TO_FINISH;
+  return (state.captures?.filter((capture) => !isOutlier(capture)).length ?? 0) >= FEWEST_TO_FINISH;
+}
+
+/** Why setup, board and intrinsics cannot be changed; null where they can. */
+export function fixedBy(state: State): Key | null {
+  if (state.cell?.is_virtual) return "fixed_virtual";
+  return state.captures?.length || state.deleted?.length ? "fixed_captures" : null;
+}
+
+/** The steps that can be gone through: those of which the session knows nothing to do are not shown, unless it is at one. */
+export function openSteps(state: State): Step[] {
+  const isThere: Partial<Record<StepName, boolean>> = { touch: Boolean(state.touch), verify: Boolean(state.verify) };
+  return (state.steps ?? []).filter(({ name }) => STEPS.includes(name) && (isThere[name] ?? true) || name === state.step);
 }
 
 /** The key N: the virtual robot drives to the next view; any other robot gets another view. */

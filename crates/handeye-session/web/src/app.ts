@@ -6,7 +6,7 @@ import type { Language } from "./words";
 
 /** What this browser has chosen; the server does not know of it. */
 export interface Choices {
-  language: Language | null; // null: that of the session
+  language: Language | null; // null: that of the browser
   muted: boolean;
   selected: string | null; // the capture that is looked at
   large: "picture" | "cell";

@@ -5,8 +5,8 @@ import { button } from "./controls";
 import { attribute, h, kind, list, show, text, width } from "./dom";
 import { icon } from "./icons";
 import { mm } from "./numbers";
-import type { Capture, State } from "./state";
-import { said, t } from "./words";
+import { isOutlier, type Capture, type State } from "./state";
+import { said, sentence, t } from "./words";
 
 let scale = 1; // mm of a full bar
 
@@ -39,12 +39,12 @@ function captureRow(app: App, id: string) {
     element,
     update(capture: Capture): void {
       const selected = app.choices.selected === id;
-      const outlier = capture.used === false;
+      const outlier = isOutlier(capture);
       const error = capture.residual_mm;
       width(fill, typeof error === "number" ? (100 * error) / scale : 0);
       text(millimetres, typeof error === "number" ? `${mm(error)} mm` : t("no_residual"));
       text(pixels, typeof capture.residual_px === "number" ? `${mm(capture.residual_px)} px` : "");
-      text(reason, capture.reason);
+      text(reason, capture.reason && sentence(capture.reason));
       show(reason, Boolean(capture.reason) && (selected || outlier));
       show(sign, outlier);
       show(tools, selected);
@@ -89,7 +89,7 @@ export function makeCaptures(app: App): Part {
     element,
     update(state: State) {
       const captures = state.captures ?? [];
-      const errors = captures.filter(({ used }) => used !== false).map(({ residual_mm: error }) => error ?? 0);
+      const errors = captures.filter((capture) => !isOutlier(capture)).map(({ residual_mm: error }) => error ?? 0);
       scale = Math.max(state.cell?.tolerance_mm ?? 0, ...errors, 1e-6);
       text(count, String(captures.length));
       show(count, captures.length > 0);

@@ -1,7 +1,7 @@
 // Buttons, all made the same way: large, with a name, and not holding the focus after a touch, so that the space bar stays
 // with the primary action.
 
-import { h } from "./dom";
+import { h, show } from "./dom";
 import { icon, type Icon } from "./icons";
 import { named, said, type Key } from "./words";
 
@@ -31,4 +31,17 @@ export function card(key: Key, ...children: (Node | null)[]): HTMLElement {
 /** A labelled field. */
 export function labelled(key: Key, control: HTMLElement): HTMLLabelElement {
   return h("label", { class: "labelled" }, said(h("span"), key), control);
+}
+
+/** Says why something cannot be changed. */
+export function makeFixed() {
+  const why = h("span");
+  const element = h("p", { class: "fixed-by" }, icon("lock"), why);
+  return {
+    element,
+    update(key: Key | null): void {
+      show(element, key !== null);
+      if (key) said(why, key);
+    },
+  };
 }

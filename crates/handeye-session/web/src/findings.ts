@@ -3,8 +3,8 @@
 import type { App, Part } from "./app";
 import { h, kind, list, show, text } from "./dom";
 import { icon, setIcon } from "./icons";
-import type { Finding } from "./state";
-import { said } from "./words";
+import type { Finding, State } from "./state";
+import { said, sentence } from "./words";
 
 const REFUSED_SHOWN = 3;
 
@@ -15,14 +15,20 @@ function findingRow() {
   return {
     element,
     update(finding: Finding): void {
-      text(message, finding.message);
-      text(advice, finding.advice);
+      text(message, sentence(finding.message));
+      text(advice, finding.advice && sentence(finding.advice));
       show(advice, Boolean(finding.advice));
       setIcon(sign, finding.severity === "info" ? "page" : "warning");
       kind(element, "rejects", finding.severity === "rejects");
       kind(element, "changes", finding.severity === "changes-answer");
     },
   };
+}
+
+/** How grave a finding is now: what would reject a result rejects nothing while more captures are all that is missing. */
+function severity(finding: Finding, state: State): NonNullable<Finding["severity"]> {
+  const isOver = state.progress?.verdict === "rejected";
+  return finding.severity === "rejects" && !isOver ? "info" : (finding.severity ?? "info");
 }
 
 /** The findings of one severity. */
@@ -34,7 +40,8 @@ export function makeFindings(_app: App, which: NonNullable<Finding["severity"]>)
   return {
     element,
     update(state) {
-      const wanted = (state.progress?.findings ?? []).filter(({ severity }) => (severity ?? "info") === which);
+      const all = (state.progress?.findings ?? []).map((finding) => ({ ...finding, severity: severity(finding, state) }));
+      const wanted = all.filter((finding) => finding.severity === which);
       draw(wanted);
       show(element, wanted.length > 0);
     },

@@ -13,7 +13,7 @@ const KEYS: [keys: string[], what: Key][] = [
   [["D"], "key_delete"],
   [["R"], "key_retake"],
   [["Z"], "key_undo"],
-  [["1", "8"], "key_steps"],
+  [["1", "6"], "key_steps"],
   [["C"], "key_swap"],
   [["M"], "key_mute"],
   [["Esc"], "key_escape"],

@@ -1,8 +1,7 @@
 // The keyboard. Keys that belong to a field, a button or an open sheet are left to it.
 
-import { canTake, deleteSelected, goTo, nextView, primary, selectBy } from "./actions";
+import { cancel, canTake, deleteSelected, goTo, nextView, openSteps, primary, selectBy, take } from "./actions";
 import type { App } from "./app";
-import { STEPS } from "./state";
 
 const AGAIN = 350; // ms in which a second press of the same key counts as a slip
 
@@ -23,15 +22,15 @@ function retake(app: App): void {
 
 function escape(app: App): void {
   if (app.choices.selected) app.choose({ selected: null });
-  else if (app.state?.taking) void app.send({ do: "cancel" });
+  else if (app.state?.taking) cancel(app);
 }
 
 /** What a key does; null for those that do nothing. */
 function effect(app: App, key: string, help: HTMLDialogElement): (() => void) | null {
   const state = app.state;
   const isTaking = state?.step === "capture" || state?.step === "verify";
-  const step = STEPS[Number(key) - 1];
-  if (step) return () => goTo(app, step);
+  const step = state && openSteps(state)[Number(key) - 1];
+  if (step) return () => goTo(app, step.name);
   switch (key.toLowerCase()) {
     case " ":
     case "enter":
@@ -42,7 +41,7 @@ function effect(app: App, key: string, help: HTMLDialogElement): (() => void) | 
     case "n":
       return () => isTaking && nextView(app);
     case "t":
-      return () => isTaking && canTake(state) && void app.send({ do: "take" });
+      return () => isTaking && canTake(state) && void take(app);
     case "a":
       return () => isTaking && void app.send({ do: "automatic", on: !state.automatic });
     case "d":

@@ -29,6 +29,12 @@ export async function getJson<T>(address: string): Promise<T> {
   return (await answer.json()) as T;
 }
 
+export async function getText(address: string): Promise<string> {
+  const answer = await fetch(address, { signal: AbortSignal.timeout(PATIENCE) });
+  if (!answer.ok) throw await refusal(answer);
+  return answer.text();
+}
+
 /** Sends a command; throws a `Refusal` where it is refused. */
 export async function command(wanted: Command): Promise<void> {
   const answer = await fetch("/api/do", {

@@ -70,8 +70,7 @@ side.append(...onSide.map(([{ element }]) => element));
 
 function redraw(): void {
   const state = app.state ?? EMPTY;
-  const language = app.choices.language ?? (state.language === "de" ? "de" : "en");
-  speak(language);
+  speak(app.choices.language ?? (navigator.language.startsWith("de") ? "de" : "en"));
   const step = state.step ?? "cell";
   if (document.body.dataset.step !== step) side.scrollTop = 0;
   attribute(document.body, "data-step", step);
@@ -92,7 +91,7 @@ function redraw(): void {
   document.title = state.title ? `${state.title} – handeye` : "handeye";
 }
 
-const EMPTY: State = { version: 0, language: navigator.language.startsWith("de") ? "de" : "en" };
+const EMPTY: State = { version: 0 };
 
 let waiting = false;
 let before: State | null = null;

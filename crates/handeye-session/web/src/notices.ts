@@ -6,9 +6,10 @@ import { h, kind, show, text } from "./dom";
 import { icon, type Icon } from "./icons";
 import { button } from "./controls";
 import type { Problem, State } from "./state";
-import { t } from "./words";
+import { sentence, t } from "./words";
 
 const HOLD = 1500; // ms that a notice stays after its reason has gone, so that nothing jumps
+const FEWEST = 4; // captures before which it is no problem that they cannot be assessed
 const REFUSED_FOR = 10_000; // ms that a refused capture is shown for
 
 interface Notice {
@@ -33,8 +34,8 @@ function strip(look: string, sign: Icon, closed?: () => void): Strip {
     set(notice, hold = true) {
       if (notice) {
         gone = 0;
-        text(message, notice.message);
-        text(advice, notice.advice);
+        text(message, sentence(notice.message));
+        text(advice, notice.advice && sentence(notice.advice));
         show(element, true);
       } else if (!element.hidden) {
         gone ||= performance.now();
@@ -74,6 +75,11 @@ export function makeNotices(app: App, element: HTMLElement): Part {
     app.redraw();
   });
   const verdict = strip("bad", "warning");
+  const late = strip("doubtful", "warning", () => {
+    lateSeen = true;
+    app.redraw();
+  });
+  let lateSeen = false;
   const capture = strip("doubtful", "cross", () => {
     shownUntil = 0;
     app.redraw();
@@ -81,7 +87,7 @@ export function makeNotices(app: App, element: HTMLElement): Part {
   let shownUntil = 0;
   let last: string | null = null;
   const alerts = h("div", { role: "alert" }, lost.element, problem.element, refused.element);
-  const others = h("div", { role: "status" }, verdict.element, capture.element);
+  const others = h("div", { role: "status" }, verdict.element, late.element, capture.element);
   element.append(alerts, others);
 
   const shown = (given: Problem | null | undefined): Notice | null =>
@@ -91,17 +97,22 @@ export function makeNotices(app: App, element: HTMLElement): Part {
     element,
     update(state) {
       lost.set(lostNotice(app), false);
-      problem.set(shown(state.problem));
+      const isEarly = state.problem?.code === "not-assessed" && (state.captures?.length ?? 0) < FEWEST;
+      const given = isEarly ? null : state.problem;
+      const isMild = state.problem?.code === "picture-late"; // nothing is wrong, it only takes longer
+      problem.set(isMild ? null : shown(given));
+      late.set(isMild && !lateSeen && state.step === "capture" ? shown(state.problem) : null, false);
       refused.set(shown(app.refused), false);
       const bad = badVerdict(state);
-      verdict.set(bad);
+      verdict.set(state.step === "result" ? null : bad); // the result says it itself
       const newest = state.refused?.[state.refused.length - 1];
       const name = newest ? `${newest.time_s} ${newest.why}` : "";
       if (last !== null && name && name !== last) shownUntil = performance.now() + REFUSED_FOR;
       last = name;
-      const fresh = newest && performance.now() < shownUntil;
+      const isSaid = state.problem?.code === "not-taken"; // in its own words
+      const fresh = newest && !isSaid && performance.now() < shownUntil;
       capture.set(fresh ? { message: t("capture_refused"), advice: newest.why } : null, false);
-      kind(document.body, "trouble", Boolean(lostNotice(app) || state.problem || app.refused || bad));
+      kind(document.body, "trouble", Boolean(lostNotice(app) || (given && !isMild) || app.refused || bad));
       kind(document.body, "lost", app.lostSince !== null);
     },
   };

@@ -16,6 +16,7 @@ export interface NumberField {
   element: HTMLElement;
   value(): number | null;
   set(value: number | null | undefined): void;
+  disable(off: boolean): void;
 }
 
 const HOLD = 1000; // ms in which what was entered here is not replaced by an older value from the server
@@ -60,6 +61,9 @@ export function numberField(options: Options): NumberField {
   return {
     element,
     value,
+    disable(off) {
+      for (const part of parts) if (part && "disabled" in part) attribute(part, "disabled", off);
+    },
     set(wanted) {
       if (typeof wanted === "number" && performance.now() - changedAt > HOLD) field(input, String(wanted));
       const isBad = input.value !== "" && value() === null;

@@ -1,6 +1,6 @@
 // What is drawn over a picture: corners, the board's outline of the next view, the way there, residuals.
 
-import type { Capture, Pair, State } from "./state";
+import { isOutlier, type Capture, type CaptureDetail, type Maybe, type Pair, type State } from "./state";
 import { mm } from "./numbers";
 import { t } from "./words";
 
@@ -63,10 +63,9 @@ function label(draw: CanvasRenderingContext2D, words: string, x: number, y: numb
 }
 
 /** Corners of earlier captures: what of the image is covered. */
-export function drawEarlier(draw: CanvasRenderingContext2D, fit: Fit, captures: Capture[], colours: Colours): void {
+export function drawEarlier(draw: CanvasRenderingContext2D, fit: Fit, all: Pair[][], colours: Colours): void {
   draw.fillStyle = colours.earlier;
-  for (const { points, used } of captures) {
-    if (!points || used === false) continue;
+  for (const points of all) {
     for (const point of points) {
       const [x, y] = at(fit, point);
       draw.fillRect(x - 1.5, y - 1.5, 3, 3);
@@ -189,8 +188,8 @@ export function drawWay(draw: CanvasRenderingContext2D, fit: Fit, state: State, 
 const ARROW_PX = 34; // of the canvas: about the length of the longest residual arrow
 
 /** The round factor by which residuals are drawn longer. */
-export function magnification(capture: Capture, fit: Fit): number {
-  const longest = Math.max(0, ...(capture.arrows ?? []).map(([x, y]) => Math.hypot(x, y)));
+export function magnification(arrows: Pair[], fit: Fit): number {
+  const longest = Math.max(0, ...arrows.map(([x, y]) => Math.hypot(x, y)));
   if (longest === 0) return 1;
   const wanted = ARROW_PX / (longest * fit.scale);
   const power = 10 ** Math.floor(Math.log10(wanted));
@@ -198,22 +197,29 @@ export function magnification(capture: Capture, fit: Fit): number {
 }
 
 /** A capture's corners with their residuals, drawn longer by a factor that is said. */
-export function drawResiduals(draw: CanvasRenderingContext2D, fit: Fit, capture: Capture, colours: Colours): void {
-  const points = capture.points ?? [];
+export function drawResiduals(
+  draw: CanvasRenderingContext2D,
+  fit: Fit,
+  capture: Capture,
+  detail: Maybe<CaptureDetail>,
+  colours: Colours,
+): void {
+  const points = detail?.points ?? [];
+  const arrows = detail?.arrows ?? [];
   dots(draw, fit, points, 2);
   outlined(draw, colours.found, 1.5);
-  if (!capture.arrows?.length) return;
-  const factor = magnification(capture, fit);
+  if (!arrows.length) return;
+  const factor = magnification(arrows, fit);
   draw.beginPath();
   points.forEach((point, i) => {
-    const [dx, dy] = capture.arrows?.[i] ?? [0, 0];
+    const [dx, dy] = arrows[i] ?? [0, 0];
     const [x, y] = at(fit, point);
     const [ex, ey] = [x + dx * factor * fit.scale, y + dy * factor * fit.scale];
     draw.moveTo(x, y);
     draw.lineTo(ex, ey);
     arrowHead(draw, ex, ey, Math.atan2(dy, dx), 6);
   });
-  outlined(draw, capture.used === false ? colours.outlier : colours.residual, 2);
+  outlined(draw, isOutlier(capture) ? colours.outlier : colours.residual, 2);
   const words = t("arrows_longer", { factor, px: mm(capture.residual_px) });
   label(draw, words, fit.width / 2, fit.height - 20, "#fff", fit);
 }

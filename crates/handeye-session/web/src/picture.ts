@@ -3,12 +3,13 @@
 
 import { selectedCapture, type App, type Part } from "./app";
 import { button } from "./controls";
+import { detailStore } from "./details";
 import { h, kind, show, text } from "./dom";
 import { frameFor } from "./live";
 import { mm } from "./numbers";
 import { drawEarlier, drawFound, drawGhost, drawResiduals, drawWay, type Colours, type Fit } from "./overlay";
-import type { Capture, State } from "./state";
-import { named, t } from "./words";
+import { isOutlier, type Capture, type State } from "./state";
+import { named, sentence, t } from "./words";
 
 const COLOURS: Colours = {
   found: "#4be3ff",
@@ -17,7 +18,7 @@ const COLOURS: Colours = {
   residual: "#ffe14d",
   outlier: "#ff7a6b",
 };
-const LATE = 1; // s after which a picture is not live any more
+const LATE = 2; // s after which a picture is not live any more
 
 const AGAIN = 2000; // ms until a picture that did not come is asked for again
 const KEPT = 4; // pictures of captures
@@ -54,10 +55,14 @@ export function makePicture(app: App): Part & { draw(): void } {
   const overlay = h("canvas", { role: "img" });
   const tag = h("p", { class: "tag" });
   const back = button("back_to_live", () => app.choose({ selected: null }), { icon: "back" });
-  const missing = h("p", { class: "caption" });
+  const missing = h("p", { class: "caption bad" });
   const element = h("div", { class: "pane picture" }, image, overlay, h("div", { class: "corner" }, back, tag), missing);
   named(overlay, "live_picture");
   const captured = pictureStore(() => draw());
+  const details = detailStore(() => {
+    draw();
+    app.redraw(); // which asks for the next one
+  });
   let pending = false;
   let shownImage: ImageBitmap | null = null;
   let shownSize = "";
@@ -92,7 +97,7 @@ export function makePicture(app: App): Part & { draw(): void } {
     if (bitmap !== shownImage || size !== shownSize) drawImage(bitmap, fit, ratio);
     [shownImage, shownSize] = [bitmap, size];
     const over = prepared(overlay, fit, ratio);
-    if (capture) drawResiduals(over, fit, capture, COLOURS);
+    if (capture) drawResiduals(over, fit, capture, details.of(capture.id), COLOURS);
     else drawLive(over, fit, state);
   }
 
@@ -105,7 +110,8 @@ export function makePicture(app: App): Part & { draw(): void } {
 
   function drawLive(draw: CanvasRenderingContext2D, fit: Fit, state: State): void {
     if (state.step === "capture") {
-      drawEarlier(draw, fit, state.captures ?? [], COLOURS);
+      const used = (state.captures ?? []).filter((capture) => !isOutlier(capture));
+      drawEarlier(draw, fit, used.map(({ id }) => details.of(id)?.points ?? []), COLOURS);
       drawGhost(draw, fit, state, COLOURS);
     }
     if (state.camera?.corners?.length) drawFound(draw, fit, state.camera.corners, COLOURS);
@@ -118,6 +124,7 @@ export function makePicture(app: App): Part & { draw(): void } {
     update(state) {
       const capture = selectedCapture(app);
       show(back, capture !== null);
+      details.update(state, app.choices.selected);
       describe(state, capture);
       draw();
     },
@@ -125,27 +132,26 @@ export function makePicture(app: App): Part & { draw(): void } {
 
   function describe(state: State, capture: Capture | null): void {
     const age = state.camera?.age_s;
-    const late = capture === null && (state.camera?.connected === false || (age ?? 0) > LATE);
+    const late = capture === null && (state.camera?.connected === false || (!state.camera?.single && (age ?? 0) > LATE));
     text(tag, capture ? captureTag(capture) : liveTag(state));
-    kind(tag, "bad", late || capture?.used === false);
+    kind(tag, "bad", late || (capture !== null && isOutlier(capture)));
     const trouble = capture ? capture.reason : state.camera?.missing;
-    const why = trouble || (capture || state.step !== "capture" ? null : state.next?.reason);
-    text(missing, why);
-    kind(missing, "bad", Boolean(trouble));
-    show(missing, Boolean(why));
+    text(missing, trouble && sentence(trouble));
+    show(missing, Boolean(trouble));
     named(overlay, capture ? "captured_picture" : "live_picture");
   }
 }
 
 function captureTag(capture: Capture): string {
-  const used = capture.used === false ? ` · ${t("not_used")}` : "";
+  const used = isOutlier(capture) ? ` · ${t("not_used")}` : "";
   return `${t("capture_id", { id: capture.id })} · ${mm(capture.residual_mm)} mm · ${mm(capture.residual_px)} px${used}`;
 }
 
 function liveTag(state: State): string {
   const camera = state.camera;
-  if (!camera || !frameFor(camera.frame)) return t(camera?.connected === false ? "no_camera" : "no_picture");
-  if (camera?.connected === false) return t("no_camera");
+  if (!camera?.frame) return t(camera?.single ? "no_picture" : "no_camera");
+  if (!frameFor(camera.frame)) return t("no_picture");
+  if (camera.single) return [t("picture_number", { number: camera.frame ?? "" }), camera.found].filter(Boolean).join(" · ");
   if ((camera?.age_s ?? 0) > LATE) return t("picture_old", { seconds: Math.round(camera?.age_s ?? 0) });
   return camera?.found ? `${t("live")} · ${camera.found}` : t("live");
 }

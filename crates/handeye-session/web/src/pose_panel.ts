@@ -1,13 +1,14 @@
 // The pose of the next view in large digits, in the notation of the pendant, and how far the robot is from it. Where there is
 // no next view, the pose that the robot has.
 
-import { isAtNext, skip } from "./actions";
+import { canTake, isAtNext, sendTyped, skip, take } from "./actions";
 import type { App, Part } from "./app";
 import { button } from "./controls";
 import { attribute, h, kind, list, show, text } from "./dom";
+import { makeTyping } from "./typing";
 import { columns, mm, small, type Column } from "./numbers";
 import type { Next, State } from "./state";
-import { named, said, t } from "./words";
+import { said, t } from "./words";
 
 interface Digit extends Column {
   value: number | null;
@@ -53,10 +54,11 @@ function digits(state: State, joints: boolean): Digit[] {
   const wanted = state.step === "capture" ? next : null;
   const shown: Next = wanted ?? robot ?? {};
   const values = (joints ? shown.joints_deg : shown.numbers) ?? [];
-  const now = wanted ? (joints ? robot?.joints_deg : robot?.numbers) : null;
+  const now = wanted && !robot?.typed ? (joints ? robot?.joints_deg : robot?.numbers) : null;
   const names = joints ? values.map((_, i) => `J${i + 1}`) : shown.columns;
+  const count = values.length || (names?.length ?? 0);
   const units = joints ? values.map(() => "°") : shown.units;
-  return columns(names, values.length, cell?.notation, units).map((column, i) => ({
+  return columns(names, count, cell?.notation, units).map((column, i) => ({
     ...column,
     digits: joints ? 2 : column.digits,
     value: values[i] ?? null,
@@ -73,16 +75,13 @@ export function makePosePanel(app: App): Part {
   const joints = h("button", { type: "button" }, said(h("span"), "joints"));
   joints.addEventListener("click", () => app.choose({ joints: !app.choices.joints }));
   const other = button("other_view", () => skip(app), { icon: "skip" });
-  const typed = h("input", { type: "text", autocomplete: "off", spellcheck: "false" });
-  named(typed, "typed_pose");
-  typed.addEventListener("input", () => app.choose({ typed: typed.value }));
-  const typing = h("div", { class: "typing" }, typed);
+  const typing = makeTyping(app, () => void (app.state?.step === "capture" && canTake(app.state) ? take(app) : sendTyped(app)));
   const element = h(
     "section",
     { class: "pose" },
     h("div", { class: "top" }, title, off),
     numbers,
-    typing,
+    typing.element,
     h("div", { class: "foot" }, gain, joints, other),
   );
   return {
@@ -91,7 +90,7 @@ export function makePosePanel(app: App): Part {
       const next = state.step === "capture" ? state.next : null;
       text(title, next ? t("next_view", { number: next.number ?? "" }) : t("robot_now"));
       const there = next ? isAtNext(state) : null;
-      text(off, next ? offText(state) : state.robot?.connected ? (state.robot.why ?? "") : t("no_robot"));
+      text(off, next ? offText(state) : state.step === "robot" ? "" : (state.robot?.why ?? ""));
       kind(off, "there", there === true);
       kind(off, "away", there === false);
       const hasGain = typeof next?.before_mm === "number" && typeof next.after_mm === "number";
@@ -103,14 +102,14 @@ export function makePosePanel(app: App): Part {
       show(joints, hasJoints);
       attribute(joints, "aria-pressed", String(app.choices.joints));
       show(other, Boolean(next));
-      show(typing, state.robot?.connected === false);
-      attribute(typed, "placeholder", t("typed_pose_example", { columns: (state.robot?.columns ?? []).join(" ") }));
-      if (document.activeElement !== typed && typed.value !== app.choices.typed) typed.value = app.choices.typed;
+      typing.update(state);
+      show(typing.element, state.robot?.typed === true && state.step === "capture");
     },
   };
 }
 
 function offText(state: State): string {
+  if (state.robot?.typed) return state.robot.why ?? "";
   const off = state.next?.off;
   if (!off || typeof off.mm !== "number") return "";
   if (isAtNext(state)) return t("at_view");

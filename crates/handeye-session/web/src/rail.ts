@@ -1,15 +1,19 @@
 // The rail on the left: the eight steps with their state and what is known of each, and the page's own settings.
 
-import { goTo } from "./actions";
+import { goTo, openSteps } from "./actions";
 import type { App, Part } from "./app";
 import { button } from "./controls";
 import { attribute, h, kind, list, show, text } from "./dom";
 import { icon, setIcon } from "./icons";
-import { STEPS, type Step } from "./state";
-import { currentLanguage, named, said, t, type Key } from "./words";
+import type { Step } from "./state";
+import { currentLanguage, named, said, sentence, t, type Key } from "./words";
+
+interface Numbered extends Step {
+  number: number;
+}
 
 function stepRow(app: App, name: Step["name"]) {
-  const number = h("span", { class: "number" }, String(STEPS.indexOf(name) + 1));
+  const number = h("span", { class: "number" });
   const sign = icon("check");
   const state = h("span", { class: "unseen" });
   const proof = h("small");
@@ -25,7 +29,8 @@ function stepRow(app: App, name: Step["name"]) {
   });
   return {
     element: h("li", {}, element),
-    update(step: Step): void {
+    update(step: Numbered): void {
+      text(number, String(step.number));
       for (const look of ["done", "now", "open", "locked"] as const) kind(element, look, step.state === look);
       kind(element, "proven", step.proven === true);
       attribute(element, "aria-current", step.state === "now" && "step");
@@ -35,7 +40,8 @@ function stepRow(app: App, name: Step["name"]) {
       show(sign, signed);
       setIcon(sign, step.state === "locked" ? "lock" : "check");
       text(state, ` ${t(`state_${step.state}`)} `);
-      text(proof, step.proof);
+      text(proof, step.proof && sentence(step.proof).replace(/\.$/, ""));
+      attribute(element, "title", step.proof && sentence(step.proof));
     },
   };
 }
@@ -45,7 +51,7 @@ export function makeRail(app: App, element: HTMLElement, help: () => void): Part
   const title = h("strong");
   const folder = h("small");
   const steps = h("ol");
-  const draw = list<Step>(
+  const draw = list<Numbered>(
     steps,
     (step) => step.name,
     (step) => stepRow(app, step.name),
@@ -62,7 +68,7 @@ export function makeRail(app: App, element: HTMLElement, help: () => void): Part
       text(title, state.title ?? "handeye");
       text(folder, state.folder);
       attribute(folder, "title", state.folder);
-      draw((state.steps ?? []).filter((step) => STEPS.includes(step.name)));
+      draw(openSteps(state).map((step, i) => ({ ...step, number: i + 1 })));
       setIcon(soundIcon, app.choices.muted ? "mute" : "sound");
       named(sound, app.choices.muted ? "sound_on" : "sound_off", true);
       text(language, currentLanguage() === "en" ? "DE" : "EN");

@@ -32,6 +32,8 @@ export const SENTENCES = {
   confirm: ["This is right: go on", "Das stimmt: weiter"],
   go_on: ["Go on", "Weiter"],
   take: ["Take a capture", "Aufnehmen"],
+  waiting_for_both: ["Waiting for pose and image", "Warte auf Pose und Bild"],
+  assessing_now: ["Being assessed", "Wird ausgewertet"],
   waiting_for_rest: ["Waiting for standstill", "Warte auf Stillstand"],
   driving: ["The robot drives", "Der Roboter fährt"],
   drive: ["Drive to this view", "Zur Ansicht fahren"],
@@ -71,6 +73,7 @@ export const SENTENCES = {
   live: ["Live", "Live"],
   no_camera: ["The camera is not connected", "Die Kamera ist nicht verbunden"],
   no_picture: ["No image yet", "Noch kein Bild"],
+  picture_number: ["Image {number}", "Bild {number}"],
   picture_old: ["The image is {seconds} s old", "Das Bild ist {seconds} s alt"],
   back_to_live: ["Live image", "Livebild"],
   capture_id: ["Capture {id}", "Aufnahme {id}"],
@@ -99,7 +102,6 @@ export const SENTENCES = {
   joints: ["Joints", "Gelenke"],
   other_view: ["Another view", "Andere Ansicht"],
   typed_pose: ["Pose from the pendant", "Pose vom Bediengerät"],
-  typed_pose_example: ["Pose from the pendant: {columns}", "Pose vom Bediengerät: {columns}"],
 
   // accuracy
   accuracy: ["Predicted position error (95\u00a0%)", "Vorhergesagter Positionsfehler (95\u00a0%)"],
@@ -139,6 +141,12 @@ export const SENTENCES = {
   eye_in_hand_what: ["The board lies still (eye-in-hand).", "Die Tafel liegt still (eye-in-hand)."],
   eye_to_hand: ["Beside the robot", "Neben dem Roboter"],
   eye_to_hand_what: ["The board is on the flange (eye-to-hand).", "Die Tafel ist am Flansch (eye-to-hand)."],
+  fixed_virtual: ["A virtual cell has its own setup, camera and board.", "Eine virtuelle Zelle hat Aufbau, Kamera und Tafel schon."],
+  fixed_captures: [
+    "There are captures of the cell as it is. For another camera, board or setup begin a session in a new folder.",
+    "Es gibt Aufnahmen dieser Zelle. Für andere Kamera, Tafel oder anderen Aufbau eine Sitzung in einem neuen Ordner beginnen.",
+  ],
+  how_accurate: ["How accurate must it be?", "Wie genau muss es werden?"],
   tolerance: ["Position error that your work tolerates", "Positionsfehler, den die Arbeit erlaubt"],
   tolerance_what: [
     "The session is done when 95 % of the points in the workspace are within this error.",
@@ -147,11 +155,20 @@ export const SENTENCES = {
 
   // step: camera
   camera: ["Camera", "Kamera"],
-  connected: ["Connected", "Verbunden"],
+  pictures: ["Images", "Bilder"],
+  poses: ["Poses", "Posen"],
+  streaming: ["streaming", "laufend"],
+  one_by_one: ["one by one", "einzeln"],
+  from_pendant: ["typed from the pendant", "vom Bediengerät abgetippt"],
+  newest: ["Last one", "Zuletzt"],
   size: ["Image", "Bild"],
   age: ["Age", "Alter"],
   rest: ["Standstill", "Stillstand"],
   delay: ["Delay", "Verzögerung"],
+  save_picture: [
+    "Take an image with the camera's own program: it appears here as soon as it is saved.",
+    "Mit dem Programm der Kamera ein Bild aufnehmen: Es erscheint hier, sobald es gespeichert ist.",
+  ],
   not_known_yet: ["not known yet", "noch nicht bekannt"],
   intrinsics: ["Intrinsics", "Intrinsik"],
   intrinsics_unknown: ["Not known", "Nicht bekannt"],
@@ -162,7 +179,11 @@ export const SENTENCES = {
   fy: ["fy", "fy"],
   cx: ["cx", "cx"],
   cy: ["cy", "cy"],
-  distortion: ["Distortion coefficients (OpenCV)", "Verzeichnung (OpenCV)"],
+  distortion_model: ["Distortion", "Verzeichnung"],
+  no_distortion: ["None", "Keine"],
+  brown_conrady: ["OpenCV: k1 k2 p1 p2 k3 …", "OpenCV: k1 k2 p1 p2 k3 …"],
+  kannala_brandt: ["OpenCV fisheye: k1 k2 k3 k4", "OpenCV-Fischauge: k1 k2 k3 k4"],
+  distortion: ["Distortion coefficients", "Koeffizienten der Verzeichnung"],
   intrinsics_hint: [
     "As in OpenCV: the centre of the top left pixel is (0, 0).",
     "Wie in OpenCV: Die Mitte des Pixels oben links ist (0, 0).",
@@ -170,7 +191,7 @@ export const SENTENCES = {
 
   // step: robot
   robot: ["Robot", "Roboter"],
-  no_robot: ["Not connected: type poses", "Nicht verbunden: Posen eintippen"],
+  no_robot: ["none has come", "es kommt keine"],
   notation: ["Notation of poses", "Schreibweise der Posen"],
   flange_hint: [
     "The pose must be that of the flange in the base: no tool, no user frame.",
@@ -244,9 +265,16 @@ export const SENTENCES = {
   result_rejected: ["The result is rejected.", "Das Ergebnis ist abgelehnt."],
   result_undetermined: ["The result is not determined.", "Das Ergebnis ist nicht bestimmt."],
   no_result: ["No result yet", "Noch kein Ergebnis"],
-  transform: ["Transform", "Transformation"],
   exports: ["Exports", "Exporte"],
-  more_formats: ["Save in another format", "In anderem Format sichern"],
+  more_formats: ["More formats", "Mehr Formate"],
+  fewer_formats: ["Fewer formats", "Weniger Formate"],
+  save: ["Save", "Sichern"],
+  binary: ["A binary file: save it.", "Eine Binärdatei: bitte sichern."],
+  accepted_by: [
+    "{error} mm for 95 % of the points in the workspace, from {count} captures; {tolerance} mm are tolerated.",
+    "{error} mm für 95 % der Punkte im Arbeitsraum, aus {count} Aufnahmen; {tolerance} mm sind erlaubt.",
+  ],
+  no_result_what: ["Take captures, then finish.", "Erst aufnehmen, dann abschließen."],
   files: ["Files", "Dateien"],
   copy: ["Copy", "Kopieren"],
   copied: ["Copied", "Kopiert"],

@@ -38,8 +38,13 @@ export interface Intrinsics {
   fy: number;
   cx: number;
   cy: number;
-  distortion?: number[];
+  distortion: Distortion;
 }
+
+export type Distortion =
+  | { model: "none" }
+  | { model: "brown-conrady"; coefficients: number[] } // OpenCV's order, twelve of them
+  | { model: "kannala-brandt"; coefficients: number[] }; // four
 
 export type Setup = "eye-in-hand" | "eye-to-hand";
 
@@ -47,7 +52,6 @@ export interface Cell {
   setup?: Setup;
   tolerance_mm?: number;
   target?: Maybe<Target>;
-  target_text?: string;
   intrinsics?: Maybe<Intrinsics>;
   notation?: string;
   is_virtual?: boolean;
@@ -55,7 +59,7 @@ export interface Cell {
 
 export interface Robot {
   connected?: boolean;
-  name?: string;
+  typed?: boolean; // its poses are typed from the pendant
   stands?: boolean;
   why?: string;
   columns?: string[];
@@ -67,7 +71,7 @@ export interface Robot {
 
 export interface Camera {
   connected?: boolean;
-  name?: string;
+  single?: boolean; // its pictures come one by one
   width?: number;
   height?: number;
   frame?: number;
@@ -109,8 +113,16 @@ export interface Capture {
   corners_3d?: number;
   base_from_flange?: Maybe<Pose>;
   camera_from_target?: Maybe<Pose>;
-  points?: Maybe<Pair[]>;
-  arrows?: Maybe<Pair[]>;
+}
+
+/** Whether a capture was rejected; one that was not assessed yet is not used either, but for no reason. */
+export const isOutlier = ({ used, reason }: Capture): boolean => used === false && Boolean(reason);
+
+/** What was measured in a capture's picture. */
+export interface CaptureDetail {
+  id: string;
+  points: Pair[];
+  arrows: Maybe<Pair[]>; // found minus predicted, px
 }
 
 export type Verdict = "accepted" | "rejected" | "undetermined";
@@ -141,7 +153,6 @@ export interface Progress {
   findings?: Finding[];
   mount_from_camera?: Maybe<Pose>;
   anchor_from_target?: Maybe<Pose>;
-  transform_text?: Maybe<string>;
 }
 
 export interface Verify {
@@ -155,14 +166,12 @@ export interface Result {
   files?: string[];
   verdict?: Verdict;
   headline?: string;
-  exports?: { name: string; text: string }[];
 }
 
 export interface State {
   version: number;
   folder?: string;
   title?: string;
-  language?: string;
   step?: StepName;
   steps?: Step[];
   say?: string;
@@ -178,7 +187,9 @@ export interface State {
   refused?: Maybe<{ time_s?: number; why: string }[]>;
   can_undo?: Maybe<string>;
   assessing?: boolean;
+  assessed?: number; // changes with every assessment
   progress?: Maybe<Progress>;
+  touch?: Maybe<object>; // not part of sessions yet, like `verify`
   verify?: Maybe<Verify>;
   result?: Maybe<Result>;
   virtual_cell?: Maybe<{ truth_error_mm?: Maybe<number>; driving?: boolean }>;

@@ -1,18 +1,20 @@
 // The step "board": which target is it, how large are its squares, and is it found in the live picture?
 
+import { fixedBy } from "./actions";
 import type { App, Part } from "./app";
-import { card, labelled } from "./controls";
-import { field, h, kind, show, text } from "./dom";
+import { card, labelled, makeFixed } from "./controls";
+import { attribute, field, h, kind, show, text } from "./dom";
 import { icon, setIcon } from "./icons";
 import { numberField, type NumberField } from "./number_field";
 import type { Target } from "./state";
 import { DICTIONARIES, FAMILIES, TARGETS, type TargetField } from "./targets";
-import { said, t } from "./words";
+import { said, sentence, t } from "./words";
 
 interface Control {
   element: HTMLElement;
   value(): number | string | null;
   set(value: unknown): void;
+  disable(off: boolean): void;
 }
 
 const STEP = { count: 1, id: 1, length: 0.5, ratio: 0.05 };
@@ -28,12 +30,13 @@ function control(spec: TargetField, changed: () => void): Control {
       element: labelled(spec.label, select),
       value: () => select.value,
       set: (value) => typeof value === "string" && values.includes(value) && field(select, value),
+      disable: (off) => attribute(select, "disabled", off),
     };
   }
   const unit = spec.kind === "length" ? { unit: "mm" } : {};
   const made: NumberField = numberField({ label: spec.label, ...unit, step: STEP[spec.kind], least: LEAST[spec.kind], changed });
   made.set(Number(spec.initial));
-  return { element: made.element, value: made.value, set: (value) => made.set(typeof value === "number" ? value : undefined) };
+  return { ...made, set: (value) => made.set(typeof value === "number" ? value : undefined) };
 }
 
 export function makeStepBoard(app: App): Part {
@@ -43,11 +46,12 @@ export function makeStepBoard(app: App): Part {
   const sign = icon("check");
   const proof = h("p");
   const found = h("div", { class: "proof" }, sign, proof);
+  const fixed = makeFixed();
   const element = h(
     "div",
     { class: "stack" },
     card("in_picture", found),
-    card("board", labelled("target_kind", sort), place, said(h("p", { class: "hint" }), "measure_board")),
+    card("board", fixed.element, labelled("target_kind", sort), place, said(h("p", { class: "hint" }), "measure_board")),
   );
   sort.addEventListener("change", () => {
     send(sort.value);
@@ -81,11 +85,17 @@ export function makeStepBoard(app: App): Part {
       const target = state.cell?.target;
       const name = target && TARGETS[target.kind] ? target.kind : sort.value;
       field(sort, name);
+      const fixes = fixedBy(state);
+      fixed.update(fixes);
+      attribute(sort, "disabled", fixes !== null);
       const shown = form(name);
       for (const one of forms.values()) show(one.element, one === shown);
-      for (const [key, one] of shown.controls) one.set(target?.kind === name ? target[key] : undefined);
+      for (const [key, one] of shown.controls) {
+        one.set(target?.kind === name ? target[key] : undefined);
+        one.disable(fixes !== null);
+      }
       const good = Boolean(state.camera?.found) && !state.camera?.missing;
-      text(proof, good ? state.camera?.found : (state.camera?.missing ?? t("not_found_yet")));
+      text(proof, good ? state.camera?.found : state.camera?.missing ? sentence(state.camera.missing) : t("not_found_yet"));
       kind(found, "good", good);
       kind(found, "bad", !good);
       setIcon(sign, good ? "check" : "warning");

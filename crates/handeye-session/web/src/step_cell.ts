@@ -1,7 +1,8 @@
 // The step "cell": where the camera is, and which error the work tolerates.
 
+import { fixedBy } from "./actions";
 import type { App, Part } from "./app";
-import { card } from "./controls";
+import { card, makeFixed } from "./controls";
 import { attribute, h, kind, svg } from "./dom";
 import { numberField } from "./number_field";
 import type { Setup } from "./state";
@@ -37,7 +38,7 @@ export function makeStepCell(app: App): Part {
   const setups: Setup[] = ["eye-in-hand", "eye-to-hand"];
   const choices = setups.map((setup) => {
     const input = h("input", { type: "radio", name: "setup", value: setup });
-    input.addEventListener("change", () => void app.send({ do: "cell", setup, tolerance_mm: tolerance.value() ?? undefined }));
+    input.addEventListener("change", () => void app.send({ do: "cell", setup }));
     const words = h("span", {}, said(h("b"), setup.replaceAll("-", "_") as Key), said(h("small"), `${setup.replaceAll("-", "_")}_what` as Key));
     return { setup, input, element: h("label", { class: "choice" }, input, sketch(setup), words) };
   });
@@ -46,20 +47,29 @@ export function makeStepCell(app: App): Part {
     unit: "mm",
     step: 0.1,
     least: 0.01,
-    changed: () => void app.send({ do: "cell", setup: app.state?.cell?.setup, tolerance_mm: tolerance.value() }),
+    changed: () => void app.send({ do: "cell", tolerance_mm: tolerance.value() }),
   });
   const group = h("div", { role: "radiogroup", class: "choices" }, ...choices.map(({ element }) => element));
   named(group, "where_is_camera");
-  const element = card("where_is_camera", group, tolerance.element, said(h("p", { class: "hint" }), "tolerance_what"));
+  const fixed = makeFixed();
+  const element = h(
+    "div",
+    { class: "stack" },
+    card("where_is_camera", fixed.element, group),
+    card("how_accurate", tolerance.element, said(h("p", { class: "hint" }), "tolerance_what")),
+  );
   return {
     element,
     update(state) {
       for (const { setup, input, element: label } of choices) {
         const chosen = state.cell?.setup === setup;
         if (input.checked !== chosen) input.checked = chosen;
+        attribute(input, "disabled", fixedBy(state) !== null && !chosen);
         attribute(label, "data-setup", setup);
         kind(label, "chosen", chosen);
+        kind(label, "fixed", fixedBy(state) !== null && !chosen);
       }
+      fixed.update(fixedBy(state));
       tolerance.set(state.cell?.tolerance_mm);
     },
   };

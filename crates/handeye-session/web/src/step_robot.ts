@@ -1,10 +1,12 @@
 // The step "robot": is it connected, do the numbers follow when it moves, and in which notation are they shown?
 
+import { sendTyped } from "./actions";
 import type { App, Part } from "./app";
 import { button, card, labelled } from "./controls";
-import { attribute, field, h, show } from "./dom";
+import { field, h, show } from "./dom";
 import { facts } from "./facts";
 import { makeJog } from "./jog";
+import { makeTyping } from "./typing";
 import { said, t } from "./words";
 
 const NOTATIONS: [name: string, what: string][] = [
@@ -18,26 +20,25 @@ const NOTATIONS: [name: string, what: string][] = [
   ["staubli", "Stäubli: x y z rx ry rz"],
   ["doosan", "Doosan: X Y Z A B C"],
   ["denso", "Denso: X Y Z RX RY RZ"],
+  ["quaternion-xyzw", "x y z qx qy qz qw (m)"],
+  ["quaternion-wxyz", "x y z qw qx qy qz (m)"],
+  ["matrix4x4", "4 × 4 (m)"],
 ];
 
 export function makeStepRobot(app: App): Part {
   const seen = facts();
   const notation = h("select", {}, ...NOTATIONS.map(([value, what]) => h("option", { value }, what)));
   notation.addEventListener("change", () => void app.send({ do: "notation", name: notation.value }));
-  const typed = h("input", { type: "text", autocomplete: "off", spellcheck: "false" });
-  const use = button("use_pose", () => {
-    void app.send({ do: "pose", text: typed.value }).then((sent) => {
-      if (sent) typed.value = "";
-    });
-  });
+  const typed = makeTyping(app, () => void sendTyped(app));
+  const use = button("use_pose", () => void sendTyped(app));
   const jog = makeJog(app);
-  const typing = card("type_pose", labelled("typed_pose", typed), use);
+  const typing = card("type_pose", typed.element, use);
   const element = h(
     "div",
     { class: "stack" },
     card("robot", seen.element, labelled("notation", notation), said(h("p", { class: "hint" }), "flange_hint")),
-    jog.element,
     typing,
+    jog.element,
   );
   return {
     element,
@@ -45,16 +46,18 @@ export function makeStepRobot(app: App): Part {
       const robot = state.robot;
       const connected = robot?.connected === true;
       seen.update([
-        { name: t("connected"), value: connected ? robot?.name : t("no_robot"), good: connected },
-        { name: t("rest"), value: robot?.why, good: robot?.stands },
+        ...(robot?.typed
+          ? [{ name: t("poses"), value: t("from_pendant"), good: undefined }]
+          : [{ name: t("poses"), value: t(connected ? "streaming" : "no_robot"), good: connected }]),
+        { name: t(robot?.typed ? "newest" : "rest"), value: robot?.why, good: robot?.typed ? undefined : robot?.stands },
       ]);
       const wanted = state.cell?.notation ?? "";
       if (wanted && ![...notation.options].some(({ value }) => value === wanted)) {
         notation.append(h("option", { value: wanted }, wanted));
       }
       field(notation, wanted);
-      attribute(typed, "placeholder", (robot?.columns ?? []).join(" "));
-      show(typing, !connected);
+      typed.update(state);
+      show(typing, robot?.typed === true);
       jog.update(state);
     },
   };

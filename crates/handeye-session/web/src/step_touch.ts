@@ -49,6 +49,7 @@ export function makeStepTouch(_app: App): Part {
   return {
     element,
     update(state) {
+      show(element, Boolean(state.touch));
       const name = JSON.stringify(state.cell?.target ?? null);
       if (name === drawn) return;
       drawn = name;

@@ -43,6 +43,7 @@ export function makeStepVerify(app: App): Part {
   return {
     element,
     update(state) {
+      show(element, Boolean(state.verify));
       const verify = state.verify;
       const tolerance = state.cell?.tolerance_mm;
       text(number, mm(verify?.worst_mm));

@@ -18,6 +18,14 @@ export function t(key: Key, values: Record<string, string | number> = {}): strin
   return (language === "de" ? german : english).replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole));
 }
 
+/** What the server says as a sentence: with a capital, where it begins with a word, and a full stop. */
+export function sentence(said: string): string {
+  const trimmed = said.trim();
+  const begins = /^(?!f[xy]\b|c[xy]\b)[a-z]+(?=[ ,:;.]|$)/.test(trimmed);
+  const capital = begins ? trimmed.charAt(0).toUpperCase() + trimmed.slice(1) : trimmed;
+  return /[.!?…:]$/.test(capital) ? capital : `${capital}.`;
+}
+
 /** The element's text is this sentence, in whatever language. */
 export function said<E extends Element>(element: E, key: Key): E {
   if (element.getAttribute("data-say") !== key) {

@@ -1,0 +1,250 @@
+"""Plays a session in a browser as a person would: from nothing to an accepted result and an export of it.
+
+session_page.py PROGRAM [folder for a picture of every step]
+
+In a virtual cell, once with the mouse, whose clicks are counted, and once with the keyboard alone. The program calibrates
+the folder to the same bytes, a second tab shows the same, and nothing is loaded from elsewhere.
+"""
+
+import contextlib
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import urllib.parse
+
+import devtools
+
+MOST_CLICKS = 25
+SEED = "3"
+# a result says when it was made: that of the session at the same time as that of the program
+ENVIRONMENT = {**os.environ, "SOURCE_DATE_EPOCH": "1773480413"}
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+AXE = ROOT / "crates/handeye-session/web/node_modules/axe-core/axe.min.js"
+# this machine's own address is reached, no other one; of two switches of a browser the last one counts
+NO_OTHER_HOST = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"
+CHOICES = ["cell", "camera", "robot", "board"]
+FORMAT = "quaternion-xyzw"
+
+STEP = "document.body?.dataset.step"
+PRIMARY = "document.querySelector('button.primary')"
+# what the primary button does; empty while it cannot be pressed
+ACTION = f"({PRIMARY}.getAttribute('aria-disabled') ? '' : {PRIMARY}.querySelector('[data-say]').dataset.say)"
+STATE = f"JSON.stringify([{STEP}, {ACTION}])"
+# what is the same in every tab
+SHOWN = f"""JSON.stringify([{STEP}, ...['h1', '.accuracy .number', 'ol.captures', '.banner']
+    .map((part) => document.querySelector(part).textContent)])"""
+AUTOMATIC = "document.querySelector('.others button[aria-pressed]')"
+TAB = f"Array.from(document.querySelectorAll('[role=tab]')).find((tab) => tab.textContent == {FORMAT!r})"
+EXPORT = "document.querySelector('#export-text').textContent"
+
+
+class Page(devtools.Browser):
+    """The page of a session, under a person's hands."""
+
+    def __init__(self, work):
+        super().__init__(work, NO_OTHER_HOST)
+        self.work, self.clicks, self.keys = pathlib.Path(work), 0, 0
+        self.call("Emulation.setDeviceMetricsOverride", width=1280, height=800, deviceScaleFactor=1, mobile=False)
+
+    def sign_in(self, address):
+        """Opens the address that the session has printed; it leads to one without the token."""
+        self.home = urllib.parse.urljoin(address, "/")
+        self.call("Page.navigate", url=address)
+        self.wait(f"location.href == {self.home!r} && {STEP} == 'cell' && {ACTION} == 'confirm'", "the page opens")
+
+    def click(self, element):
+        """A click in the middle of an element."""
+        x, y = self.value(f"""(() => {{ const element = {element}; element.scrollIntoView({{ block: "nearest" }});
+            const at = element.getBoundingClientRect(); return [at.left + at.width / 2, at.top + at.height / 2]; }})()""")
+        for kind in ("mousePressed", "mouseReleased"):
+            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+        self.clicks += 1
+
+    def press(self, key, number):
+        """A key, down and up."""
+        for kind in ("rawKeyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=number)
+        self.keys += 1
+
+    def act(self, do, step):
+        """Does the primary action by `do` once it can be done, and waits until something has come of it."""
+        before = self.wait(f"{STEP} == {step!r} && {ACTION} && {STATE}", f"something can be done in the step {step}")
+        do()
+        self.wait(f"{STATE} != {before!r}", f"something comes of {before}")
+        return json.loads(before)[1]
+
+    def wrong(self):
+        """What went wrong in the page, and what it asked of others."""
+        for trouble in self.troubles():
+            kind, _, url = trouble.partition(" ")
+            # the browser's own first page consists of chrome://
+            if kind != "loads" or not url.startswith((self.home, "chrome:")):
+                yield trouble
+
+    def other_tab(self):
+        """The session in one more tab."""
+        name = self.call("Target.createTarget", url=self.home)["targetId"]
+        port = (self.work / "profile" / "DevToolsActivePort").read_text().split("\n")[0]
+        return Tab(f"ws://127.0.0.1:{port}/devtools/page/{name}", self.home)
+
+
+class Tab(Page):
+    """One more tab of a browser that runs."""
+
+    def __init__(self, address, home):
+        self.home, self.count, self.events = home, 0, []
+        self.socket = devtools.websocket.create_connection(address, timeout=devtools.SLOW)
+        for domain in ("Runtime", "Page", "Network", "Log"):
+            self.call(f"{domain}.enable")
+
+
+def main():
+    program = pathlib.Path(sys.argv[1]).resolve()
+    pictures = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
+    if devtools.program() is None:
+        print("SKIPPED: no chromium to open the session with")
+        return
+    if not AXE.is_file():
+        print(f"SKIPPED in part: no {AXE.relative_to(ROOT)} to look for barriers with")
+    with opened(program) as (page, folder):
+        captures = with_mouse(page, folder, pictures)
+        same_bytes(program, folder)
+        assert page.clicks <= MOST_CLICKS, f"{page.clicks} clicks"
+        assert not list(page.wrong()), list(page.wrong())
+        clicks = page.clicks
+    with opened(program) as (page, folder):
+        again = with_keys(page, folder)
+        same_bytes(program, folder)
+        assert page.clicks == 0
+        assert not list(page.wrong()), list(page.wrong())
+        keys = page.keys
+    barriers = "no serious barrier" if AXE.is_file() else "barriers not looked for"
+    print(f"session: {captures} captures and an accepted result with {clicks} clicks, {again} with {keys} keys;"
+          f" the program gives the same bytes, a second tab shows the same, {barriers}, nothing from elsewhere")
+
+
+@contextlib.contextmanager
+def opened(program):
+    """A new session of a virtual cell and its page."""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work:
+        folder = pathlib.Path(work) / "cell"
+        command = [program, "session", folder, "--virtual", SEED, "--no-open"]
+        session = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=ENVIRONMENT)
+        try:
+            address = next((line.split()[1] for line in session.stdout if line.startswith("session: ")), None)
+            assert address, "the session prints no address"
+            with Page(work) as page:
+                page.sign_in(address)
+                yield page, folder
+        finally:
+            session.terminate()
+            session.wait()
+
+
+def with_mouse(page, folder, pictures):
+    """From nothing to an export with clicks alone: the session takes captures by itself wherever the robot stands."""
+    for step in CHOICES:
+        look(page, step, pictures)
+        page.act(lambda: page.click(PRIMARY), step)
+    page.click(AUTOMATIC)
+    page.wait(f"{AUTOMATIC}.getAttribute('aria-pressed') == 'true'", "captures are taken automatically")
+    tab = None
+    while True:
+        page.wait(f"['drive', 'finish'].includes({ACTION})", "the next view, or enough of them")
+        if tab is None:
+            tab = page.other_tab()
+            look(page, "capture", pictures)
+            alike(page, tab)
+        if page.act(lambda: page.click(PRIMARY), "capture") == "finish":
+            break
+    page.wait(f"{STEP} == 'result' && !!{TAB}", "the result")
+    page.click(TAB)
+    exported(page, folder)
+    look(page, "result", pictures)
+    alike(page, tab)
+    assert not list(tab.wrong()), list(tab.wrong())
+    return count(page)
+
+
+def with_keys(page, folder):
+    """The same with the keyboard alone, and every capture is asked for."""
+    for step in CHOICES:
+        page.act(lambda: page.press(" ", 32), step)
+    while page.act(lambda: page.press(" ", 32), "capture") != "finish":
+        pass
+    page.wait(f"{STEP} == 'result' && !!{TAB}", "the result")
+    reached = "document.activeElement.getAttribute('role') == 'tab'"
+    tab_to(page, reached)
+    while not page.value(f"document.activeElement == {TAB}"):
+        page.press("ArrowRight", 39)
+        assert page.keys < 200, "the arrow keys do not reach the export"
+    exported(page, folder)
+    return count(page)
+
+
+def tab_to(page, reached):
+    for _ in range(100):
+        if page.value(reached):
+            return
+        page.press("Tab", 9)
+    sys.exit("failed: the key Tab does not reach the exports")
+
+
+def count(page):
+    return page.value("document.querySelectorAll('ol.captures > li').length")
+
+
+def exported(page, folder):
+    """The export that is seen is the result that was written; it is accepted."""
+    result = json.loads((folder / "result" / "calibration.json").read_text())
+    assert result["verdict"] == "accepted", result["verdict"]
+    assert page.value("document.querySelector('.banner').classList.contains('accepted')"), "the page does not accept it"
+    pose = result["hand_eye"]["mount_from_camera"]
+    wanted = [*pose["translation_m"], *pose["rotation_xyzw"]]
+
+    def is_seen():
+        lines = [line for line in page.value(EXPORT).splitlines() if line and not line.startswith("#")]
+        with contextlib.suppress(ValueError):
+            numbers = [float(number) for line in lines for number in line.replace(",", " ").split()]
+            return len(numbers) == len(wanted) and all(abs(a - b) < 1e-6 for a, b in zip(numbers, wanted))
+        return False
+
+    devtools.until(is_seen, "the export is seen", lambda: f"{page.value(EXPORT)}\nin place of {wanted}")
+    assert page.value("fetch('/api/report').then((answer) => answer.status)") == 200, "there is no report"
+
+
+def same_bytes(program, folder):
+    """`calibrate` on the folder gives the session's own result."""
+    out = folder.parent / "again"
+    command = [program, "calibrate", folder, "--out", out, "--quiet"]
+    subprocess.run(command, check=True, env=ENVIRONMENT, stdout=subprocess.DEVNULL)
+    mine, again = ((at / "calibration.json").read_bytes() for at in (folder / "result", out))
+    assert mine == again, "`handeye calibrate` gives another calibration.json than the session"
+
+
+def alike(page, tab):
+    """Both tabs show the same, as soon as both have drawn it."""
+    both = lambda: [one.value(f"document.querySelector('h1') && {SHOWN}") for one in (page, tab)]
+    devtools.until(lambda: len(set(both())) == 1, "a second tab shows the same", lambda: "\n".join(map(str, both())))
+
+
+def look(page, step, pictures):
+    """A picture of a step, and what keeps people from using it, in light and in dark."""
+    for scheme in ("light", "dark"):
+        page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+        if pictures:
+            pictures.mkdir(parents=True, exist_ok=True)
+            page.picture(pictures / f"{step}-{scheme}.png")
+        if AXE.is_file():
+            page.value(f"window.axe ? 0 : (() => {{ {AXE.read_text()} }})() || 0")
+            found = page.value("axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations"
+                               ".map(({ id, impact, nodes }) => [impact, id, nodes.map(({ html }) => html).slice(0, 5)]))")
+            grave = [one for one in found if one[0] in ("serious", "critical")]
+            assert not grave, f"barriers in the step {step}, {scheme}: {grave}"
+    page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
+
+
+main()
