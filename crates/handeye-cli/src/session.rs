@@ -63,8 +63,8 @@ pub struct SessionArgs {
     #[arg(long, value_name = "FILE", requires = "headless")]
     pub script: Option<PathBuf>,
     /// Port of the page [default: one that is free].
-    #[arg(long, default_value_t = 0)]
-    pub port: u16,
+    #[arg(long)]
+    pub port: Option<u16>,
     /// Address on which other machines can open the page, such as 0.0.0.0.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
     pub listen: IpAddr,
@@ -95,7 +95,7 @@ pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
                 .map_err(|e| Failure::input("the virtual cell", e))?;
             let tolerance_mm = args.tolerance_mm;
             let settings = CellSettings { tolerance_mm, ..cell.settings() };
-            (Cell::Virtual(cell), settings)
+            (Cell::Virtual(Box::new(cell)), settings)
         }
         (None, Some(folder), _) if !folder.is_dir() => {
             return Err(Failure::Usage(format!("{} is not a folder", folder.display())));
@@ -116,7 +116,7 @@ pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     }
     let host = Host::new(folder);
     match (&args.script, cell) {
-        (Some(script), Cell::Virtual(cell)) => play(&mut Player::new(host, cell), script, global),
+        (Some(script), Cell::Virtual(cell)) => play(&mut Player::new(host, *cell), script, global),
         (_, cell) => serve(Live::begin(host, cell), args, global),
     }
 }
@@ -126,14 +126,14 @@ fn settings(args: &SessionArgs) -> Result<CellSettings, Failure> {
     let usual = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
     let target = args.target.as_deref().map(read_target).transpose()?;
     Writing::of(&args.notation).map_err(Failure::Usage)?;
+    let intrinsics = match &args.intrinsics {
+        Some(file) => Some(read_intrinsics(file, None, None)?),
+        None => None,
+    };
     Ok(CellSettings {
         setup: args.setup,
         target: target.unwrap_or(usual),
-        intrinsics: args
-            .intrinsics
-            .as_deref()
-            .map(|file| read_intrinsics(file, None, None))
-            .transpose()?,
+        intrinsics,
         tolerance_mm: args.tolerance_mm,
         notation: args.notation.clone(),
         guess: None,
@@ -156,7 +156,7 @@ fn play(player: &mut Player, script: &PathBuf, global: &GlobalArgs) -> Result<u8
         output::print(&summary(&state));
     }
     if let Err(why) = played {
-        return Err(Failure::Usage(format!("{}: {why}", script.display())));
+        return Err(Failure::input(script, why));
     }
     let accepted = state.progress.is_some_and(|p| p.verdict == handeye::Verdict::Accepted);
     Ok(if accepted { 0 } else { 3 })
@@ -172,10 +172,11 @@ fn summary(state: &State) -> String {
 
 fn serve(live: Live, args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let no_port = |e: std::io::Error| {
-        Failure::Usage(format!("cannot listen on {} port {}: {e}", args.listen, args.port))
+        let port = args.port.map_or("any port".into(), |port| format!("port {port}"));
+        Failure::Usage(format!("cannot listen on {}, {port}: {e}", args.listen))
     };
     let folder = live.folder().display().to_string();
-    let server = Server::bind(live, args.listen, args.port).map_err(no_port)?;
+    let server = Server::bind(live, args.listen, args.port.unwrap_or(0)).map_err(no_port)?;
     let address = server.address().map_err(no_port)?;
     if !global.quiet {
         output::note!("folder: {folder}");

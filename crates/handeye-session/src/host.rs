@@ -69,7 +69,7 @@ impl Host {
                     scan: None,
                 });
                 let stored = stored.map_err(|e| e.to_string());
-                vec![Input::Stored(stored), Input::Folder(self.state())]
+                vec![Input::Stored(stored), Input::Folder(Box::new(self.state()))]
             }
             Effect::Refuse(refused) => {
                 let done = self.folder.refuse(refused);
@@ -99,7 +99,7 @@ impl Host {
 
     fn changed(&self, done: Result<(), Error>) -> Vec<Input> {
         let failed = done.err().map(|e| Input::Failed(e.to_string()));
-        failed.into_iter().chain([Input::Folder(self.state())]).collect()
+        failed.into_iter().chain([Input::Folder(Box::new(self.state()))]).collect()
     }
 
     /// Writes the result as `handeye calibrate --out result` does, the same bytes.

@@ -4,6 +4,8 @@
 //! [`engine`] decides (pure: inputs in, effects out), [`sources`] give poses and pictures, [`host`] does what the engine
 //! wants done, and [`script`] plays a session without a page.
 
+#![allow(clippy::result_large_err, reason = "an error ends the work: its size costs nothing")]
+
 pub mod assess;
 pub mod engine;
 pub mod host;

@@ -27,7 +27,7 @@ use crate::{
 /// Where poses and pictures come from.
 pub enum Cell {
     /// A virtual cell.
-    Virtual(VirtualCell),
+    Virtual(Box<VirtualCell>),
     /// Poses are typed; pictures come from somewhere.
     Hand(Camera),
 }
@@ -153,7 +153,7 @@ fn connect(cell: Cell, outlet: &Outlet) -> (Sources, Equipment) {
     };
     match cell {
         Cell::Virtual(cell) => {
-            let cell = Arc::new(cell);
+            let cell = Arc::new(*cell);
             virtual_robot(cell.clone(), outlet.clone());
             virtual_camera(cell.clone(), outlet.clone());
             (Sources::VIRTUAL, Equipment::Virtual(cell))

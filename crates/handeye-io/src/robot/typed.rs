@@ -74,8 +74,7 @@ fn numbers(text: &str, decimal_commas: bool) -> Option<Vec<Named>> {
     let mut name = String::new();
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
-        if is_number(first)
-            && !(first == ',' && !rest[1..].starts_with(|c: char| c.is_ascii_digit()))
+        if is_number(first) && (first != ',' || rest[1..].starts_with(|c: char| c.is_ascii_digit()))
         {
             let end = number_end(rest, decimal_commas);
             let value: f64 = rest[..end].replace(',', ".").parse().ok()?;
@@ -151,8 +150,8 @@ mod tests {
         ] {
             assert_eq!(read("kuka", text), pose, "{text}");
         }
-        let ur = read("ur", "p[0.6123, -4.1e-3, .233, 0, 3.14, 0]").unwrap();
-        assert_eq!(ur, [0.6123, -0.0041, 0.233, 0.0, 3.14, 0.0]);
+        let ur = read("ur", "p[0.6123, -4.1e-3, .233, 0, 3.1, 0]").unwrap();
+        assert_eq!(ur, [0.6123, -0.0041, 0.233, 0.0, 3.1, 0.0]);
     }
 
     #[test]

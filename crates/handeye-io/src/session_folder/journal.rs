@@ -129,11 +129,13 @@ impl Journal {
 
     /// All captures that were ever taken.
     pub(super) fn taken(&self) -> Vec<&StoredCapture> {
-        let of = |line| match line {
-            &Line::Take(ref capture) => Some(capture),
-            _ => None,
-        };
-        self.lines.iter().filter_map(of).collect()
+        let mut all = vec![];
+        for line in &self.lines {
+            if let Line::Take(capture) = line {
+                all.push(capture);
+            }
+        }
+        all
     }
 
     /// The names of those that are deleted.
@@ -164,10 +166,12 @@ impl Journal {
     }
 
     pub(super) fn refused(&self) -> Vec<&RefusedCapture> {
-        let of = |line| match line {
-            &Line::Refuse(ref refused) => Some(refused),
-            _ => None,
-        };
-        self.lines.iter().filter_map(of).collect()
+        let mut all = vec![];
+        for line in &self.lines {
+            if let Line::Refuse(refused) = line {
+                all.push(refused);
+            }
+        }
+        all
     }
 }

@@ -34,7 +34,7 @@ pub enum Input {
     /// Somebody asks for something.
     Command(Command),
     /// What the folder holds now.
-    Folder(FolderState),
+    Folder(Box<FolderState>),
     /// A capture was stored under this name, or why it was not.
     Stored(Result<String, String>),
     /// A change of the folder could not be made.
@@ -128,7 +128,7 @@ pub enum Effect {
     /// Take a deleted one in again.
     Restore(String),
     /// Other settings of the cell.
-    Configure(CellSettings),
+    Configure(Box<CellSettings>),
     /// Assess the captures.
     Assess {
         /// Which state of the captures.
@@ -288,7 +288,7 @@ impl Engine {
             Input::Robot(sample) => self.robot_at(sample),
             Input::Picture(sample) => self.picture(sample),
             Input::Command(command) => self.obey(command)?,
-            Input::Folder(folder) => self.holds(folder),
+            Input::Folder(folder) => self.holds(*folder),
             Input::Stored(stored) => self.stored(stored),
             Input::Failed(why) => {
                 self.trouble("not-written", why);
@@ -624,7 +624,7 @@ impl Engine {
         if is_other && self.sources.is_virtual {
             return Err(wrong("a virtual cell has its own setup, camera and board"));
         }
-        Ok(vec![Effect::Configure(settings)])
+        Ok(vec![Effect::Configure(Box::new(settings))])
     }
 
     fn want(&mut self) -> Result<Vec<Effect>, Refusal> {

@@ -334,6 +334,9 @@ impl Sorted {
     }
 }
 
+/// Where a corner is, and how far from there it was.
+type Moved = (Vector2<f64>, Vector2<f64>);
+
 /// How far the target has moved in the image between two pictures, as an affine motion of its corners.
 #[derive(Clone, Copy)]
 struct Shift {
@@ -350,7 +353,7 @@ impl Shift {
             let a = after.find(b.id)?;
             Some((a.pixel, b.pixel - a.pixel))
         };
-        let pairs: Vec<(Vector2<f64>, Vector2<f64>)> = before.iter().filter_map(pair).collect();
+        let pairs: Vec<Moved> = before.iter().filter_map(pair).collect();
         if pairs.len() < 4 {
             return None;
         }
@@ -366,8 +369,7 @@ impl Shift {
             |k: usize| inverse * pairs.iter().map(|(at, by)| row(at) * by[k]).sum::<Vector3<f64>>();
         let (x, y) = (motion(0), motion(1));
         let moved = |at: &Vector2<f64>| Vector2::new(row(at).dot(&x), row(at).dot(&y));
-        let square =
-            |f: &dyn Fn(&(Vector2<f64>, Vector2<f64>)) -> f64| pairs.iter().map(f).sum::<f64>();
+        let square = |f: &dyn Fn(&Moved) -> f64| pairs.iter().map(f).sum::<f64>();
         let length = (square(&|(at, _)| moved(at).norm_squared()) / n).sqrt();
         // of few corners the scatter says little: they are no better than what is stated of them
         let stated = |c: &ImageCorner| c.covariance.trace() / 2.0;

@@ -1,5 +1,7 @@
 //! Sessions from outside: with virtual cells, whose truth is known.
 
+#![allow(clippy::unwrap_used, reason = "a test fails loudly")]
+
 mod by_hand;
 mod standstill;
 mod virtual_cell;

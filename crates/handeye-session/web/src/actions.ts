@@ -40,15 +40,20 @@ export function isEnough(state: State): boolean {
 }
 
 /** What was there when a capture was asked for here: until something has come of it, no second one is. */
-let asked: { outcomes: number; at: number } | null = null;
+let asked: { outcomes: number; problem: string; at: number } | null = null;
 const ASKED_FOR = 20_000; // ms after which this is over in any case
 
 const outcomes = (state: State): number =>
   (state.captures?.length ?? 0) + (state.deleted?.length ?? 0) + (state.refused?.length ?? 0);
 
+const problemOf = ({ problem }: State): string => (problem && problem.code !== "picture-late" ? problem.message : "");
+
 function isStoring(state: State): boolean {
-  if (asked && state.taking) asked.at = performance.now();
-  if (asked && (asked.outcomes !== outcomes(state) || state.problem || performance.now() - asked.at > ASKED_FOR)) asked = null;
+  if (!asked) return false;
+  if (state.taking) asked.at = performance.now();
+  const problem = problemOf(state);
+  const isOver = asked.outcomes !== outcomes(state) || (problem !== "" && problem !== asked.problem);
+  if (isOver || performance.now() - asked.at > ASKED_FOR) asked = null;
   return asked !== null;
 }
 
@@ -69,7 +74,7 @@ export async function sendTyped(app: App): Promise<boolean> {
 /** Takes a capture, of the pose that was typed where poses are. */
 export async function take(app: App): Promise<void> {
   if (!(await sendTyped(app)) || !app.state || app.state.taking) return;
-  asked = { outcomes: outcomes(app.state), at: performance.now() };
+  asked = { outcomes: outcomes(app.state), problem: problemOf(app.state), at: performance.now() };
   if (!(await app.send({ do: "take" }))) asked = null;
 }
 

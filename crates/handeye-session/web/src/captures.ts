@@ -42,7 +42,7 @@ function captureRow(app: App, id: string) {
       const outlier = isOutlier(capture);
       const error = capture.residual_mm;
       width(fill, typeof error === "number" ? (100 * error) / scale : 0);
-      text(millimetres, typeof error === "number" ? `${mm(error)} mm` : t("no_residual"));
+      text(millimetres, typeof error === "number" ? `${mm(error)} mm` : t(outlier ? "not_used" : "no_residual"));
       text(pixels, typeof capture.residual_px === "number" ? `${mm(capture.residual_px)} px` : "");
       text(reason, capture.reason && sentence(capture.reason));
       show(reason, Boolean(capture.reason) && (selected || outlier));

@@ -67,7 +67,8 @@ export function makeStepCamera(app: App): Part {
       if (!isKnown) void app.send({ do: "camera", intrinsics: null });
       app.redraw();
     });
-    const words = h("span", {}, said(h("b"), isKnown ? "intrinsics_known" : "intrinsics_unknown"), said(h("small"), isKnown ? "intrinsics_known_what" : "intrinsics_unknown_what"));
+    const key: Key = isKnown ? "intrinsics_known" : "intrinsics_unknown";
+    const words = h("span", {}, said(h("b"), key), said(h("small"), `${key}_what`));
     return { isKnown, input, element: h("label", { class: "choice plain" }, input, words) };
   });
 
@@ -122,7 +123,8 @@ export function cameraFacts(camera: Camera | null | undefined) {
   const connected = camera?.connected === true;
   const single = camera?.single === true;
   const missing = t(single ? "no_picture" : "no_camera");
-  const facts = [{ name: t("pictures"), value: connected ? t(single ? "one_by_one" : "streaming") : missing, good: connected || (single ? undefined : false) }];
+  const come = connected ? t(single ? "one_by_one" : "streaming") : missing;
+  const facts = [{ name: t("pictures"), value: come, good: connected || (single ? undefined : false) }];
   if (!connected) return facts;
   const age = camera?.age_s;
   const delay = camera?.delay_s;
