@@ -58,7 +58,7 @@ impl Bench {
         self.engine.step(Input::Stored(Ok("001".into()))).unwrap();
     }
 
-    fn to_capture(&mut self) {
+    fn begin(&mut self) {
         self.picture(true);
         self.pose();
         for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
@@ -74,7 +74,7 @@ fn is_store(effects: &[Effect]) -> bool {
 #[test]
 fn a_pose_and_a_picture_make_one_capture_in_either_order() {
     let mut bench = Bench::new(false);
-    bench.to_capture();
+    bench.begin();
     assert!(is_store(&bench.ask(Command::Take)));
     bench.stored();
     // neither is used twice
@@ -95,7 +95,7 @@ fn a_pose_and_a_picture_make_one_capture_in_either_order() {
 #[test]
 fn a_picture_without_the_board_is_refused_and_its_pose_waits_for_another() {
     let mut bench = Bench::new(false);
-    bench.to_capture();
+    bench.begin();
     bench.picture(false);
     let effects = bench.ask(Command::Take);
     assert!(matches!(&effects[..], [Effect::Refuse(refused)] if refused.why.contains("too dark")));
@@ -107,7 +107,7 @@ fn a_picture_without_the_board_is_refused_and_its_pose_waits_for_another() {
 fn a_command_takes_the_picture_once_the_pose_is_there() {
     let mut bench = Bench::new(true);
     assert_eq!(bench.engine.view("", "").camera.frame, 0);
-    bench.to_capture();
+    bench.begin();
     assert!(is_store(&bench.ask(Command::Take)));
     bench.stored();
     assert!(bench.ask(Command::Take).is_empty());
