@@ -42,7 +42,8 @@ impl Notation {
             return Ok(found.iter().map(|number| number.value).collect());
         }
         let of_column = |column: &Column| {
-            let mut own = found.iter().filter(|n| column.names.contains(&&plain(&n.name)[..]));
+            let is_own = |n: &&Named| column.names.iter().any(|name| plain(name) == plain(&n.name));
+            let mut own = found.iter().filter(is_own);
             Some(own.next()?.value).filter(|_| own.next().is_none())
         };
         let values: Option<Vec<f64>> = self.columns.iter().map(of_column).collect();

@@ -122,8 +122,10 @@ fn a_program_killed_at_any_step_of_a_capture_loses_nothing_that_was_confirmed() 
     drop(folder);
     let (image, aside) = (root.join("images/003.png"), root.join("deleted/images/003.png"));
     let journal = fs::read(root.join(JOURNAL)).unwrap();
+    let aside_folder = aside.parent().unwrap();
 
     // killed after the line, before its image was in place: the capture is whole
+    fs::create_dir_all(aside_folder).unwrap();
     fs::rename(&image, &aside).unwrap();
     fs::write(root.join("robot.csv"), &before[0]).unwrap();
     assert_eq!(names_in(&Dataset::open(&root).unwrap()), ["001", "002"]);
@@ -138,6 +140,7 @@ fn a_program_killed_at_any_step_of_a_capture_loses_nothing_that_was_confirmed() 
     // killed within the line: it was never confirmed, and its name is free
     for end in [before[1].len(), before[1].len() + 1, journal.len() - 1] {
         if image.exists() {
+            fs::create_dir_all(aside_folder).unwrap();
             fs::rename(&image, &aside).unwrap();
         }
         fs::write(root.join("robot.csv"), &before[0]).unwrap();
