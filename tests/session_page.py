@@ -86,8 +86,8 @@ class Page(devtools.Browser):
                 yield trouble
 
     def other_tab(self):
-        """The session in one more tab."""
-        name = self.call("Target.createTarget", url=self.home)["targetId"]
+        """The session in one more tab, behind this one."""
+        name = self.call("Target.createTarget", url=self.home, background=True)["targetId"]
         port = (self.work / "profile" / "DevToolsActivePort").read_text().split("\n")[0]
         return Tab(f"ws://127.0.0.1:{port}/devtools/page/{name}", self.home)
 
@@ -157,7 +157,7 @@ def with_mouse(page, folder, pictures):
             tab = page.other_tab()
             look(page, "capture", pictures)
             alike(page, tab)
-    page.wait(f"{STEP} == 'result' && !!{TAB}", "the result")
+    page.wait(f"{STEP} == 'result' && !!{TAB} && !!{EXPORT}", "the result and a first export")
     page.click(TAB)
     exported(page, folder)
     look(page, "result", pictures)
@@ -172,7 +172,7 @@ def with_keys(page, folder):
         page.act(lambda: page.press(" ", 32), step)
     while page.act(lambda: page.press(" ", 32), "capture") != "finish":
         pass
-    page.wait(f"{STEP} == 'result' && !!{TAB}", "the result")
+    page.wait(f"{STEP} == 'result' && !!{TAB} && !!{EXPORT}", "the result and a first export")
     reached = "document.activeElement.getAttribute('role') == 'tab'"
     tab_to(page, reached)
     while not page.value(f"document.activeElement == {TAB}"):

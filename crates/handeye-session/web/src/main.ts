@@ -96,6 +96,8 @@ const EMPTY: State = { version: 0 };
 let waiting = false;
 let before: State | null = null;
 
+const UNSEEN = 250; // ms after which a state is drawn without a frame of the screen, which a hidden page does not get
+
 /** A new state is drawn with the next frame of the screen: states that come faster than that are not all drawn. */
 function arrived(state: State): void {
   app.state = state;
@@ -104,15 +106,17 @@ function arrived(state: State): void {
   if (waiting) return;
   waiting = true;
   const draw = () => {
+    if (!waiting || !app.state) return;
     waiting = false;
-    if (!app.state) return;
+    clearTimeout(late);
+    cancelAnimationFrame(next);
     listen(app, before, app.state);
     speakOf(app.state);
     before = app.state;
     redraw();
   };
-  if (document.hidden) setTimeout(draw, 250);
-  else requestAnimationFrame(draw);
+  const next = requestAnimationFrame(draw);
+  const late = setTimeout(draw, UNSEEN);
 }
 
 function lost(why: unknown): void {
