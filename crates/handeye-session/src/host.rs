@@ -69,7 +69,8 @@ impl Host {
                     scan: None,
                 });
                 let stored = stored.map_err(|e| e.to_string());
-                vec![Input::Stored(stored), Input::Folder(Box::new(self.state()))]
+                // first what lies in the folder: until then it is being stored
+                vec![Input::Folder(Box::new(self.state())), Input::Stored(stored)]
             }
             Effect::Refuse(refused) => {
                 let done = self.folder.refuse(refused);

@@ -1,9 +1,13 @@
 //! What to do next, in one sentence, and what is known of each step.
 
-use handeye::{Setup, Verdict};
+use handeye::{Setup, Verdict, model::residual::Residual};
 use handeye_io::StoredCapture;
 
-use super::{Engine, Step, rest::Motion};
+use super::{
+    ELSEWHERE, Engine, Flow, Step,
+    rest::{Motion, RobotSample},
+};
+use crate::assess::ProposedView;
 
 /// What is known of a step's choice.
 pub(super) struct Proof {
@@ -52,7 +56,7 @@ impl Engine {
         };
         let (width, height) = last.size;
         let silent = self.now - last.time_s;
-        if silent > 2.0 {
+        if silent > 2.0 && self.sources.camera == Flow::Stream {
             return proof(false, format!("no picture for {silent:.0} s"));
         }
         let given = self.folder.settings.intrinsics.map(|c| (c.width, c.height));
@@ -74,11 +78,16 @@ impl Engine {
     }
 
     fn robot_proof(&self) -> Proof {
+        let typed = self.sources.robot == Flow::Single;
         let Some(last) = self.robot.back() else {
-            return proof(false, "the robot has not sent a pose yet");
+            let missing = match typed {
+                true => "type the pose that the pendant shows",
+                false => "the robot has not sent a pose yet",
+            };
+            return proof(false, missing);
         };
         let silent = self.now - last.time_s;
-        if silent > 2.0 {
+        if silent > 2.0 && !typed {
             return proof(false, format!("no pose for {silent:.0} s"));
         }
         let at = last.base_from_flange.translation() * 1e3;
@@ -124,6 +133,9 @@ impl Engine {
                 format!("{}.", capitalised(&known.text))
             }
             Step::Camera => "Is this the picture of your camera? Confirm it.".into(),
+            Step::Robot if self.sources.robot == Flow::Single => {
+                "Is this where the flange is, in the notation of your robot? Confirm it.".into()
+            }
             Step::Robot => "Move the robot by hand: do the numbers move with it? Then confirm it.".into(),
             Step::Board => "The board is found. Confirm that its size is measured, not read off a drawing.".into(),
             Step::Capture => self.say_capture(),
@@ -147,7 +159,10 @@ impl Engine {
             return "The captures are being assessed.".into();
         }
         let Some(assessed) = &self.assessed else {
-            return "Move the robot until the camera sees the whole board, then take the first capture.".into();
+            return match self.folder.captures.is_empty() {
+                true => "Move the robot until the camera sees the whole board, then take the first capture.".into(),
+                false => first_views(&self.folder.captures),
+            };
         };
         if assessed.enough {
             let mm = assessed.p95_mm().unwrap_or_default();
@@ -157,11 +172,22 @@ impl Engine {
             );
         }
         match (&assessed.next, &assessed.no_next) {
+            (Some(next), _) if self.is_at(next) => {
+                "The robot is at the view: take the capture.".into()
+            }
             (Some(next), _) => format!("Drive to the next view: {}.", next.view.reason()),
             (None, Some(_)) if self.folder.captures.len() < 4 => first_views(&self.folder.captures),
             (None, Some(why)) => format!("No next view is found: {why}."),
             (None, None) => "No next view is found.".into(),
         }
+    }
+
+    /// Whether a robot whose poses stream stands at the view, so far as the planner tells views apart.
+    fn is_at(&self, next: &ProposedView) -> bool {
+        let there = &next.view.station.base_from_flange;
+        let near =
+            |s: &RobotSample| Residual::between(&s.base_from_flange, there).is_within(ELSEWHERE);
+        self.sources.robot == Flow::Stream && self.robot.back().is_some_and(near)
     }
 
     fn say_result(&self) -> String {

@@ -493,7 +493,7 @@ impl Engine {
         let one = |m: &MeasuredCapture| CaptureDetail {
             id: m.id.clone(),
             points: m.corners.iter().map(|c| pixel(&c.pixel)).collect(),
-            arrows: (!m.residuals.is_empty()).then(|| m.residuals.iter().map(pixel).collect()),
+            arrows: (!m.residuals.is_empty()).then(|| m.residuals.iter().map(arrow).collect()),
         };
         self.assessed.as_ref().map_or(vec![], |a| a.measured.iter().map(one).collect())
     }
@@ -533,6 +533,10 @@ impl Engine {
 fn pixel(p: &handeye::nalgebra::Vector2<f64>) -> Pixel {
     // a hundredth of a pixel is more than a page shows
     [p.x, p.y].map(|v| (v * 100.0).round() / 100.0)
+}
+
+fn arrow(r: &handeye::nalgebra::Vector2<f64>) -> Pixel {
+    [r.x, r.y].map(|v| (v * 1e4).round() / 1e4)
 }
 
 fn degrees(joints: &[f64]) -> Vec<f64> {
