@@ -1,6 +1,10 @@
 //! `handeye session`: a guided live calibration.
 
-use std::{fs, net::IpAddr, path::PathBuf};
+use std::{
+    fs,
+    net::{IpAddr, SocketAddr, TcpListener},
+    path::PathBuf,
+};
 
 use clap::Args;
 use handeye::{Setup, TargetModel};
@@ -13,7 +17,7 @@ use handeye_session::{
     host::Host,
     live::{Camera, Cell, Live},
     script::{Action, Player},
-    server::Server,
+    server::{Server, line},
     sources::virtual_cell::{Faults, VirtualCell},
 };
 
@@ -68,6 +72,10 @@ pub struct SessionArgs {
     /// Address on which other machines can open the page, such as 0.0.0.0.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
     pub listen: IpAddr,
+    /// Address and port at which the robot's own program asks, such as 0.0.0.0:7777; it sends lines like `pose 612.3 -4.1
+    /// 233 10 20 -170`.
+    #[arg(long, value_name = "ADDRESS:PORT", conflicts_with = "seed")]
+    pub robot: Option<SocketAddr>,
     /// Do not open a browser.
     #[arg(long)]
     pub no_open: bool,
@@ -176,6 +184,12 @@ fn serve(live: Live, args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Fail
         Failure::Usage(format!("cannot listen on {}, {port}: {e}", args.listen))
     };
     let folder = live.folder().display().to_string();
+    if let Some(address) = args.robot {
+        let listener = TcpListener::bind(address).map_err(|e| no_robot(address, &e))?;
+        let at = listener.local_addr().map_err(|e| no_robot(address, &e))?;
+        line::listen(live.clone(), listener).map_err(|e| no_robot(address, &e))?;
+        output::print(&format!("robot: {at}\n"));
+    }
     let server = Server::bind(live, args.listen, args.port.unwrap_or(0)).map_err(no_port)?;
     let address = server.address().map_err(no_port)?;
     if !global.quiet {
@@ -192,4 +206,8 @@ fn serve(live: Live, args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Fail
     }
     server.serve().map_err(no_port)?;
     Ok(0)
+}
+
+fn no_robot(address: SocketAddr, error: &std::io::Error) -> Failure {
+    Failure::Usage(format!("cannot listen for the robot on {address}: {error}"))
 }

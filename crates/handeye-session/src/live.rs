@@ -61,8 +61,15 @@ pub struct Live {
     folder: PathBuf,
 }
 
-/// A command, and who waits for the answer: the version that has it.
-struct Asked(Command, oneshot::Sender<Result<u64, Refusal>>);
+/// The version of the state that has it, or why a command is not obeyed.
+type Answer = Result<u64, Refusal>;
+
+/// A command, and who waits for the answer.
+struct Asked(Command, oneshot::Sender<Answer>);
+
+fn gone() -> Refusal {
+    Refusal { message: "the session has ended".into(), later: true }
+}
 
 /// How often the state is shown anew, at most.
 const SHOWN: Duration = Duration::from_millis(100);
@@ -86,7 +93,7 @@ impl Live {
         let outlet = Outlet::new(inputs.clone(), wanted(&state.settings), show_frame);
         let (sources, equipment) = connect(cell, &outlet);
         let (engine, effects) = Engine::new(state, sources);
-        let runner = Runner {
+        let mut runner = Runner {
             engine,
             equipment,
             work: worker(host, inputs),
@@ -96,6 +103,7 @@ impl Live {
             details: Arc::default(),
             detailed: 0,
         };
+        runner.publish(); // there is a state from the first moment
         thread::spawn(move || runner.run((&inbox, &asking), effects));
         Self { asked, shown, frames, outlet, folder }
     }
@@ -105,10 +113,21 @@ impl Live {
     /// # Errors
     /// Why it cannot be obeyed.
     pub async fn command(&self, command: Command) -> Result<u64, Refusal> {
+        self.ask(command)?.await.unwrap_or_else(|_| Err(gone()))
+    }
+
+    /// The same from a thread that may wait.
+    ///
+    /// # Errors
+    /// Why it cannot be obeyed.
+    pub fn command_blocking(&self, command: Command) -> Result<u64, Refusal> {
+        self.ask(command)?.blocking_recv().unwrap_or_else(|_| Err(gone()))
+    }
+
+    fn ask(&self, command: Command) -> Result<oneshot::Receiver<Answer>, Refusal> {
         let (answer, answered) = oneshot::channel();
-        let gone = || Refusal { message: "the session has ended".into(), later: true };
         self.asked.send(Asked(command, answer)).map_err(|_| gone())?;
-        answered.await.unwrap_or_else(|_| Err(gone()))
+        Ok(answered)
     }
 
     /// What is shown, now and from now on.

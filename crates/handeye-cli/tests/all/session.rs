@@ -239,7 +239,7 @@ fn a_hundred_slow_connections_do_not_stop_a_session() {
         })
         .collect();
     serving.begin();
-    assert_eq!(serving.state()["step"], "capture");
+    serving.until("the captures", |state| state["step"] == "capture");
     drop(slow);
 }
 

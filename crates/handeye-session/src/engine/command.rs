@@ -91,6 +91,8 @@ pub enum Command {
     },
     /// No longer wait for a standstill.
     Cancel,
+    /// Take a picture to look at, where pictures are taken when they are asked for.
+    Grab,
     /// A pose read from the pendant.
     Pose {
         /// Its numbers, in the notation.

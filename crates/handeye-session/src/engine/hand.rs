@@ -31,11 +31,7 @@ impl Engine {
 
     /// The number of the picture that may be taken, or what is still missing.
     pub(super) fn ready_by_hand(&self) -> Result<u64, String> {
-        let robot_since = match (self.sources.robot, &self.rest.robot) {
-            (Flow::Stream, Motion::Stands(since)) => *since,
-            (Flow::Stream, Motion::Moves(why)) => return Err(why.clone()),
-            (Flow::Single, _) => self.typed_at().ok_or("type the pose that the pendant shows")?,
-        };
+        let robot_since = self.robot_since()?;
         let picture = self.pictures.back();
         match self.sources.camera {
             Flow::Stream => {
@@ -53,8 +49,11 @@ impl Engine {
                 }
             }
             Flow::Single => {
-                let newest = picture.filter(|p| Some(p.frame) != self.used.frame);
-                let newest = newest.ok_or("waiting for the picture of this pose")?;
+                // one that is taken on demand is taken at the pose
+                let is_own = |time_s: f64| !self.sources.takes_pictures || time_s > robot_since;
+                let newest = picture
+                    .filter(|p| Some(p.frame) != self.used.frame && is_own(p.time_s))
+                    .ok_or("waiting for the picture of this pose")?;
                 let is_old = self.sources.robot == Flow::Stream && newest.time_s < robot_since;
                 match &newest.corners {
                     _ if is_old => {
@@ -63,6 +62,17 @@ impl Engine {
                     Ok(_) => Ok(newest.frame),
                     Err(why) => Err(format!("the board is not found: {why}")),
                 }
+            }
+        }
+    }
+
+    /// Since when the robot is where a capture may be taken.
+    fn robot_since(&self) -> Result<f64, String> {
+        match (self.sources.robot, &self.rest.robot) {
+            (Flow::Stream, Motion::Stands(since)) => Ok(*since),
+            (Flow::Stream, Motion::Moves(why)) => Err(why.clone()),
+            (Flow::Single, _) => {
+                self.typed_at().ok_or_else(|| "type the pose that the pendant shows".into())
             }
         }
     }
@@ -76,7 +86,8 @@ impl Engine {
     /// Why a picture that has come is of no use.
     pub(super) fn unseen_by_hand(&mut self) -> Option<String> {
         let newest = self.pictures.back().filter(|p| Some(p.frame) != self.used.frame)?;
-        if self.sources.camera == Flow::Stream {
+        let is_before = self.robot_since().is_ok_and(|since| newest.time_s <= since);
+        if self.sources.camera == Flow::Stream || (self.sources.takes_pictures && is_before) {
             return None;
         }
         let why = newest.corners.as_ref().err()?;
@@ -88,11 +99,7 @@ impl Engine {
 
     /// Asks for the picture, where that can be asked for and the robot stands.
     pub(super) fn grab(&mut self) -> Vec<Effect> {
-        let has_pose = match self.sources.robot {
-            Flow::Stream => matches!(self.rest.robot, Motion::Stands(_)),
-            Flow::Single => self.typed_at().is_some(),
-        };
-        if self.grabbing || !self.sources.takes_pictures || !has_pose {
+        if self.grabbing || !self.sources.takes_pictures || self.robot_since().is_err() {
             return vec![];
         }
         self.grabbing = true;

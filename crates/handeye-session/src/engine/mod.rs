@@ -568,6 +568,11 @@ impl Engine {
                 self.wish = None;
                 Ok(vec![])
             }
+            Command::Grab if self.sources.takes_pictures => {
+                self.grabbing = true;
+                Ok(vec![Effect::Grab])
+            }
+            Command::Grab => Err(wrong("pictures come by themselves in this session")),
             Command::Pose { text } => self.typed(&text),
             Command::Delete { id } => self.delete(id),
             Command::Restore { id } => self.restore(id),

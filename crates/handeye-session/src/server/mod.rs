@@ -1,6 +1,7 @@
 //! The session's page and its API over HTTP: loopback unless asked otherwise, a token, and nobody else's pages.
 
 mod guard;
+pub mod line;
 mod routes;
 
 use std::{

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails loudly")]
 
 mod by_hand;
+#[cfg(unix)]
+mod line;
 mod standstill;
 mod virtual_cell;
 
