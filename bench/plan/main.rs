@@ -20,8 +20,8 @@ use handeye::{
     math::{linalg::median, random::Random},
     simulate::{Cell, DepthSensor},
     tools::plan::{
-        ArmReach, Cuboid, ENOUGH, ExpectedNoise, GuessSigma, Look, Obstacle, Planner, Reach,
-        Setting, Station, Surroundings, Taken, Viewing,
+        ArmReach, Cuboid, ENOUGH, ExpectedNoise, FEWEST_ENOUGH, GuessSigma, Look, Obstacle,
+        Planner, Reach, Setting, Station, Surroundings, Taken, Viewing,
     },
 };
 use handeye_io::robot::{Urdf, parts};
@@ -32,8 +32,6 @@ use serde_json::json;
 const TOLERANCE: f64 = 0.35;
 /// No strategy takes more captures.
 const MOST: usize = 60;
-/// No answer is asked for before.
-const LEAST: usize = 5;
 /// How far off the first guess is.
 const GUESS_MM: f64 = 50.0;
 const GUESS_DEG: f64 = 10.0;
@@ -339,7 +337,7 @@ fn planned(trial: &Trial, seed: u64) -> Run {
                 camera_from_target: o.candidates[0].camera_from_target,
             })
             .collect();
-        if planner.taken.len() >= LEAST {
+        if planner.taken.len() >= FEWEST_ENOUGH {
             let answer = trial.answer(&poses, seed);
             let (stated, true_mm) = (stated(&answer), trial.true_error(&answer));
             trace.push((stations.len(), stated, true_mm));
@@ -390,7 +388,7 @@ fn fixed(trial: &Trial, strategy: Strategy, seed: u64) -> Run {
         milliseconds: vec![],
         unseen: 0,
     };
-    let mut counts = (LEAST..=poses.len()).step_by(2);
+    let mut counts = (FEWEST_ENOUGH..=poses.len()).step_by(2);
     let found = counts.find_map(|count| {
         let answer = trial.answer(&poses[..count], seed);
         (stated(&answer) <= limit()).then(|| (count, trial.true_error(&answer)))

@@ -247,7 +247,7 @@ fn views(found: &CellPlan) -> String {
         let detour = if view.via_start { " (go back to the first pose before)" } else { "" };
         text += &format!("{:3}. {}{detour}\n", k + 1, view.reason());
         if let Some(joints) = &view.station.joints {
-            text += &format!("     joints {}\n", joint_values(joints, &found.slides));
+            text += &format!("     joints {}\n", joint_values(joints, &found.prismatic));
         }
     }
     if !found.route.undetermined.is_empty() {
@@ -258,10 +258,10 @@ fn views(found: &CellPlan) -> String {
 }
 
 /// In degrees, or millimetres for joints that slide.
-fn joint_values(joints: &[f64], slides: &[bool]) -> String {
-    let shown = |(value, slides): (&f64, &bool)| match slides {
+fn joint_values(joints: &[f64], prismatic: &[bool]) -> String {
+    let shown = |(value, prismatic): (&f64, &bool)| match prismatic {
         true => format!("{:.1} mm", value * 1e3),
         false => format!("{:.1}°", value.to_degrees()),
     };
-    joints.iter().zip(slides).map(shown).collect::<Vec<_>>().join("  ")
+    joints.iter().zip(prismatic).map(shown).collect::<Vec<_>>().join("  ")
 }

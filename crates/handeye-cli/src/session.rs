@@ -13,7 +13,7 @@ use handeye_io::{
     temporary_folder,
 };
 use handeye_session::{
-    engine::view::State,
+    engine::shown::State,
     host::Host,
     live::{Camera, Cell, Live},
     script::{Action, Player},
@@ -39,27 +39,27 @@ pub struct SessionArgs {
     /// A virtual cell in place of camera and robot, with this seed.
     #[arg(long = "virtual", value_name = "SEED", num_args = 0..=1, default_missing_value = "1")]
     pub seed: Option<u64>,
-    /// Folder in which another program saves pictures; poses are typed on the page.
+    /// Folder in which another program saves images; poses are typed on the page.
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["seed", "camera_command"])]
     pub images_from: Option<PathBuf>,
-    /// Command that takes a picture and writes it to {out}; poses are typed on the page.
+    /// Command that takes an image and writes it to {out}; poses are typed on the page.
     #[arg(long, value_name = "COMMAND", conflicts_with = "seed")]
     pub camera_command: Option<String>,
-    /// Who carries the camera: eye-in-hand (the robot) or eye-to-hand.
-    #[arg(long, value_name = "SETUP", default_value = "eye-in-hand", value_parser = setup)]
-    pub setup: Setup,
+    /// Who carries the camera: eye-in-hand (the robot, by default) or eye-to-hand.
+    #[arg(long, value_name = "SETUP", value_parser = setup)]
+    pub setup: Option<Setup>,
     /// Manifest or other TOML file with a `[target]` [default: a checkerboard, to be changed on the page].
     #[arg(long, value_name = "FILE", conflicts_with = "seed")]
     pub target: Option<PathBuf>,
     /// File of the camera's intrinsics [default: calibrated from the views].
     #[arg(long, value_name = "FILE", conflicts_with = "seed")]
     pub intrinsics: Option<PathBuf>,
-    /// How poses are typed and shown, such as kuka, ur or abb.
-    #[arg(long, value_name = "MAKER", default_value = "ur")]
-    pub notation: String,
-    /// Error that is tolerated (95 %).
-    #[arg(long, value_name = "MM", default_value_t = 0.5)]
-    pub tolerance_mm: f64,
+    /// How poses are typed and shown, such as kuka or abb [default: ur].
+    #[arg(long, value_name = "MAKER")]
+    pub notation: Option<String>,
+    /// Error that is tolerated (95 %) [default: 0.5].
+    #[arg(long, value_name = "MM")]
+    pub tolerance_mm: Option<f64>,
     /// Play a script in a virtual cell instead of serving a page.
     #[arg(long, requires = "script", requires = "seed")]
     pub headless: bool,
@@ -90,37 +90,27 @@ fn setup(name: &str) -> Result<Setup, String> {
 }
 
 pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
-    if !(args.tolerance_mm > 0.0 && args.tolerance_mm.is_finite()) {
+    if args.tolerance_mm.is_some_and(|mm| !(mm > 0.0 && mm.is_finite())) {
         return Err(Failure::Usage("--tolerance-mm must be positive".into()));
     }
     let path = args
         .folder
         .clone()
         .unwrap_or_else(|| temporary_folder().join(format!("handeye-session-{}", process())));
-    let (cell, settings) = match (args.seed, &args.images_from, &args.camera_command) {
-        (Some(seed), ..) => {
-            let cell = VirtualCell::new(args.setup, seed, Faults::default())
-                .map_err(|e| Failure::input("the virtual cell", e))?;
-            let tolerance_mm = args.tolerance_mm;
-            let settings = CellSettings { tolerance_mm, ..cell.settings() };
-            (Cell::Virtual(Box::new(cell)), settings)
-        }
-        (None, Some(folder), _) if !folder.is_dir() => {
-            return Err(Failure::Usage(format!("{} is not a folder", folder.display())));
-        }
-        (None, Some(folder), _) => (Cell::Hand(Camera::Folder(folder.clone())), settings(args)?),
-        (None, None, Some(command)) => {
-            (Cell::Hand(Camera::Command(command.clone())), settings(args)?)
-        }
-        (None, None, None) => {
-            let what = "where do pictures come from? --virtual (to try it), --images-from FOLDER, or --camera-command COMMAND";
-            return Err(Failure::Usage(what.into()));
-        }
+    let cell = cell(args)?;
+    let usual = match &cell {
+        Cell::Virtual(cell) => cell.settings(),
+        Cell::Hand(_) => usual(),
     };
-    let folder = SessionFolder::open(&path, Some(&settings))?;
-    if matches!(cell, Cell::Virtual(_)) && folder.settings().guess != settings.guess {
+    let mut folder = SessionFolder::open(&path, Some(&with_options(usual.clone(), args)?))?;
+    if matches!(cell, Cell::Virtual(_)) && !folder.settings().is_of_same_cell(&usual) {
         let what = "is the session of another cell: give the seed and setup that it began with";
         return Err(Failure::Usage(format!("{}: {what}", path.display())));
+    }
+    // what is said now comes before what was said when the session began
+    let settings = with_options(folder.settings().clone(), args)?;
+    if settings != *folder.settings() {
+        folder.set(&settings)?;
     }
     let host = Host::new(folder);
     match (&args.script, cell) {
@@ -129,22 +119,54 @@ pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     }
 }
 
-/// What the command line says of a cell; the rest is asked on the page.
-fn settings(args: &SessionArgs) -> Result<CellSettings, Failure> {
-    let usual = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
-    let target = args.target.as_deref().map(read_target).transpose()?;
-    Writing::of(&args.notation).map_err(Failure::Usage)?;
+/// Where poses and images come from.
+fn cell(args: &SessionArgs) -> Result<Cell, Failure> {
+    match (args.seed, &args.images_from, &args.camera_command) {
+        (Some(seed), ..) => {
+            let setup = args.setup.unwrap_or(Setup::EyeInHand);
+            let cell = VirtualCell::new(setup, seed, Faults::default());
+            Ok(Cell::Virtual(Box::new(cell.map_err(|e| Failure::input("the virtual cell", e))?)))
+        }
+        (None, Some(folder), _) if !folder.is_dir() => {
+            Err(Failure::Usage(format!("{} is not a folder", folder.display())))
+        }
+        (None, Some(folder), _) => Ok(Cell::Hand(Camera::Folder(folder.clone()))),
+        (None, None, Some(command)) => Ok(Cell::Hand(Camera::Command(command.clone()))),
+        (None, None, None) => {
+            let what = "where do images come from? --virtual (to try it), --images-from FOLDER, or --camera-command COMMAND";
+            Err(Failure::Usage(what.into()))
+        }
+    }
+}
+
+/// A cell of which nothing is said; the page asks.
+fn usual() -> CellSettings {
+    CellSettings {
+        setup: Setup::EyeInHand,
+        target: TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 },
+        intrinsics: None,
+        tolerance_mm: 0.5,
+        notation: "ur".into(),
+        guess: None,
+    }
+}
+
+/// Settings with what the command line says.
+fn with_options(settings: CellSettings, args: &SessionArgs) -> Result<CellSettings, Failure> {
+    let notation = args.notation.clone().unwrap_or_else(|| settings.notation.clone());
+    Writing::of(&notation).map_err(Failure::Usage)?;
     let intrinsics = match &args.intrinsics {
         Some(file) => Some(read_intrinsics(file, None, None)?),
-        None => None,
+        None => settings.intrinsics,
     };
+    let target = args.target.as_deref().map(read_target).transpose()?;
     Ok(CellSettings {
-        setup: args.setup,
-        target: target.unwrap_or(usual),
+        setup: args.setup.unwrap_or(settings.setup),
+        target: target.unwrap_or_else(|| settings.target.clone()),
         intrinsics,
-        tolerance_mm: args.tolerance_mm,
-        notation: args.notation.clone(),
-        guess: None,
+        tolerance_mm: args.tolerance_mm.unwrap_or(settings.tolerance_mm),
+        notation,
+        ..settings
     })
 }
 

@@ -41,10 +41,20 @@ pub struct MeasuredCapture {
 /// A view to take, and how it looks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProposedView {
-    /// The view.
-    pub view: NextView,
-    /// Where the corners are to be seen, px.
+    /// Where the robot is to go.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// Its joint values there, where the arm is known.
+    pub joints: Option<Vec<f64>>,
+    /// Where the target is to be seen.
+    pub camera_from_target: Pose<Camera, Target>,
+    /// Where its corners are to be seen, px.
     pub corners: Vec<Vector2<f64>>,
+    /// How it looks, and what it brings.
+    pub reason: String,
+    /// The expected error (95 %) before it, mm.
+    pub before_mm: Option<f64>,
+    /// And after it.
+    pub after_mm: Option<f64>,
 }
 
 /// Assesses a folder with captures; `not_near` are poses that nobody goes to (again).
@@ -71,7 +81,7 @@ pub fn assess(
         Ok(plan) => (plan.route.views.into_iter().next(), plan.route.stopped, plan.enough),
         Err(error) => (None, Some(error.to_string()), false),
     };
-    let next = next.map(|view| proposed(view, session));
+    let next = next.map(|view| ProposedView::planned(&view, session));
     let measured = measured_captures(session, &calibration);
     Ok(Assessment { calibration, measured, next, no_next, enough })
 }
@@ -83,20 +93,46 @@ impl Assessment {
         self.calibration.predicted_tre_mm.as_ref().filter(|_| is_known).map(|error| error.p95)
     }
 
+    /// The view of a capture, to be taken again; `None` where the target was not found in it.
+    pub fn view_of(&self, id: &str) -> Option<ProposedView> {
+        let capture = self.calibration.captures.iter().find(|c| c.id == id)?;
+        let measured = self.measured.iter().find(|m| m.id == id)?;
+        Some(ProposedView {
+            base_from_flange: capture.base_from_flange,
+            joints: None,
+            camera_from_target: capture.camera_from_target?,
+            corners: measured.corners.iter().map(|c| c.pixel).collect(),
+            reason: format!("as capture {id} was taken"),
+            before_mm: None,
+            after_mm: None,
+        })
+    }
+
     /// Whether nothing is wrong but that the tolerance is not reached.
     pub fn is_only_inaccurate(&self) -> bool {
         self.calibration.verdict == Verdict::Rejected && is_too_inaccurate_alone(&self.calibration)
     }
 }
 
-fn proposed(view: NextView, session: &Session) -> ProposedView {
-    let seen = session.camera.zip(session.target.as_ref());
-    let corners = seen.map_or(vec![], |(camera, target)| {
-        let pixel =
-            |c: &handeye::Point<Target>| camera.project(&(view.camera_from_target * *c).vector());
-        target.corners().iter().filter_map(pixel).collect()
-    });
-    ProposedView { view, corners }
+impl ProposedView {
+    fn planned(view: &NextView, session: &Session) -> Self {
+        let seen = session.camera.zip(session.target.as_ref());
+        let corners = seen.map_or(vec![], |(camera, target)| {
+            let pixel = |c: &handeye::Point<Target>| {
+                camera.project(&(view.camera_from_target * *c).vector())
+            };
+            target.corners().iter().filter_map(pixel).collect()
+        });
+        Self {
+            base_from_flange: view.station.base_from_flange,
+            joints: view.station.joints.clone(),
+            camera_from_target: view.camera_from_target,
+            corners,
+            reason: view.reason(),
+            before_mm: view.before.as_ref().map(|error| error.p95),
+            after_mm: view.after.as_ref().map(|error| error.p95),
+        }
+    }
 }
 
 fn measured_captures(session: &Session, calibration: &Calibration) -> Vec<MeasuredCapture> {

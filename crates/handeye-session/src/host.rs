@@ -14,7 +14,7 @@ use handeye_io::{
 use crate::{
     assess::assess,
     engine::{Effect, FolderState, Input, Written},
-    sources::{outlet::Picture, virtual_cell::VirtualCell},
+    sources::{outlet::CameraImage, virtual_cell::VirtualCell},
 };
 
 /// The folder, and what was measured in it.
@@ -49,16 +49,16 @@ impl Host {
     }
 
     /// Does it; returns what it led to. Effects for sources are not for it.
-    pub fn perform(&mut self, effect: Effect, picture: Option<Picture>) -> Vec<Input> {
+    pub fn perform(&mut self, effect: Effect, image: Option<CameraImage>) -> Vec<Input> {
         match effect {
             Effect::Store { robot, image_time_s, .. } => {
-                let Some(picture) = picture else {
+                let Some(image) = image else {
                     return vec![Input::Stored(Err(
-                        "the picture is gone: take the capture again".into()
+                        "the image is gone: take the capture again".into()
                     ))];
                 };
-                let own = picture.file.as_ref().map(|(ending, bytes)| (&ending[..], &bytes[..]));
-                let made = own.is_none().then(|| simulated::picture(&picture.image));
+                let own = image.file.as_ref().map(|(ending, bytes)| (&ending[..], &bytes[..]));
+                let made = own.is_none().then(|| simulated::picture(&image.grey));
                 let made = made.as_ref().map(|png| ("png", &png[..]));
                 let stored = self.folder.take(&NewCapture {
                     base_from_flange: robot.base_from_flange,

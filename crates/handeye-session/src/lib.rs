@@ -1,7 +1,7 @@
 //! Guided live hand-eye calibration. The session is a folder: captures are stored before anyone hears of them, the manifest is
 //! an ordinary one, and everything shown is computed from the folder by the functions that `handeye calibrate` uses.
 //!
-//! [`engine`] decides (pure: inputs in, effects out), [`sources`] give poses and pictures, [`host`] does what the engine
+//! [`engine`] decides (pure: inputs in, effects out), [`sources`] give poses and images, [`host`] does what the engine
 //! wants done, and [`script`] plays a session without a page.
 
 #![allow(clippy::result_large_err, reason = "an error ends the work: its size costs nothing")]

@@ -15,24 +15,24 @@ use std::{
 use tokio::sync::{oneshot, watch};
 
 use crate::{
-    engine::{Command, Effect, Engine, Flow, Input, Refusal, Sources, view::CaptureDetail},
+    engine::{Command, Effect, Engine, Flow, Input, Refusal, Sources, shown::CaptureDetail},
     host::{Host, drive},
     sources::{
         command, folder,
-        outlet::{Outlet, Picture, Wanted},
+        outlet::{CameraImage, Outlet, Wanted},
         virtual_cell::VirtualCell,
     },
 };
 
-/// Where poses and pictures come from.
+/// Where poses and images come from.
 pub enum Cell {
     /// A virtual cell.
     Virtual(Box<VirtualCell>),
-    /// Poses are typed; pictures come from somewhere.
+    /// Poses are typed; images come from somewhere.
     Hand(Camera),
 }
 
-/// Where pictures come from, one by one.
+/// Where images come from, one by one.
 pub enum Camera {
     /// A folder in which another program saves them.
     Folder(PathBuf),
@@ -75,10 +75,10 @@ fn gone() -> Refusal {
 const SHOWN: Duration = Duration::from_millis(100);
 /// Inputs are waited for so long before commands are looked at.
 const TICK: Duration = Duration::from_millis(20);
-/// Between two poses of a virtual robot, and two pictures of its camera.
+/// Between two poses of a virtual robot, and two images of its camera.
 const POSES: Duration = Duration::from_millis(40);
-const PICTURES: Duration = Duration::from_millis(200);
-/// Pictures of a virtual robot that stands.
+const IMAGES: Duration = Duration::from_millis(200);
+/// Images of a virtual robot that stands.
 const STANDING: usize = 4;
 
 impl Live {
@@ -90,7 +90,7 @@ impl Live {
         let (show_frame, frames) = watch::channel(0);
         let folder = host.path().to_path_buf();
         let state = host.state();
-        let outlet = Outlet::new(inputs.clone(), wanted(&state.settings), show_frame);
+        let outlet = Outlet::new(inputs.clone(), Wanted::of(&state.settings), show_frame);
         let (sources, equipment) = connect(cell, &outlet);
         let (engine, effects) = Engine::new(state, sources);
         let mut runner = Runner {
@@ -135,24 +135,20 @@ impl Live {
         self.shown.clone()
     }
 
-    /// Numbers of pictures, now and from now on.
+    /// Numbers of images, now and from now on.
     pub fn frames(&self) -> watch::Receiver<u64> {
         self.frames.clone()
     }
 
-    /// The newest picture, and its number.
-    pub fn newest_picture(&self) -> Option<(u64, Picture)> {
-        self.outlet.pictures().newest()
+    /// The newest image, and its number.
+    pub fn newest_image(&self) -> Option<(u64, CameraImage)> {
+        self.outlet.images().newest()
     }
 
     /// The folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
-}
-
-fn wanted(settings: &handeye_io::CellSettings) -> Wanted {
-    Wanted { target: settings.target.clone(), intrinsics: settings.intrinsics }
 }
 
 /// What effects for sources go to.
@@ -164,10 +160,10 @@ enum Equipment {
 
 /// Starts the threads of the sources.
 fn connect(cell: Cell, outlet: &Outlet) -> (Sources, Equipment) {
-    let by_hand = |takes_pictures| Sources {
+    let by_hand = |takes_images| Sources {
         robot: Flow::Single,
         camera: Flow::Single,
-        takes_pictures,
+        takes_images,
         is_virtual: false,
     };
     match cell {
@@ -191,7 +187,7 @@ fn connect(cell: Cell, outlet: &Outlet) -> (Sources, Equipment) {
 struct Runner {
     engine: Engine,
     equipment: Equipment,
-    work: Sender<(Effect, Option<Picture>)>,
+    work: Sender<(Effect, Option<CameraImage>)>,
     outlet: Outlet,
     show: watch::Sender<Shown>,
     folder: PathBuf,
@@ -228,9 +224,9 @@ impl Runner {
 
     /// Whether the state is to be shown at once.
     fn take(&mut self, input: Input) -> bool {
-        let is_rare = !matches!(input, Input::Robot(_) | Input::Picture(_) | Input::Clock(_));
+        let is_rare = !matches!(input, Input::Robot(_) | Input::Image(_) | Input::Clock(_));
         if let Input::Folder(state) = &input {
-            self.outlet.want(wanted(&state.settings));
+            self.outlet.want(Wanted::of(&state.settings));
         }
         let effects = self.engine.step(input).unwrap_or_default();
         self.perform(effects);
@@ -255,11 +251,11 @@ impl Runner {
                 }
                 (Effect::Grab, Equipment::Command(ask)) => _ = ask.send(()),
                 _ => {
-                    let picture = match &effect {
-                        Effect::Store { frame, .. } => self.outlet.pictures().get(*frame),
+                    let image = match &effect {
+                        Effect::Store { frame, .. } => self.outlet.images().get(*frame),
                         _ => None,
                     };
-                    self.work.send((effect, picture)).ok();
+                    self.work.send((effect, image)).ok();
                 }
             }
         }
@@ -278,8 +274,8 @@ impl Runner {
 }
 
 /// The folder's thread.
-fn worker(mut host: Host, back: Sender<Input>) -> Sender<(Effect, Option<Picture>)> {
-    let (work, waiting) = mpsc::channel::<(Effect, Option<Picture>)>();
+fn worker(mut host: Host, back: Sender<Input>) -> Sender<(Effect, Option<CameraImage>)> {
+    let (work, waiting) = mpsc::channel::<(Effect, Option<CameraImage>)>();
     let is_assess = |effect: &Effect| matches!(effect, Effect::Assess { .. });
     thread::spawn(move || {
         let mut queue = VecDeque::new();
@@ -289,12 +285,12 @@ fn worker(mut host: Host, back: Sender<Input>) -> Sender<(Effect, Option<Picture
                 queue.push_back(next);
             }
             queue.extend(waiting.try_iter());
-            let Some((effect, picture)) = queue.pop_front() else { continue };
+            let Some((effect, image)) = queue.pop_front() else { continue };
             // of several assessments only the last is asked for
             if is_assess(&effect) && queue.iter().any(|(later, _)| is_assess(later)) {
                 continue;
             }
-            for input in host.perform(effect, picture) {
+            for input in host.perform(effect, image) {
                 if back.send(input).is_err() {
                     return;
                 }
@@ -319,18 +315,18 @@ fn virtual_camera(cell: Arc<VirtualCell>, outlet: Outlet) {
         for frame in 1.. {
             let begin = Instant::now();
             let time_s = outlet.now();
-            let pose = cell.pictured(time_s);
+            let pose = cell.flange_in_image(time_s);
             if there.replace(pose) != Some(pose) {
                 standing.clear();
             }
-            // rendering takes long: of a robot that stands a few pictures come in turn
+            // rendering takes long: of a robot that stands a few images come in turn
             let old = (standing.len() == STANDING).then(|| standing.pop_front()).flatten();
-            let image = old.unwrap_or_else(|| Arc::new(cell.picture(time_s, frame)));
+            let image = old.unwrap_or_else(|| Arc::new(cell.image(time_s, frame)));
             standing.push_back(image.clone());
-            if !outlet.picture(Picture { image, file: None }, time_s) {
+            if !outlet.image(CameraImage { grey: image, file: None }, time_s) {
                 return;
             }
-            thread::sleep(PICTURES.saturating_sub(begin.elapsed()));
+            thread::sleep(IMAGES.saturating_sub(begin.elapsed()));
         }
     });
 }

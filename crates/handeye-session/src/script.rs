@@ -9,14 +9,13 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
-use handeye::{TargetModel, detect};
 use serde::Deserialize;
 
 use crate::{
-    engine::{Command, Effect, Engine, Input, Sources, rest::PictureSample, view::State},
+    engine::{Command, Effect, Engine, Input, Sources, shown::State},
     host::{Host, drive},
     sources::{
-        outlet::{Picture, Pictures},
+        outlet::{CameraImage, RecentImages, Wanted},
         virtual_cell::VirtualCell,
     },
 };
@@ -63,8 +62,7 @@ pub struct Player {
     engine: Engine,
     host: Host,
     cell: VirtualCell,
-    pictures: Pictures,
-    target: TargetModel,
+    images: RecentImages,
     now: f64,
     frame: u64,
     inputs: VecDeque<Input>,
@@ -72,7 +70,7 @@ pub struct Player {
 
 /// Time between two poses of the robot, s.
 const TICK_S: f64 = 0.04;
-/// Poses for each picture: five pictures a second.
+/// Poses for each image: five images a second.
 const TICKS: u64 = 5;
 /// An action that takes longer has failed, s.
 const PATIENCE_S: f64 = 60.0;
@@ -81,10 +79,9 @@ impl Player {
     /// A session in a folder.
     pub fn new(host: Host, cell: VirtualCell) -> Self {
         let folder = host.state();
-        let target = folder.settings.target.clone();
         let (engine, effects) = Engine::new(folder, Sources::VIRTUAL);
-        let (pictures, inputs) = (Pictures::default(), VecDeque::new());
-        let mut player = Self { engine, host, cell, pictures, target, now: 0.0, frame: 0, inputs };
+        let (images, inputs) = (RecentImages::default(), VecDeque::new());
+        let mut player = Self { engine, host, cell, images, now: 0.0, frame: 0, inputs };
         player.perform(effects);
         player.pass(1.0);
         player
@@ -163,7 +160,7 @@ impl Player {
         }
     }
 
-    /// Lets time go by: poses and pictures come.
+    /// Lets time go by: poses and images come.
     pub fn pass(&mut self, seconds: f64) {
         let end = self.now + seconds;
         while self.now < end {
@@ -171,16 +168,11 @@ impl Player {
             self.inputs.push_back(Input::Robot(self.cell.sample(self.now)));
             self.frame += 1;
             if self.frame.is_multiple_of(TICKS) {
-                let picture = Arc::new(self.cell.picture(self.now, self.frame));
-                self.pictures.keep(self.frame, Picture { image: picture.clone(), file: None });
-                let camera = self.engine.settings().intrinsics;
-                let corners = detect::detect_with(&picture, &self.target, camera.as_ref());
-                self.inputs.push_back(Input::Picture(PictureSample {
-                    frame: self.frame,
-                    time_s: self.now,
-                    size: (picture.width() as u32, picture.height() as u32),
-                    corners: corners.map_err(|e| e.to_string()),
-                }));
+                let image = Arc::new(self.cell.image(self.now, self.frame));
+                self.images.keep(self.frame, CameraImage { grey: image.clone(), file: None });
+                let found = Wanted::of(self.engine.settings());
+                let found = found.found_in(&image, self.frame, self.now);
+                self.inputs.push_back(Input::Image(found));
             }
             self.inputs.push_back(Input::Clock(self.now));
             self.drain();
@@ -200,11 +192,11 @@ impl Player {
             if drive(&self.cell, &effect, self.now) {
                 continue;
             }
-            let picture = match &effect {
-                Effect::Store { frame, .. } => self.pictures.get(*frame),
+            let image = match &effect {
+                Effect::Store { frame, .. } => self.images.get(*frame),
                 _ => None,
             };
-            self.inputs.extend(self.host.perform(effect, picture));
+            self.inputs.extend(self.host.perform(effect, image));
         }
         self.drain();
     }

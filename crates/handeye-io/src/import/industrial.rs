@@ -52,29 +52,11 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     }
     let tree = Tree::read(&file)?;
     let list = tree.get("data").unwrap_or(&tree);
-    let Tree::List(entries) = list else { return Ok(None) };
-    let entry = |entry: &Tree| {
-        let text = |key: &str| entry.get(key)?.text().map(String::from);
-        Some((text("pose")?, text("image")?))
-    };
-    let Some(pairs) = entries.iter().map(entry).collect::<Option<Vec<_>>>() else {
-        return Ok(None);
-    };
-    if pairs.is_empty() {
-        return Ok(None);
-    }
+    let Some(pairs) = listed(list) else { return Ok(None) };
     let (folder, _) = super::split(&file);
     let poses = pattern(pairs.iter().map(|p| p.0.as_str()), &file)?;
     let images = pattern(pairs.iter().map(|p| p.1.as_str()), &file)?;
-    let unlike = pairs
-        .iter()
-        .find(|(pose, image)| files::stem(Path::new(pose)) != files::stem(Path::new(image)));
-    if let Some((pose, image)) = unlike {
-        let what = format!(
-            "{pose} belongs to {image}: give both the same name, since files are paired by their names"
-        );
-        return Err(unusable(&file, what));
-    }
+    check_names(&pairs, &file)?;
     let exclude = not_listed(&pairs, [&poses, &images], &file)?;
     let others = ["target.yaml", "pose_guesses.yaml"].map(|name| folder.join(name));
     let beside: Vec<Tree> =
@@ -106,6 +88,31 @@ pub(super) fn describe(source: &Path, _: &Declared) -> Result<Option<Described>,
     let has_intrinsics = beside || all().any(|t| t.get("intrinsics").is_some());
     let notes = if has_intrinsics { vec![NOT_TAKEN.into()] } else { vec![] };
     Ok(Some(Described { layout, folder, setup: all().find_map(setup), draft, questions, notes }))
+}
+
+/// The files of each pose and its image; `None` of a list of something else.
+fn listed(list: &Tree) -> Option<Vec<(String, String)>> {
+    let Tree::List(entries) = list else { return None };
+    let entry = |entry: &Tree| {
+        let text = |key: &str| entry.get(key)?.text().map(String::from);
+        Some((text("pose")?, text("image")?))
+    };
+    let pairs: Vec<_> = entries.iter().map(entry).collect::<Option<_>>()?;
+    (!pairs.is_empty()).then_some(pairs)
+}
+
+/// Refuses pairs whose files are not called alike.
+fn check_names(pairs: &[(String, String)], file: &Path) -> Result<(), Error> {
+    let unlike = pairs
+        .iter()
+        .find(|(pose, image)| files::stem(Path::new(pose)) != files::stem(Path::new(image)));
+    if let Some((pose, image)) = unlike {
+        let what = format!(
+            "{pose} belongs to {image}: give both the same name, since files are paired by their names"
+        );
+        return Err(unusable(file, what));
+    }
+    Ok(())
 }
 
 /// The names of what lies in the folders, but is not in the list: samples that were deleted.

@@ -11,8 +11,9 @@ use handeye::{
     model::kinematics::Arm,
     nalgebra::{Quaternion, UnitQuaternion, Vector3},
     tools::plan::{
-        ArmReach, ENOUGH, ExpectedNoise, GuessSigma, NearReach, PlannedTouch, Planner, Reach,
-        Route, Setting, Surroundings, Taken, TouchNoise, USUAL_CANDIDATES, USUALLY_NEAR, Viewing,
+        ArmReach, ENOUGH, ExpectedNoise, FEWEST_ENOUGH, GuessSigma, NearReach, PlannedTouch,
+        Planner, Reach, Route, Setting, Surroundings, Taken, TouchNoise, USUAL_CANDIDATES,
+        USUALLY_NEAR, Viewing,
     },
 };
 
@@ -70,8 +71,8 @@ pub struct CellPlan {
     pub enough: bool,
     /// Names of the arm's joints, where it is known and names them.
     pub joint_names: Vec<String>,
-    /// Which of its joints slide.
-    pub slides: Vec<bool>,
+    /// Which of its joints are prismatic.
+    pub prismatic: Vec<bool>,
     /// The capture at whose pose the ways begin, unless joint values of now were given.
     pub begins_at: Option<String>,
     /// What to know of the plan.
@@ -114,10 +115,7 @@ pub fn plan_after(
     let place = Place::file(&dataset.manifest);
     let refused = |source| Error::Values { place: place.clone(), source };
     let (planner, joint_names, mut notes) = planner(dataset, &calibration, session, options)?;
-    let enough = calibration.verdict == Verdict::Accepted
-        && options.tolerance_mm.is_some_and(|mm| {
-            calibration.predicted_tre_mm.as_ref().is_some_and(|error| error.p95 <= ENOUGH * mm)
-        });
+    let enough = options.tolerance_mm.is_some_and(|mm| is_enough(&calibration, mm));
     let count = if enough { 0 } else { options.count };
     let route = planner.route(count, options.tolerance_mm).map_err(refused)?;
     let touches = match options.touches {
@@ -134,11 +132,20 @@ pub fn plan_after(
     let calibration = known.then_some(calibration);
     let last = session.observations.last().filter(|_| options.now.is_none());
     let begins_at = last.map(|o| o.capture.clone());
-    let slides = match &planner.reach {
+    let prismatic = match &planner.reach {
         Reach::Arm(reach) => reach.arm.joints.iter().map(|joint| joint.prismatic).collect(),
         Reach::Near(_) => vec![],
     };
-    Ok(CellPlan { route, touches, calibration, enough, joint_names, slides, begins_at, notes })
+    Ok(CellPlan { route, touches, calibration, enough, joint_names, prismatic, begins_at, notes })
+}
+
+/// Whether an accepted calibration states so little, from so many captures, that it holds for the tolerance (mm).
+fn is_enough(calibration: &Calibration, tolerance_mm: f64) -> bool {
+    let used = calibration.captures.iter().filter(|c| c.used).count();
+    let stated = calibration.predicted_tre_mm.as_ref().map(|error| error.p95);
+    calibration.verdict == Verdict::Accepted
+        && used >= FEWEST_ENOUGH
+        && stated.is_some_and(|mm| mm <= ENOUGH * tolerance_mm)
 }
 
 /// Touches that are planned.

@@ -6,7 +6,7 @@ use handeye::{
     Warning,
     register::{Dense, Reference},
 };
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Matrix6};
 
 use super::{
     capital, colours, escape, judgement, page, plot,
@@ -206,6 +206,22 @@ fn matches(found: &Dense) -> String {
     }
 }
 
+fn deviations(covariance: &Matrix6<f64>) -> String {
+    let s = |k: usize, scale: f64| covariance[(k, k)].sqrt() * scale;
+    let deg = 1f64.to_degrees();
+    format!(
+        "<h3>One standard deviation, in the source's axes</h3><table><tr><th></th><th>x</th><th>y</th><th>z</th></tr>\
+         <tr><td>position, mm</td><td>{:.4}</td><td>{:.4}</td><td>{:.4}</td></tr>\
+         <tr><td>rotation, degrees</td><td>{:.5}</td><td>{:.5}</td><td>{:.5}</td></tr></table>",
+        s(3, 1e3),
+        s(4, 1e3),
+        s(5, 1e3),
+        s(0, deg),
+        s(1, deg),
+        s(2, deg)
+    )
+}
+
 fn transform(found: &Dense) -> String {
     let pose = &found.target_from_source;
     let m = pose.to_homogeneous();
@@ -227,21 +243,8 @@ fn transform(found: &Dense) -> String {
          <h3>translation, mm; quaternion x y z w</h3><pre>{:.4} {:.4} {:.4}\n{:.8} {:.8} {:.8} {:.8}</pre></div></div>",
         t.x, t.y, t.z, q.x, q.y, q.z, q.w
     );
-    if let Some(c) = &found.covariance {
-        let s = |k: usize, scale: f64| c[(k, k)].sqrt() * scale;
-        let deg = 1f64.to_degrees();
-        let _ = write!(
-            content,
-            "<h3>One standard deviation, in the source's axes</h3><table><tr><th></th><th>x</th><th>y</th><th>z</th></tr>\
-             <tr><td>position, mm</td><td>{:.4}</td><td>{:.4}</td><td>{:.4}</td></tr>\
-             <tr><td>rotation, degrees</td><td>{:.5}</td><td>{:.5}</td><td>{:.5}</td></tr></table>",
-            s(3, 1e3),
-            s(4, 1e3),
-            s(5, 1e3),
-            s(0, deg),
-            s(1, deg),
-            s(2, deg)
-        );
+    if let Some(covariance) = &found.covariance {
+        content += &deviations(covariance);
     }
     if !found.places.is_empty() {
         let row = |at: &Isometry3<f64>| {

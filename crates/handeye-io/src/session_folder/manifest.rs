@@ -32,6 +32,14 @@ pub struct CellSettings {
     pub guess: Option<CameraGuess>,
 }
 
+impl CellSettings {
+    /// Whether captures of the one are captures of the other: all but what is tolerated and how poses are written.
+    pub fn is_of_same_cell(&self, other: &Self) -> bool {
+        let Self { tolerance_mm, notation, .. } = self.clone();
+        *self == Self { tolerance_mm, notation, ..other.clone() }
+    }
+}
+
 /// Roughly where a camera sits.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CameraGuess {

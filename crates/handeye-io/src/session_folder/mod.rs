@@ -10,7 +10,7 @@
 //!
 //! A capture's files are written aside and synced first, then its line in the journal, then they are renamed into place
 //! and the table of poses is written anew. A program that is killed in between leaves a capture that is whole, or one
-//! that nobody was told of: [`SessionFolder::open`] makes the folder agree with its journal again.
+//! that was never confirmed: [`SessionFolder::open`] makes the folder agree with its journal again.
 
 mod journal;
 mod manifest;
@@ -137,15 +137,12 @@ impl SessionFolder {
         }
     }
 
-    /// Other settings of the cell, as long as there are no captures.
+    /// Other settings; with captures, of the same cell.
     ///
     /// # Errors
-    /// [`Error::Unusable`] once there are captures; a folder that cannot be written.
+    /// [`Error::Unusable`] for another cell once there are captures; a folder that cannot be written.
     pub fn set(&mut self, settings: &CellSettings) -> Result<(), Error> {
-        let is_same_but_limit =
-            CellSettings { tolerance_mm: self.settings.tolerance_mm, ..settings.clone() }
-                == self.settings;
-        if !is_same_but_limit && !self.journal.taken().is_empty() {
+        if !settings.is_of_same_cell(&self.settings) && !self.journal.taken().is_empty() {
             return Err(unusable(
                 &self.root,
                 "has captures of the cell as it was: begin a session in a new folder for another camera, board or setup",

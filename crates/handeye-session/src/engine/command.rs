@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum Step {
     /// Who carries the camera, and which error is tolerated.
     Cell,
-    /// Pictures come.
+    /// Images come.
     Camera,
     /// Poses come.
     Robot,
@@ -17,26 +17,26 @@ pub enum Step {
     Board,
     /// Captures are taken.
     Capture,
-    /// Corners are touched.
-    Touch,
-    /// The result holds in views that it does not come from.
-    Verify,
     /// The result is written.
     Result,
 }
 
 impl Step {
     /// All, in order.
-    pub const ALL: [Step; 8] = [
-        Step::Cell,
-        Step::Camera,
-        Step::Robot,
-        Step::Board,
-        Step::Capture,
-        Step::Touch,
-        Step::Verify,
-        Step::Result,
-    ];
+    pub const ALL: [Step; 6] =
+        [Step::Cell, Step::Camera, Step::Robot, Step::Board, Step::Capture, Step::Result];
+
+    /// As the page and scripts call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Step::Cell => "cell",
+            Step::Camera => "camera",
+            Step::Robot => "robot",
+            Step::Board => "board",
+            Step::Capture => "capture",
+            Step::Result => "result",
+        }
+    }
 
     /// The one after it.
     pub fn next(self) -> Option<Step> {
@@ -82,7 +82,7 @@ pub enum Command {
         /// A name of a robot's notation, such as `ur`.
         name: String,
     },
-    /// Take a capture as soon as robot and picture stand.
+    /// Take a capture as soon as robot and image stand.
     Take,
     /// Take captures without being asked, once at each pose.
     Automatic {
@@ -91,7 +91,7 @@ pub enum Command {
     },
     /// No longer wait for a standstill.
     Cancel,
-    /// Take a picture to look at, where pictures are taken when they are asked for.
+    /// Take an image to look at, where images are taken when they are asked for.
     Grab,
     /// A pose read from the pendant.
     Pose {
@@ -108,7 +108,7 @@ pub enum Command {
         /// Its name.
         id: String,
     },
-    /// Take a capture out, and another one where it was taken.
+    /// Take a capture out, and propose its view as the next one.
     Retake {
         /// Its name.
         id: String,
@@ -145,6 +145,4 @@ pub enum Command {
 pub enum Destination {
     /// The next view.
     Next,
-    /// A view that is used to verify the result.
-    Check,
 }

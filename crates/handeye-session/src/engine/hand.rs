@@ -1,16 +1,16 @@
-//! Captures whose pose or picture does not stream: poses typed from the pendant, pictures saved by another program or taken
-//! when they are asked for. Nobody sees whether robot and camera stand; but a pose and a picture are used once, and one that
+//! Captures whose pose or image does not stream: poses typed from the pendant, images saved by another program or taken
+//! when they are asked for. Nobody sees whether robot and camera stand; but a pose and an image are used once, and one that
 //! is older than what the other shows is none of it.
 
 use handeye_io::Writing;
 
 use super::{
-    Effect, Engine, Flow, Refusal, later,
+    Effect, Engine, Flow, Refusal,
+    obey::{later, wrong},
     rest::{Motion, RobotSample},
-    wrong,
 };
 
-/// The last pose and picture that a capture was made of.
+/// The last pose and image that a capture was made of.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Used {
     frame: Option<u64>,
@@ -29,35 +29,35 @@ impl Engine {
         [self.sources.robot, self.sources.camera].contains(&Flow::Single)
     }
 
-    /// The number of the picture that may be taken, or what is still missing.
+    /// The number of the image that may be taken, or what is still missing.
     pub(super) fn ready_by_hand(&self) -> Result<u64, String> {
         let robot_since = self.robot_since()?;
-        let picture = self.pictures.back();
+        let image = self.images.back();
         match self.sources.camera {
             Flow::Stream => {
-                let since = match &self.rest.picture {
+                let since = match &self.rest.image {
                     Motion::Stands(since) => *since,
                     Motion::Moves(why) => return Err(why.clone()),
                 };
-                let newest = picture.ok_or("no picture has come yet")?;
+                let newest = image.ok_or("no image has come yet")?;
                 match since < robot_since {
                     true => Ok(newest.frame),
                     false => {
-                        Err("the picture has changed since the pose was typed: type that of now"
+                        Err("the image has changed since the pose was typed: type that of now"
                             .into())
                     }
                 }
             }
             Flow::Single => {
                 // one that is taken on demand is taken at the pose
-                let is_own = |time_s: f64| !self.sources.takes_pictures || time_s > robot_since;
-                let newest = picture
+                let is_own = |time_s: f64| !self.sources.takes_images || time_s > robot_since;
+                let newest = image
                     .filter(|p| Some(p.frame) != self.used.frame && is_own(p.time_s))
-                    .ok_or("waiting for the picture of this pose")?;
+                    .ok_or("waiting for the image of this pose")?;
                 let is_old = self.sources.robot == Flow::Stream && newest.time_s < robot_since;
                 match &newest.corners {
                     _ if is_old => {
-                        Err("the picture is of before the standstill: take another one".into())
+                        Err("the image is of before the standstill: take another one".into())
                     }
                     Ok(_) => Ok(newest.frame),
                     Err(why) => Err(format!("the board is not found: {why}")),
@@ -83,23 +83,23 @@ impl Engine {
         (self.used.pose_s != Some(typed)).then_some(typed)
     }
 
-    /// Why a picture that has come is of no use.
+    /// Why an image that has come is of no use.
     pub(super) fn unseen_by_hand(&mut self) -> Option<String> {
-        let newest = self.pictures.back().filter(|p| Some(p.frame) != self.used.frame)?;
+        let newest = self.images.back().filter(|p| Some(p.frame) != self.used.frame)?;
         let is_before = self.robot_since().is_ok_and(|since| newest.time_s <= since);
-        if self.sources.camera == Flow::Stream || (self.sources.takes_pictures && is_before) {
+        if self.sources.camera == Flow::Stream || (self.sources.takes_images && is_before) {
             return None;
         }
         let why = newest.corners.as_ref().err()?;
         let why = format!("the board is not found: {why}");
-        // the pose stays: another picture of it may come
+        // the pose stays: another image of it may come
         self.used.frame = Some(newest.frame);
         Some(why)
     }
 
-    /// Asks for the picture, where that can be asked for and the robot stands.
+    /// Asks for the image, where that can be asked for and the robot stands.
     pub(super) fn grab(&mut self) -> Vec<Effect> {
-        if self.grabbing || !self.sources.takes_pictures || self.robot_since().is_err() {
+        if self.grabbing || !self.sources.takes_images || self.robot_since().is_err() {
             return vec![];
         }
         self.grabbing = true;

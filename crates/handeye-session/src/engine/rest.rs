@@ -1,6 +1,6 @@
-//! Do robot and picture stand, and is the picture newer than the standstill?
+//! Do robot and image stand, and is the image newer than the standstill?
 //!
-//! A capture taken in motion, or with a picture of a moment before, is wrong by millimetres and looks right. Speed is judged
+//! A capture taken in motion, or with an image of a moment before, is wrong by millimetres and looks right. Speed is judged
 //! by what is *proven*: over a window of samples a line is fitted, and the speed that its slope may have at three standard
 //! deviations must be below a limit,
 //!
@@ -8,10 +8,10 @@
 //! |v| + 3 σ_v < limit,      σ_v = σ √12 / (T √n)
 //! ```
 //!
-//! with σ found from the samples themselves. So noise makes the answer later, never wrong. Of pictures the same is asked for
+//! with σ found from the samples themselves. So noise makes the answer later, never wrong. Of images the same is asked for
 //! the affine motion of the target's corners, in which the noise of single corners averages out.
 //!
-//! A picture arrives later than it was taken, by a delay that nobody states. It is found from approaches: the picture stands
+//! An image arrives later than it was taken, by a delay that nobody states. It is found from approaches: the image stands
 //! so much later than the robot. Until one is known a capture waits longer than any delay that occurs.
 
 use handeye::{Base, Flange, ImageCorner, Pose};
@@ -28,9 +28,9 @@ pub struct RobotSample {
     pub joints: Vec<f64>,
 }
 
-/// A picture, and what it shows.
+/// An image, and what it shows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PictureSample {
+pub struct ImageSample {
     /// Its number.
     pub frame: u64,
     /// When it arrived, s, by the session's clock.
@@ -55,22 +55,22 @@ pub enum Motion {
 pub struct Rest {
     /// The robot.
     pub robot: Motion,
-    /// The picture.
-    pub picture: Motion,
-    /// The number of the picture that may be taken, or why none may be.
+    /// The image.
+    pub image: Motion,
+    /// The number of the image that may be taken, or why none may be.
     pub ready: Result<u64, String>,
 }
 
-/// Since when robot and picture are where they are, s: longer than samples are kept. A camera that repeats an old picture
+/// Since when robot and image are where they are, s: longer than samples are kept. A camera that repeats an old image
 /// stands, too.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Memory {
     /// The robot.
     pub robot: Option<f64>,
-    /// The robot, small motions aside that no picture need show.
+    /// The robot, small motions aside that no image need show.
     pub robot_far: Option<f64>,
-    /// The picture.
-    pub picture: Option<f64>,
+    /// The image.
+    pub image: Option<f64>,
 }
 
 impl Memory {
@@ -86,12 +86,12 @@ impl Memory {
 const SLOW_M_S: f64 = 0.1e-3;
 /// Largest rate of rotation likewise.
 const SLOW_RAD_S: f64 = 0.01 * std::f64::consts::PI / 180.0;
-/// Largest speed of corners in the picture, px/s.
+/// Largest speed of corners in the image, px/s.
 const SLOW_PX_S: f64 = 0.25;
 /// Windows over which the robot's speed is judged, the shortest first, s.
 const ROBOT_WINDOWS: [f64; 4] = [0.3, 0.6, 1.2, 2.4];
-/// Windows over which the picture's speed is judged, s.
-const PICTURE_WINDOWS: [f64; 4] = [0.45, 0.9, 1.8, 3.6];
+/// Windows over which the image's speed is judged, s.
+const IMAGE_WINDOWS: [f64; 4] = [0.45, 0.9, 1.8, 3.6];
 /// Standard deviations within which a speed must be slow.
 const SURE: f64 = 3.0;
 /// Fewer samples prove nothing.
@@ -106,29 +106,28 @@ const LEAST_PX: f64 = 0.005;
 const ELSEWHERE: f64 = 6.0;
 /// Samples older than this are of no use: robot or camera have fallen silent, s.
 const SILENT_S: f64 = 2.0;
-/// While the delay of the pictures is not known, robot and picture stand together for so long, s: no camera is later.
+/// While the delay of the images is not known, robot and image stand together for so long, s: no camera is later.
 const UNKNOWN_DELAY_S: f64 = 1.5;
-/// A picture that stands since so much before the robot did may still be of the same approach, s.
+/// An image that stands since so much before the robot did may still be of the same approach, s.
 const BEFORE_S: f64 = 0.25;
-/// Motions of the robot that every picture shows, m and rad.
+/// Motions of the robot that every image shows, m and rad.
 const FAR: [f64; 2] = [1e-3, 2e-3];
 
-/// Judges the samples of the last seconds, the oldest first. `delay_s` is how much later a picture arrives than it was taken.
+/// Judges the samples of the last seconds, the oldest first. `delay_s` is how much later an image arrives than it was taken.
 pub fn judge(
-    (robot, pictures): (&[RobotSample], &[PictureSample]),
+    (robot, images): (&[RobotSample], &[ImageSample]),
     memory: &mut Memory,
     delay_s: Option<f64>,
     now: f64,
 ) -> Rest {
-    let (robot, picture) =
-        (robot_motion(robot, memory, now), picture_motion(pictures, memory, now));
-    let ready = ready((&robot, &picture), pictures, memory, delay_s, now);
-    Rest { robot, picture, ready }
+    let (robot, image) = (robot_motion(robot, memory, now), image_motion(images, memory, now));
+    let ready = ready((&robot, &image), images, memory, delay_s, now);
+    Rest { robot, image, ready }
 }
 
 fn ready(
-    (robot, picture): (&Motion, &Motion),
-    pictures: &[PictureSample],
+    (robot, image): (&Motion, &Motion),
+    images: &[ImageSample],
     memory: &Memory,
     delay_s: Option<f64>,
     now: f64,
@@ -137,25 +136,25 @@ fn ready(
         Motion::Stands(since) => *since,
         Motion::Moves(why) => return Err(why.clone()),
     };
-    let picture_since = match picture {
+    let image_since = match image {
         Motion::Stands(since) => *since,
         Motion::Moves(why) => return Err(why.clone()),
     };
-    let newest = pictures.last().ok_or("no picture has come yet")?;
-    let interval = typical_interval(pictures);
+    let newest = images.last().ok_or("no image has come yet")?;
+    let interval = typical_interval(images);
     let far_since = memory.robot_far.unwrap_or(robot_since);
-    if picture_since < far_since - 2.0 * interval - BEFORE_S {
+    if image_since < far_since - 2.0 * interval - BEFORE_S {
         return Err(format!(
-            "the picture has stood for {:.1} s, but the robot has moved since: it is the picture of an earlier pose",
-            now - picture_since
+            "the image has stood for {:.1} s, but the robot has moved since: it is the image of an earlier pose",
+            now - image_since
         ));
     }
     let Some(delay) = delay_s else {
-        let since = robot_since.max(picture_since);
+        let since = robot_since.max(image_since);
         return match now - since > UNKNOWN_DELAY_S {
             true => Ok(newest.frame),
             false => Err(format!(
-                "waiting {UNKNOWN_DELAY_S} s: how late the pictures are is not known yet ({:.1} s)",
+                "waiting {UNKNOWN_DELAY_S} s: how late the images are is not known yet ({:.1} s)",
                 now - since
             )),
         };
@@ -163,23 +162,23 @@ fn ready(
     match newest.time_s - delay > robot_since {
         true => Ok(newest.frame),
         false => Err(format!(
-            "the newest picture is {:.1} s old: it may be of before the standstill",
+            "the newest image is {:.1} s old: it may be of before the standstill",
             now - newest.time_s + delay
         )),
     }
 }
 
-/// How much later the picture stood than the robot, after a motion that both have seen; an upper bound.
-pub fn delay(rest: &Rest, robot: &[RobotSample], pictures: &[PictureSample]) -> Option<f64> {
-    let (Motion::Stands(robot_since), Motion::Stands(picture_since)) = (&rest.robot, &rest.picture)
+/// How much later the image stood than the robot, after a motion that both have seen; an upper bound.
+pub fn delay(rest: &Rest, robot: &[RobotSample], images: &[ImageSample]) -> Option<f64> {
+    let (Motion::Stands(robot_since), Motion::Stands(image_since)) = (&rest.robot, &rest.image)
     else {
         return None;
     };
     // both have moved before: the standstill begins within what was seen
     let seen =
-        robot.first()?.time_s < robot_since - 0.1 && pictures.first()?.time_s < picture_since - 0.1;
-    let late = picture_since - robot_since;
-    (seen && late > -typical_interval(pictures)).then(|| late.max(0.0))
+        robot.first()?.time_s < robot_since - 0.1 && images.first()?.time_s < image_since - 0.1;
+    let late = image_since - robot_since;
+    (seen && late > -typical_interval(images)).then(|| late.max(0.0))
 }
 
 fn robot_motion(samples: &[RobotSample], memory: &mut Memory, now: f64) -> Motion {
@@ -265,24 +264,24 @@ impl Line {
     }
 }
 
-fn picture_motion(pictures: &[PictureSample], memory: &mut Memory, now: f64) -> Motion {
-    let Some(last) = pictures.last() else {
-        return Motion::Moves("no picture has come yet".into());
+fn image_motion(images: &[ImageSample], memory: &mut Memory, now: f64) -> Motion {
+    let Some(last) = images.last() else {
+        return Motion::Moves("no image has come yet".into());
     };
     if now - last.time_s > SILENT_S {
-        return Motion::Moves(format!("no picture for {:.0} s", now - last.time_s));
+        return Motion::Moves(format!("no image for {:.0} s", now - last.time_s));
     }
     let corners = match &last.corners {
         Ok(corners) => Sorted::new(corners),
         Err(why) => return Motion::Moves(format!("the board is not found: {why}")),
     };
     // how far the corners were from where they are
-    let shift = |p: &PictureSample| {
+    let shift = |p: &ImageSample| {
         p.corners.as_ref().ok().and_then(|before| Shift::between(before, &corners))
     };
-    let shifts: Vec<(f64, Option<Shift>)> = pictures.iter().map(|p| (p.time_s, shift(p))).collect();
-    let mut moves = "the picture has just come to rest".to_owned();
-    for window in PICTURE_WINDOWS {
+    let shifts: Vec<(f64, Option<Shift>)> = images.iter().map(|p| (p.time_s, shift(p))).collect();
+    let mut moves = "the image has just come to rest".to_owned();
+    for window in IMAGE_WINDOWS {
         let from = shifts.partition_point(|(t, _)| *t < last.time_s - window);
         let inside = &shifts[from..];
         if inside.len() < FEWEST || inside[0].0 > last.time_s - 0.6 * window {
@@ -300,20 +299,20 @@ fn picture_motion(pictures: &[PictureSample], memory: &mut Memory, now: f64) -> 
         };
         let (first, farthest) = all[0];
         if all.iter().all(is_slow) {
-            let since = picture_since(&shifts);
-            return Motion::Stands(Memory::renew(&mut memory.picture, since, shifts[0].0));
+            let since = image_since(&shifts);
+            return Motion::Stands(Memory::renew(&mut memory.image, since, shifts[0].0));
         }
         let speed = farthest.length / (last.time_s - first).max(1e-3);
         if speed > SLOW_PX_S && farthest.length > SURE * farthest.sigma {
-            moves = format!("the picture still moves {speed:.1} px/s");
+            moves = format!("the image still moves {speed:.1} px/s");
         }
     }
     Motion::Moves(moves)
 }
 
-/// The time of the first of the last pictures that show the target where it is; `None` where all do.
-fn picture_since(shifts: &[(f64, Option<Shift>)]) -> Option<f64> {
-    let slow = SLOW_PX_S * PICTURE_WINDOWS[0];
+/// The time of the first of the last images that show the target where it is; `None` where all do.
+fn image_since(shifts: &[(f64, Option<Shift>)]) -> Option<f64> {
+    let slow = SLOW_PX_S * IMAGE_WINDOWS[0];
     let near = |s: &Option<Shift>| s.is_some_and(|s| s.length < (ELSEWHERE * s.sigma).max(slow));
     let last = shifts.iter().rposition(|(_, s)| !near(s))?;
     shifts.get(last + 1).map(|(time, _)| *time)
@@ -337,7 +336,7 @@ impl Sorted {
 /// Where a corner is, and how far from there it was.
 type Moved = (Vector2<f64>, Vector2<f64>);
 
-/// How far the target has moved in the image between two pictures, as an affine motion of its corners.
+/// How far the target has moved in the image between two images, as an affine motion of its corners.
 #[derive(Clone, Copy)]
 struct Shift {
     /// Root mean square over the corners, px.
@@ -382,9 +381,9 @@ impl Shift {
     }
 }
 
-/// Typical time between two pictures, s.
-fn typical_interval(pictures: &[PictureSample]) -> f64 {
-    let mut gaps: Vec<f64> = pictures.windows(2).map(|two| two[1].time_s - two[0].time_s).collect();
+/// Typical time between two images, s.
+fn typical_interval(images: &[ImageSample]) -> f64 {
+    let mut gaps: Vec<f64> = images.windows(2).map(|two| two[1].time_s - two[0].time_s).collect();
     gaps.sort_by(f64::total_cmp);
     gaps.get(gaps.len() / 2).copied().unwrap_or(0.0)
 }

@@ -4,8 +4,9 @@ use handeye::{Setup, Verdict, model::residual::Residual};
 use handeye_io::StoredCapture;
 
 use super::{
-    ELSEWHERE, Engine, Flow, Step,
+    Engine, Flow, Step,
     rest::{Motion, RobotSample},
+    taking::ELSEWHERE,
 };
 use crate::assess::ProposedView;
 
@@ -29,10 +30,6 @@ impl Engine {
             Step::Robot => self.robot_proof(),
             Step::Board => self.board_proof(),
             Step::Capture => self.capture_proof(),
-            Step::Touch => {
-                proof(true, "no corners are touched: the views alone determine the answer")
-            }
-            Step::Verify => proof(true, "not verified by further views"),
             Step::Result => match &self.written {
                 Some(written) => proof(true, format!("written to {}", written.folder)),
                 None => proof(false, "no result is written yet"),
@@ -51,13 +48,13 @@ impl Engine {
     }
 
     fn camera_proof(&self) -> Proof {
-        let Some(last) = self.pictures.back() else {
-            return proof(false, "no picture has come yet");
+        let Some(last) = self.images.back() else {
+            return proof(false, "no image has come yet");
         };
         let (width, height) = last.size;
         let silent = self.now - last.time_s;
         if silent > 2.0 && self.sources.camera == Flow::Stream {
-            return proof(false, format!("no picture for {silent:.0} s"));
+            return proof(false, format!("no image for {silent:.0} s"));
         }
         let given = self.folder.settings.intrinsics.map(|c| (c.width, c.height));
         if given.is_some_and(|size| size.0 > 0 && size != (width, height)) {
@@ -65,7 +62,7 @@ impl Engine {
             return proof(
                 false,
                 format!(
-                    "the pictures have {width} x {height} pixels, the intrinsics are for {w} x {h}"
+                    "the images have {width} x {height} pixels, the intrinsics are for {w} x {h}"
                 ),
             );
         }
@@ -74,7 +71,7 @@ impl Engine {
         } else {
             "intrinsics are calibrated from the views"
         };
-        proof(true, format!("pictures of {width} x {height} pixels; {lens}"))
+        proof(true, format!("images of {width} x {height} pixels; {lens}"))
     }
 
     fn robot_proof(&self) -> Proof {
@@ -95,8 +92,8 @@ impl Engine {
     }
 
     fn board_proof(&self) -> Proof {
-        match self.pictures.back().map(|p| &p.corners) {
-            None => proof(false, "no picture has come yet"),
+        match self.images.back().map(|p| &p.corners) {
+            None => proof(false, "no image has come yet"),
             Some(Ok(found)) => {
                 let all = self.folder.settings.target.corners().len();
                 proof(true, format!("{} of {all} corners are found", found.len()))
@@ -132,15 +129,13 @@ impl Engine {
             Step::Camera | Step::Robot | Step::Board if !known.proven => {
                 format!("{}.", capitalised(&known.text))
             }
-            Step::Camera => "Is this the picture of your camera? Confirm it.".into(),
+            Step::Camera => "Is this the image of your camera? Confirm it.".into(),
             Step::Robot if self.sources.robot == Flow::Single => {
                 "Is this where the flange is, in the notation of your robot? Confirm it.".into()
             }
             Step::Robot => "Move the robot by hand: do the numbers move with it? Then confirm it.".into(),
             Step::Board => "The board is found. Confirm that its size is measured, not read off a drawing.".into(),
             Step::Capture => self.say_capture(),
-            Step::Touch => "Touch corners of the board with the tool's tip, or go on without.".into(),
-            Step::Verify => "Verify the result in views that it does not come from, or go on without.".into(),
             Step::Result => self.say_result(),
         }
     }
@@ -175,7 +170,7 @@ impl Engine {
             (Some(next), _) if self.is_at(next) => {
                 "The robot is at the view: take the capture.".into()
             }
-            (Some(next), _) => format!("Drive to the next view: {}.", next.view.reason()),
+            (Some(next), _) => format!("Drive to the next view: {}.", next.reason),
             (None, Some(_)) if self.folder.captures.len() < 4 => first_views(&self.folder.captures),
             (None, Some(why)) => format!("No next view is found: {why}."),
             (None, None) => "No next view is found.".into(),
@@ -184,7 +179,7 @@ impl Engine {
 
     /// Whether a robot whose poses stream stands at the view, so far as the planner tells views apart.
     fn is_at(&self, next: &ProposedView) -> bool {
-        let there = &next.view.station.base_from_flange;
+        let there = &next.base_from_flange;
         let near =
             |s: &RobotSample| Residual::between(&s.base_from_flange, there).is_within(ELSEWHERE);
         self.sources.robot == Flow::Stream && self.robot.back().is_some_and(near)
@@ -219,7 +214,7 @@ fn first_views(captures: &[StoredCapture]) -> String {
         2 => "Now tilt it by about 25 degrees about the image's y",
         _ => "Now rotate it by about 40 degrees about the optical axis, tilted",
     };
-    format!("{tilt}, with the whole board in the picture, and take a capture.")
+    format!("{tilt}, with the whole board in the image, and take a capture.")
 }
 
 fn capitalised(text: &str) -> String {

@@ -92,7 +92,7 @@ pub(super) async fn check(State(app): State<App>, request: Request, next: Next) 
     }
     let length = text(header::CONTENT_LENGTH).and_then(|length| length.parse().ok());
     if length.is_some_and(|bytes: u64| bytes > LARGEST_BYTES) {
-        let advice = "pictures come from the camera's side, not from the page";
+        let advice = "images come from the camera's side, not from the page";
         return refusal(StatusCode::PAYLOAD_TOO_LARGE, "this is too much", advice);
     }
     let answered = tokio::time::timeout(PATIENCE, next.run(request)).await;

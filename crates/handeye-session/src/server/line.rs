@@ -8,7 +8,7 @@
 //! robot ─▶ next                           ◀─ next 598.1 ... | none | enough
 //! ```
 //!
-//! The robot stands while it waits for the answer, so its pose is that of the picture. Numbers are those of the session's
+//! The robot stands while it waits for the answer, so its pose is that of the image. Numbers are those of the session's
 //! notation. One robot at a time; it can take captures, and nothing else.
 
 use std::{
@@ -31,7 +31,7 @@ const LONGEST: u64 = 1024;
 /// A capture that takes longer has failed.
 const PATIENCE: Duration = Duration::from_secs(120);
 /// The problem that does not keep a capture from being taken.
-const LATE: &str = "picture-late";
+const LATE: &str = "image-late";
 /// How often the state is looked at.
 const POLL: Duration = Duration::from_millis(30);
 

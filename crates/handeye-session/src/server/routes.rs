@@ -27,10 +27,10 @@ pub(super) struct App {
 
 /// A state that does not change is sent again after so long.
 const STATE_PATIENCE: Duration = Duration::from_secs(20);
-/// A picture is waited for so long.
-const PICTURE_PATIENCE: Duration = Duration::from_secs(5);
-/// Width of pictures on the page, px.
-const PICTURE_WIDTH: usize = 1280;
+/// An image is waited for so long.
+const IMAGE_PATIENCE: Duration = Duration::from_secs(5);
+/// Width of images on the page, px.
+const IMAGE_WIDTH: usize = 1280;
 /// No script but the page's own, nothing from elsewhere.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
      connect-src 'self'; frame-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -46,7 +46,7 @@ pub(super) fn router(live: Live, guard: Guard) -> Router {
         .route("/session.css", get(style))
         .route("/api/state", get(state))
         .route("/api/do", post(command))
-        .route("/api/live.jpg", get(live_picture))
+        .route("/api/live.jpg", get(live_image))
         .route("/api/captures/{name}", get(capture))
         .route("/api/report", get(report))
         .route("/api/formats", get(formats))
@@ -140,17 +140,16 @@ async fn command(State(app): State<App>, body: Bytes) -> Response {
     }
 }
 
-async fn live_picture(State(app): State<App>, Query(After { after }): Query<After>) -> Response {
+async fn live_image(State(app): State<App>, Query(After { after }): Query<After>) -> Response {
     let mut frames = app.live.frames();
     let newer = frames.wait_for(|frame| *frame > after.unwrap_or(0));
-    if tokio::time::timeout(PICTURE_PATIENCE, newer).await.is_err() {
+    if tokio::time::timeout(IMAGE_PATIENCE, newer).await.is_err() {
         return StatusCode::NO_CONTENT.into_response();
     }
-    let Some((frame, picture)) = app.live.newest_picture() else {
+    let Some((frame, image)) = app.live.newest_image() else {
         return StatusCode::NO_CONTENT.into_response();
     };
-    let shrunk =
-        tokio::task::spawn_blocking(move || small_jpeg(&picture.image, PICTURE_WIDTH)).await;
+    let shrunk = tokio::task::spawn_blocking(move || small_jpeg(&image.grey, IMAGE_WIDTH)).await;
     let Some((jpeg, ..)) = shrunk.ok().flatten() else {
         return StatusCode::NO_CONTENT.into_response();
     };
@@ -159,7 +158,7 @@ async fn live_picture(State(app): State<App>, Query(After { after }): Query<Afte
     response
 }
 
-/// The picture of a capture, or what was measured in it: its name is a number, and nothing else is looked for.
+/// The image of a capture, or what was measured in it: its name is a number, and nothing else is looked for.
 async fn capture(State(app): State<App>, Path(name): Path<String>) -> Response {
     let missing = || refusal(StatusCode::NOT_FOUND, "there is no such capture", "");
     let Some((id, ending)) = name.split_once('.').filter(|(id, _)| is_id(id)) else {
@@ -175,7 +174,7 @@ async fn capture(State(app): State<App>, Path(name): Path<String>) -> Response {
         }
         "jpg" => {
             let (folder, id) = (app.live.folder().to_path_buf(), id.to_owned());
-            let small = move || small_jpeg(&capture_image(&folder, &id)?, PICTURE_WIDTH);
+            let small = move || small_jpeg(&capture_image(&folder, &id)?, IMAGE_WIDTH);
             match tokio::task::spawn_blocking(small).await.ok().flatten() {
                 Some((jpeg, ..)) => content(StatusCode::OK, "image/jpeg", jpeg.into()),
                 None => missing(),

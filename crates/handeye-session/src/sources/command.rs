@@ -1,4 +1,4 @@
-//! A command that takes a picture: it covers every camera whose maker has a library in any language. `{out}` in it is the
+//! A command that takes an image: it covers every camera whose maker has a library in any language. `{out}` in it is the
 //! file that it writes. It comes from the manifest's side, the command line, and never from the page.
 
 use std::{
@@ -12,7 +12,7 @@ use std::{
 
 use super::{
     folder,
-    outlet::{Outlet, Picture},
+    outlet::{CameraImage, Outlet},
 };
 
 /// A command that takes longer hangs.
@@ -20,7 +20,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// Of what it prints, so much is shown.
 const SHOWN_CHARS: usize = 300;
 
-/// Waits to be asked for pictures, and takes them by the command; the answer is the sender to ask by.
+/// Waits to be asked for images, and takes them by the command; the answer is the sender to ask by.
 pub fn grabber(command: String, outlet: Outlet) -> Sender<()> {
     let (ask, asked) = mpsc::channel();
     thread::spawn(move || {
@@ -28,11 +28,11 @@ pub fn grabber(command: String, outlet: Outlet) -> Sender<()> {
             // several askings at once are one
             while asked.try_recv().is_ok() {}
             let alive = match grab(&command, PATIENCE) {
-                Ok(picture) => outlet.picture(picture, outlet.now()),
+                Ok(image) => outlet.image(image, outlet.now()),
                 Err(why) => outlet.trouble(
-                    "no-picture",
+                    "no-image",
                     why,
-                    "run the command by hand: does it write the picture?",
+                    "run the command by hand: does it write the image?",
                 ),
             };
             if !alive {
@@ -43,8 +43,8 @@ pub fn grabber(command: String, outlet: Outlet) -> Sender<()> {
     ask
 }
 
-/// Takes one picture.
-fn grab(command: &str, patience: Duration) -> Result<Picture, String> {
+/// Takes one image.
+fn grab(command: &str, patience: Duration) -> Result<CameraImage, String> {
     let folder =
         handeye_io::temporary_folder().join(format!("handeye-grab-{}", handeye_io::process()));
     fs::remove_dir_all(&folder).ok();
@@ -54,8 +54,8 @@ fn grab(command: &str, patience: Duration) -> Result<Picture, String> {
     taken
 }
 
-fn grab_in(folder: &Path, command: &str, patience: Duration) -> Result<Picture, String> {
-    let out = folder.join("picture.png");
+fn grab_in(folder: &Path, command: &str, patience: Duration) -> Result<CameraImage, String> {
+    let out = folder.join("image.png");
     let (printed, errors) = (folder.join("stdout"), folder.join("stderr"));
     let file =
         |path: &PathBuf| fs::File::create(path).map_err(|e| format!("{}: {e}", path.display()));
@@ -83,9 +83,9 @@ fn grab_in(folder: &Path, command: &str, patience: Duration) -> Result<Picture, 
         Some(true) => {}
     }
     let length = fs::metadata(&out)
-        .map_err(|_| format!("the command has written no picture to {{out}}: {}", said()))?
+        .map_err(|_| format!("the command has written no image to {{out}}: {}", said()))?
         .len();
-    folder::read(&out, length).map(|(picture, _)| picture)
+    folder::read(&out, length).map(|(image, _)| image)
 }
 
 fn shell(command: &str) -> Command {
@@ -112,7 +112,8 @@ fn ended(mut child: Child, patience: Duration) -> Result<Option<bool>, String> {
     Ok(None)
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use handeye_io::simulated;
 
@@ -125,13 +126,13 @@ mod tests {
         let png = simulated::picture(&handeye::GrayImage::new(32, 16, vec![9.0; 512]).unwrap());
         fs::write(&source, &png).unwrap();
         let quick = Duration::from_millis(600);
-        let picture = grab(&format!("cp {} {{out}}", source.display()), quick).unwrap();
-        assert_eq!(picture.file.unwrap().1[..], png[..]);
+        let image = grab(&format!("cp {} {{out}}", source.display()), quick).unwrap();
+        assert_eq!(image.file.unwrap().1[..], png[..]);
         for (command, said) in [
             ("sh -c 'echo no camera 4711 >&2; exit 3'", "no camera 4711"),
             ("sleep 30", "has not ended"),
-            ("true", "written no picture"),
-            ("sh -c 'echo half > {out}'", "picture.png"),
+            ("true", "written no image"),
+            ("sh -c 'echo half > {out}'", "image.png"),
             ("this-is-no-program", "has failed"),
         ] {
             let message = grab(command, quick).unwrap_err();

@@ -1,4 +1,4 @@
-//! A folder in which another program saves pictures: any vendor's viewer. It is asked again and again, for network drives
+//! A folder in which another program saves images: any vendor's viewer. It is asked again and again, for network drives
 //! tell nobody of new files. A file counts once it no longer changes and can be read; one that was seen under another name
 //! is not a new one.
 
@@ -14,15 +14,15 @@ use std::{
 
 use handeye_io::read_image;
 
-use super::outlet::{Outlet, Picture};
+use super::outlet::{CameraImage, Outlet};
 
 /// How often the folder is asked.
 const POLL: Duration = Duration::from_millis(300);
 /// A file that cannot be read is given up after so many times: by then it would have been written.
 const TRIES: usize = 20;
-/// Endings of pictures.
+/// Endings of images.
 const ENDINGS: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp"];
-/// Larger files are no pictures of a camera, bytes.
+/// Larger files are no images of a camera, bytes.
 const LARGEST: u64 = 512 << 20;
 
 /// What is known of a file: size and time of the last change.
@@ -35,11 +35,11 @@ struct Watched {
     done: BTreeMap<PathBuf, FileState>,
     /// Files that wait: as they were at the last look, and how often they could not be read.
     waiting: BTreeMap<PathBuf, (FileState, usize)>,
-    /// Sums of pictures that have come.
+    /// Sums of images that have come.
     contents: HashSet<u64>,
 }
 
-/// Hands over every picture that is saved into a folder from now on.
+/// Hands over every image that is saved into a folder from now on.
 pub fn watch(folder: PathBuf, outlet: Outlet) {
     thread::spawn(move || {
         let mut watched = Watched::new(folder);
@@ -50,7 +50,7 @@ pub fn watch(folder: PathBuf, outlet: Outlet) {
             let is_there = watched.folder.is_dir();
             if was_there && !is_there {
                 let message = format!("the folder {} is gone", watched.folder.display());
-                let advice = "is the drive connected? Pictures are taken again once it is back";
+                let advice = "is the drive connected? Images are taken again once it is back";
                 outlet.trouble("folder-gone", message, advice);
             }
             was_there = is_there;
@@ -58,8 +58,8 @@ pub fn watch(folder: PathBuf, outlet: Outlet) {
             for found in watched.look() {
                 newest = now;
                 let alive = match found {
-                    Ok(picture) => outlet.picture(picture, now),
-                    Err(why) => outlet.trouble("picture-unreadable", why, "save the picture again"),
+                    Ok(image) => outlet.image(image, now),
+                    Err(why) => outlet.trouble("image-unreadable", why, "save the image again"),
                 };
                 if !alive {
                     return;
@@ -83,8 +83,8 @@ impl Watched {
         Self { folder, done, waiting, contents }
     }
 
-    /// New pictures, in the order of their time; or why a file is none.
-    fn look(&mut self) -> Vec<Result<Picture, String>> {
+    /// New images, in the order of their time; or why a file is none.
+    fn look(&mut self) -> Vec<Result<CameraImage, String>> {
         let mut all = files(&self.folder);
         all.sort_by(|a, b| a.1.1.cmp(&b.1.1).then(a.0.cmp(&b.0)));
         self.waiting.retain(|path, _| all.iter().any(|(there, _)| there == path));
@@ -102,11 +102,11 @@ impl Watched {
                 }
             };
             match read(&path, state.0) {
-                Ok((picture, sum)) => {
+                Ok((image, sum)) => {
                     self.waiting.remove(&path);
                     self.done.insert(path, state);
                     if self.contents.insert(sum) {
-                        found.push(Ok(picture));
+                        found.push(Ok(image));
                     }
                 }
                 Err(why) if tries + 1 >= TRIES => {
@@ -121,7 +121,7 @@ impl Watched {
     }
 }
 
-/// Pictures in a folder, hidden ones aside.
+/// Images in a folder, hidden ones aside.
 fn files(folder: &Path) -> Vec<(PathBuf, FileState)> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let one = |entry: fs::DirEntry| {
@@ -133,16 +133,16 @@ fn files(folder: &Path) -> Vec<(PathBuf, FileState)> {
     entries.filter_map(one).collect()
 }
 
-/// The ending of a picture's name, in small letters.
+/// The ending of an image's name, in small letters.
 fn ending(path: &Path) -> Option<String> {
     let ending = path.extension()?.to_string_lossy().to_lowercase();
     ENDINGS.contains(&&ending[..]).then_some(ending)
 }
 
-/// A picture's file, and the sum of its bytes.
-pub(super) fn read(path: &Path, length: u64) -> Result<(Picture, u64), String> {
+/// An image's file, and the sum of its bytes.
+pub(super) fn read(path: &Path, length: u64) -> Result<(CameraImage, u64), String> {
     if length > LARGEST {
-        return Err(format!("{} is no picture: it has {length} bytes", path.display()));
+        return Err(format!("{} is no image: it has {length} bytes", path.display()));
     }
     let image = read_image(path, None).map_err(|e| e.to_string())?;
     let bytes = fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
@@ -152,7 +152,7 @@ pub(super) fn read(path: &Path, length: u64) -> Result<(Picture, u64), String> {
     let mut sum = DefaultHasher::new();
     bytes.hash(&mut sum);
     let ending = ending(path).unwrap_or("png".into());
-    Ok((Picture { image: Arc::new(image), file: Some((ending, bytes.into())) }, sum.finish()))
+    Ok((CameraImage { grey: Arc::new(image), file: Some((ending, bytes.into())) }, sum.finish()))
 }
 
 #[cfg(test)]
@@ -161,11 +161,11 @@ mod tests {
 
     use super::*;
 
-    fn picture(grey: f32) -> Vec<u8> {
+    fn image(grey: f32) -> Vec<u8> {
         simulated::picture(&handeye::GrayImage::new(32, 16, vec![grey; 512]).unwrap())
     }
 
-    fn names(found: &[Result<Picture, String>]) -> Vec<bool> {
+    fn names(found: &[Result<CameraImage, String>]) -> Vec<bool> {
         found.iter().map(Result::is_ok).collect()
     }
 
@@ -174,12 +174,12 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("handeye-watch-{}", std::process::id()));
         fs::remove_dir_all(&folder).ok();
         fs::create_dir_all(&folder).unwrap();
-        fs::write(folder.join("old.png"), picture(10.0)).unwrap();
+        fs::write(folder.join("old.png"), image(10.0)).unwrap();
         let mut watched = Watched::new(folder.clone());
         assert!(watched.look().is_empty() && watched.look().is_empty());
 
         // half a file, then the whole one
-        let whole = picture(20.0);
+        let whole = image(20.0);
         fs::write(folder.join("a.png"), &whole[..whole.len() / 2]).unwrap();
         assert!(watched.look().is_empty() && watched.look().is_empty());
         fs::write(folder.join("a.png"), &whole).unwrap();
@@ -187,17 +187,17 @@ mod tests {
         assert_eq!(names(&watched.look()), [true]);
         assert!(watched.look().is_empty());
 
-        // another name for it is no other picture; written under a name for a while, then renamed, is one
+        // another name for it is no other image; written under a name for a while, then renamed, is one
         fs::rename(folder.join("a.png"), folder.join("b.png")).unwrap();
         assert!(watched.look().is_empty() && watched.look().is_empty());
-        fs::write(folder.join("c.part"), picture(30.0)).unwrap();
+        fs::write(folder.join("c.part"), image(30.0)).unwrap();
         assert!(watched.look().is_empty() && watched.look().is_empty());
         fs::rename(folder.join("c.part"), folder.join("c.PNG")).unwrap();
         assert!(watched.look().is_empty());
         assert_eq!(names(&watched.look()), [true]);
 
-        // what never becomes a picture is said once
-        fs::write(folder.join("d.png"), b"no picture").unwrap();
+        // what never becomes an image is said once
+        fs::write(folder.join("d.png"), b"no image").unwrap();
         let said: Vec<_> = (0..TRIES + 5).flat_map(|_| watched.look()).collect();
         assert_eq!(names(&said), [false]);
         fs::remove_dir_all(folder).unwrap();

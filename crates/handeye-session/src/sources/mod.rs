@@ -1,4 +1,4 @@
-//! Where poses and pictures come from. A source gives what it measures with its time, and has no way to move a robot; only
+//! Where poses and images come from. A source gives what it measures with its time, and has no way to move a robot; only
 //! the robot of a virtual cell, which stands in no room, can be driven.
 
 pub mod command;

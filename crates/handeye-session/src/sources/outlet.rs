@@ -1,4 +1,4 @@
-//! What a source has to do with the session: it hands over pictures and poses, and says what goes wrong.
+//! What a source has to do with the session: it hands over images and poses, and says what goes wrong.
 
 use std::{
     collections::VecDeque,
@@ -11,50 +11,51 @@ use std::{
 };
 
 use handeye::{GrayImage, Intrinsics, TargetModel, detect};
+use handeye_io::CellSettings;
 use tokio::sync::watch;
 
 use crate::engine::{
-    Input,
-    rest::{PictureSample, RobotSample},
+    Input, Problem,
+    rest::{ImageSample, RobotSample},
 };
 
-/// A picture, as the camera's file has it where there is one.
+/// An image, as the camera's file has it where there is one.
 #[derive(Debug, Clone)]
-pub struct Picture {
+pub struct CameraImage {
     /// Its grey values.
-    pub image: Arc<GrayImage>,
+    pub grey: Arc<GrayImage>,
     /// The file's ending and bytes: what is stored.
     pub file: Option<(String, Arc<[u8]>)>,
 }
 
-/// Pictures that may still be stored, by their numbers.
+/// Images that may still be stored, by their numbers.
 #[derive(Default)]
-pub struct Pictures(VecDeque<(u64, Picture)>);
+pub struct RecentImages(VecDeque<(u64, CameraImage)>);
 
-/// A capture is of one of the last pictures.
-const KEPT_PICTURES: usize = 16;
+/// A capture is of one of the last images.
+const KEPT_IMAGES: usize = 16;
 
-impl Pictures {
-    /// Keeps a picture, and forgets old ones.
-    pub fn keep(&mut self, frame: u64, picture: Picture) {
-        self.0.push_back((frame, picture));
-        if self.0.len() > KEPT_PICTURES {
+impl RecentImages {
+    /// Keeps an image, and forgets old ones.
+    pub fn keep(&mut self, frame: u64, image: CameraImage) {
+        self.0.push_back((frame, image));
+        if self.0.len() > KEPT_IMAGES {
             self.0.pop_front();
         }
     }
 
     /// One of them.
-    pub fn get(&self, frame: u64) -> Option<Picture> {
-        self.0.iter().find(|(number, _)| *number == frame).map(|(_, picture)| picture.clone())
+    pub fn get(&self, frame: u64) -> Option<CameraImage> {
+        self.0.iter().find(|(number, _)| *number == frame).map(|(_, image)| image.clone())
     }
 
     /// The newest.
-    pub fn newest(&self) -> Option<(u64, Picture)> {
+    pub fn newest(&self) -> Option<(u64, CameraImage)> {
         self.0.back().cloned()
     }
 }
 
-/// What is looked for in pictures.
+/// What is looked for in images.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wanted {
     /// The board.
@@ -63,11 +64,29 @@ pub struct Wanted {
     pub intrinsics: Option<Intrinsics>,
 }
 
+impl Wanted {
+    /// What the settings of a cell say of it.
+    pub fn of(settings: &CellSettings) -> Self {
+        Self { target: settings.target.clone(), intrinsics: settings.intrinsics }
+    }
+
+    /// What an image shows that came at this time.
+    pub fn found_in(&self, image: &GrayImage, frame: u64, time_s: f64) -> ImageSample {
+        let corners = detect::detect_with(image, &self.target, self.intrinsics.as_ref());
+        ImageSample {
+            frame,
+            time_s,
+            size: (image.width() as u32, image.height() as u32),
+            corners: corners.map_err(|e| e.to_string()),
+        }
+    }
+}
+
 /// The way from a source to the session.
 #[derive(Clone)]
 pub struct Outlet {
     to: Sender<Input>,
-    pictures: Arc<Mutex<Pictures>>,
+    images: Arc<Mutex<RecentImages>>,
     wanted: Arc<Mutex<Wanted>>,
     shown: watch::Sender<u64>,
     numbers: Arc<AtomicU64>,
@@ -75,11 +94,11 @@ pub struct Outlet {
 }
 
 impl Outlet {
-    /// Inputs go to `to`; `shown` is told the number of each picture.
+    /// Inputs go to `to`; `shown` is told the number of each image.
     pub fn new(to: Sender<Input>, wanted: Wanted, shown: watch::Sender<u64>) -> Self {
         Self {
             to,
-            pictures: Arc::default(),
+            images: Arc::default(),
             wanted: Arc::new(Mutex::new(wanted)),
             shown,
             numbers: Arc::default(),
@@ -92,9 +111,9 @@ impl Outlet {
         self.begin.elapsed().as_secs_f64()
     }
 
-    /// Pictures that may still be stored.
-    pub fn pictures(&self) -> MutexGuard<'_, Pictures> {
-        self.pictures.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Images that may still be stored.
+    pub fn images(&self) -> MutexGuard<'_, RecentImages> {
+        self.images.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// What is looked for now.
@@ -112,35 +131,27 @@ impl Outlet {
         self.input(Input::Robot(sample))
     }
 
-    /// Hands over a picture that has come at this time, with the corners that are found in it.
-    pub fn picture(&self, picture: Picture, time_s: f64) -> bool {
+    /// Hands over an image that has come at this time, with the corners that are found in it.
+    pub fn image(&self, image: CameraImage, time_s: f64) -> bool {
         let frame = self.numbers.fetch_add(1, Ordering::Relaxed) + 1;
-        self.pictures().keep(frame, picture.clone());
+        self.images().keep(frame, image.clone());
         self.shown.send_replace(frame);
-        self.look(frame, &picture, time_s)
+        self.look(frame, &image, time_s)
     }
 
-    /// Looks at the newest picture again, for what is wanted now.
+    /// Looks at the newest image again, for what is wanted now.
     pub fn look_again(&self, time_s: f64) -> bool {
-        let newest = self.pictures().newest();
-        newest.is_none_or(|(frame, picture)| self.look(frame, &picture, time_s))
+        let newest = self.images().newest();
+        newest.is_none_or(|(frame, image)| self.look(frame, &image, time_s))
     }
 
-    fn look(&self, frame: u64, picture: &Picture, time_s: f64) -> bool {
-        let Wanted { target, intrinsics } = self.wanted();
-        let image = &picture.image;
-        let corners = detect::detect_with(image, &target, intrinsics.as_ref());
-        self.input(Input::Picture(PictureSample {
-            frame,
-            time_s,
-            size: (image.width() as u32, image.height() as u32),
-            corners: corners.map_err(|e| e.to_string()),
-        }))
+    fn look(&self, frame: u64, image: &CameraImage, time_s: f64) -> bool {
+        self.input(Input::Image(self.wanted().found_in(&image.grey, frame, time_s)))
     }
 
     /// Says what goes wrong, by a fixed name and in a sentence, and what to do.
     pub fn trouble(&self, code: &str, message: String, advice: &str) -> bool {
-        self.input(Input::Trouble { code: code.into(), message, advice: advice.into() })
+        self.input(Input::Trouble(Problem { code: code.into(), message, advice: advice.into() }))
     }
 
     fn input(&self, input: Input) -> bool {

@@ -15,8 +15,8 @@ use crate::engine::rest::RobotSample;
 /// What is wrong with a virtual cell, on purpose.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Faults {
-    /// Pictures come so much later, s.
-    pub picture_delay_s: f64,
+    /// Images come so much later, s.
+    pub image_delay_s: f64,
     /// The robot creeps where it should stand, m/s.
     pub creep_m_s: f64,
     /// Likewise about an axis, rad/s.
@@ -48,13 +48,13 @@ struct Leg {
 /// Speeds of the robot.
 const SPEED_M_S: f64 = 0.4;
 const SPEED_RAD_S: f64 = 1.2;
-/// Legs are kept for pictures that come late.
+/// Legs are kept for images that come late.
 const KEPT_LEGS: usize = 20;
 /// What the robot reports scatters by, m and rad.
 const ENCODERS: (f64, f64) = (2e-6, 2e-6);
 /// How far off the first guess is, m and rad, along and about each axis.
 const GUESS_OFF: (f64, f64) = (0.02, 0.05);
-/// The camera's picture, px.
+/// The camera's image, px.
 const SIZE: (u32, u32) = (1280, 800);
 /// Its focal length, px.
 const FOCAL_PX: f64 = 1200.0;
@@ -172,18 +172,19 @@ impl VirtualCell {
         robot.at(now, &self.faults).0
     }
 
-    /// Where the flange really is in the picture that comes at this moment.
-    pub fn pictured(&self, now: f64) -> Pose<Base, Flange> {
-        self.standing(now - self.faults.picture_delay_s)
+    /// Where the flange really is in the image that comes at this moment.
+    pub fn flange_in_image(&self, now: f64) -> Pose<Base, Flange> {
+        self.standing(now - self.faults.image_delay_s)
     }
 
     fn scene(&self, now: f64) -> Scene {
-        let seen = self.cell.hand_eye.camera_from_target(self.cell.setup, &self.pictured(now));
+        let seen =
+            self.cell.hand_eye.camera_from_target(self.cell.setup, &self.flange_in_image(now));
         let (target, intrinsics) = (self.cell.target.clone(), self.cell.intrinsics);
         Scene { target, camera_from_target: seen, intrinsics }
     }
 
-    /// The corners of that picture, projected with noise instead of detected: quick.
+    /// The corners of that image, projected with noise instead of detected: quick.
     pub fn corners(&self, now: f64, random: &mut Random) -> Vec<ImageCorner> {
         let sigma = self.cell.noise.corner_px;
         let covariance = Matrix2::identity() * sigma * sigma;
@@ -195,8 +196,8 @@ impl VirtualCell {
         exact.into_iter().map(&mut noisy).collect()
     }
 
-    /// The picture that comes at this moment; number `frame` decides on its noise.
-    pub fn picture(&self, now: f64, frame: u64) -> GrayImage {
+    /// The image that comes at this moment; number `frame` decides on its noise.
+    pub fn image(&self, now: f64, frame: u64) -> GrayImage {
         self.scene(now).picture(&Optics::default(), frame)
     }
 }

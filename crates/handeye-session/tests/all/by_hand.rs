@@ -1,10 +1,11 @@
-//! Poses typed from a pendant, pictures one by one.
+//! Poses typed from a pendant, images one by one.
 
 use handeye::{Setup, math::random::Random};
 use handeye_io::{CellSettings, Writing};
 use handeye_session::{
     engine::{
-        Command, Effect, Engine, Flow, FolderState, Input, Sources, Step, rest::PictureSample,
+        Command, Effect, Engine, Flow, FolderState, Input, Problem, Sources, Step,
+        rest::ImageSample,
     },
     sources::virtual_cell::{Faults, VirtualCell},
 };
@@ -17,21 +18,17 @@ struct Bench {
 }
 
 impl Bench {
-    fn new(takes_pictures: bool) -> Self {
+    fn new(takes_images: bool) -> Self {
         let cell = VirtualCell::new(Setup::EyeInHand, 1, Faults::default()).unwrap();
         let settings = CellSettings { notation: "kuka".into(), ..cell.settings() };
         let folder = FolderState { settings, captures: vec![], deleted: vec![], refused: vec![] };
-        let by_hand = Sources {
-            robot: Flow::Single,
-            camera: Flow::Single,
-            takes_pictures,
-            is_virtual: false,
-        };
+        let by_hand =
+            Sources { robot: Flow::Single, camera: Flow::Single, takes_images, is_virtual: false };
         let engine = Engine::new(folder, by_hand).0;
         Self { cell, engine, frame: 0, now: 0.0 }
     }
 
-    fn picture(&mut self, shows_board: bool) -> Vec<Effect> {
+    fn image(&mut self, shows_board: bool) -> Vec<Effect> {
         self.frame += 1;
         self.now += 30.0; // nobody hurries
         let corners = match shows_board {
@@ -39,8 +36,8 @@ impl Bench {
             false => Err("too dark".to_owned()),
         };
         let (frame, time_s) = (self.frame, self.now);
-        let picture = PictureSample { frame, time_s, size: (1280, 800), corners };
-        self.engine.step(Input::Picture(picture)).unwrap()
+        let image = ImageSample { frame, time_s, size: (1280, 800), corners };
+        self.engine.step(Input::Image(image)).unwrap()
     }
 
     fn pose(&mut self) -> Vec<Effect> {
@@ -59,7 +56,7 @@ impl Bench {
     }
 
     fn begin(&mut self) {
-        self.picture(true);
+        self.image(true);
         self.pose();
         for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
             self.ask(Command::Confirm { step });
@@ -72,7 +69,7 @@ fn is_store(effects: &[Effect]) -> bool {
 }
 
 #[test]
-fn a_pose_and_a_picture_make_one_capture_in_either_order() {
+fn a_pose_and_a_image_make_one_capture_in_either_order() {
     let mut bench = Bench::new(false);
     bench.begin();
     assert!(is_store(&bench.ask(Command::Take)));
@@ -84,45 +81,45 @@ fn a_pose_and_a_picture_make_one_capture_in_either_order() {
         "{}",
         bench.engine.view("", "").say
     );
-    assert!(bench.picture(true).is_empty());
+    assert!(bench.image(true).is_empty());
     assert!(is_store(&bench.pose()));
     bench.stored();
     assert!(bench.ask(Command::Take).is_empty());
     assert!(bench.pose().is_empty());
-    assert!(is_store(&bench.picture(true)));
+    assert!(is_store(&bench.image(true)));
 }
 
 #[test]
-fn a_picture_without_the_board_is_refused_and_its_pose_waits_for_another() {
+fn a_image_without_the_board_is_refused_and_its_pose_waits_for_another() {
     let mut bench = Bench::new(false);
     bench.begin();
-    bench.picture(false);
+    bench.image(false);
     let effects = bench.ask(Command::Take);
     assert!(matches!(&effects[..], [Effect::Refuse(refused)] if refused.why.contains("too dark")));
     assert!(bench.ask(Command::Take).is_empty());
-    assert!(is_store(&bench.picture(true)));
+    assert!(is_store(&bench.image(true)));
 }
 
 #[test]
-fn a_command_takes_the_picture_once_the_pose_is_there() {
+fn a_command_takes_the_image_once_the_pose_is_there() {
     let mut bench = Bench::new(true);
     assert_eq!(bench.engine.view("", "").camera.frame, 0);
     bench.begin();
-    // a picture of before the pose is not that of the pose
+    // an image of before the pose is not that of the pose
     assert_eq!(bench.ask(Command::Take), [Effect::Grab]);
-    assert!(is_store(&bench.picture(true)));
+    assert!(is_store(&bench.image(true)));
     bench.stored();
     assert!(bench.ask(Command::Take).is_empty());
     assert_eq!(bench.pose(), [Effect::Grab]);
-    let trouble = Input::Trouble {
-        code: "no-picture".into(),
+    let trouble = Input::Trouble(Problem {
+        code: "no-image".into(),
         message: "the command has failed".into(),
         advice: String::new(),
-    };
+    });
     bench.engine.step(trouble).unwrap();
-    assert_eq!(bench.engine.view("", "").problem.unwrap().code, "no-picture");
+    assert_eq!(bench.engine.view("", "").problem.unwrap().code, "no-image");
     assert_eq!(bench.ask(Command::Take), [Effect::Grab]);
-    assert!(is_store(&bench.picture(true)));
+    assert!(is_store(&bench.image(true)));
 }
 
 #[test]

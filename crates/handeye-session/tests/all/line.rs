@@ -19,7 +19,7 @@ use handeye_session::{
 
 use crate::new_folder;
 
-/// A cell whose pictures a command takes, and whose robot speaks.
+/// A cell whose images a command takes, and whose robot speaks.
 struct Bench {
     cell: VirtualCell,
     live: Live,
@@ -43,9 +43,9 @@ impl Bench {
         Self { cell, live, root, address, now: 0.0 }
     }
 
-    /// The picture that the camera would take now.
+    /// The image that the camera would take now.
     fn expose(&self) {
-        let png = simulated::picture(&self.cell.picture(self.now, 1));
+        let png = simulated::picture(&self.cell.image(self.now, 1));
         fs::write(self.root.join("now.png"), png).unwrap();
     }
 
@@ -102,7 +102,7 @@ fn a_robots_program_is_led_to_the_end() {
     assert_eq!(robot.says("hello"), "ok handeye kuka");
     assert!(robot.says(&bench.pose()).contains("step `capture`"));
     for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
-        // the picture was not taken yet: that is what the steps wait for
+        // the image was not taken yet: that is what the steps wait for
         if step == Step::Camera {
             bench.live.command_blocking(Command::Grab).unwrap();
             let seen = |json: &str| json.contains("\"found\":\"54 of 54 corners\"");

@@ -1,8 +1,8 @@
-//! Captures of a robot that moves, and late pictures.
+//! Captures of a robot that moves, and late images.
 
 use handeye::{Setup, math::random::Random};
 use handeye_session::{
-    engine::{Command, Effect, Engine, FolderState, Input, Sources, Step, rest::PictureSample},
+    engine::{Command, Effect, Engine, FolderState, Input, Sources, Step, rest::ImageSample},
     sources::virtual_cell::{Faults, VirtualCell},
 };
 
@@ -15,7 +15,7 @@ struct Trial {
     frame: u64,
 }
 
-/// A capture that was taken: how far the flange was from what the picture shows, m.
+/// A capture that was taken: how far the flange was from what the image shows, m.
 struct Taken {
     waited_s: f64,
     off_m: f64,
@@ -47,7 +47,7 @@ impl Trial {
             let mut inputs = vec![Input::Robot(self.cell.sample(self.now))];
             self.frame += 1;
             if self.frame.is_multiple_of(5) {
-                inputs.push(Input::Picture(PictureSample {
+                inputs.push(Input::Image(ImageSample {
                     frame: self.frame,
                     time_s: self.now,
                     size: (1280, 800),
@@ -58,10 +58,10 @@ impl Trial {
             for input in inputs {
                 for effect in self.engine.step(input).unwrap() {
                     if let Effect::Store { frame, .. } = effect {
-                        let pictured = self.cell.pictured(frame as f64 * 0.04);
+                        let imaged = self.cell.flange_in_image(frame as f64 * 0.04);
                         // where it would be without delay
                         let there = self.cell.standing(self.now);
-                        let off_m = pictured.distance_to(&there);
+                        let off_m = imaged.distance_to(&there);
                         return Some(Taken { waited_s: self.now - begin, off_m });
                     }
                 }
@@ -75,7 +75,7 @@ impl Trial {
         let by = |random: &mut Random, most: f64| [0; 3].map(|_| random.between(-most, most));
         let (shift, turn) = (by(&mut self.random, 60.0), by(&mut self.random, 6.0));
         self.cell.jog(shift, turn, self.now);
-        // before the first delayed picture moves, and after
+        // before the first delayed image moves, and after
         let early = self.random.between(0.1, 1.5);
         self.pass(early);
         self.engine.step(Input::Command(Command::Take)).unwrap();
@@ -108,11 +108,11 @@ fn no_capture_of_500_is_taken_while_the_robot_creeps() {
 }
 
 #[test]
-fn late_pictures_are_of_the_standstill_and_their_delay_is_named() {
+fn late_images_are_of_the_standstill_and_their_delay_is_named() {
     let (mut wrong, mut taken, mut unnamed) = (vec![], 0, vec![]);
     for seed in 0..50 {
         let late = Random::new(seed).between(0.1, 1.0);
-        let mut trial = Trial::new(Faults { picture_delay_s: late, ..Faults::default() }, seed);
+        let mut trial = Trial::new(Faults { image_delay_s: late, ..Faults::default() }, seed);
         for k in 0..10 {
             if let Some(capture) = trial.take() {
                 taken += 1;
@@ -121,7 +121,7 @@ fn late_pictures_are_of_the_standstill_and_their_delay_is_named() {
         }
         let state = trial.engine.view("", "");
         let named = state.camera.delay_s.unwrap_or(f64::NAN);
-        // the pictures are 0.2 s apart
+        // the images are 0.2 s apart
         if !((named - late).abs() < 0.25) {
             unnamed.push((late, named));
         }

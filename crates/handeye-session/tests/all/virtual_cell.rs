@@ -97,6 +97,16 @@ fn captures_are_deleted_restored_undone_and_skipped() {
         let why = player.command(command).unwrap_err();
         assert!(why.contains(said), "{why}");
     }
+    // a capture that is taken again is taken where it was
+    let there = player.state().captures[2].base_from_flange;
+    player.command(Command::Retake { id: "003".into() }).unwrap();
+    let next = player.state().next.unwrap();
+    assert_eq!((names(&player).len(), &next.reason[..]), (3, "as capture 003 was taken"));
+    assert!(next.base_from_flange.distance_to(&there) < 1e-9);
+    player.play(&one_more).unwrap();
+    assert_eq!(names(&player), ["001", "002", "004", "005"]);
+    assert!(player.state().captures[3].base_from_flange.distance_to(&there) < 1e-3);
+    assert!(!player.state().next.unwrap().reason.starts_with("as capture"));
     // a view that nobody can go to is not proposed again, nor anything near it
     let before = player.state().next.unwrap().base_from_flange;
     player.command(Command::Skip { why: "cannot reach".into() }).unwrap();

@@ -2,7 +2,7 @@
 
 import { selectedCapture, type App } from "./app";
 import type { Icon } from "./icons";
-import { isOutlier, STEPS, type State, type Step, type StepName } from "./state";
+import { isOutlier, type State, type StepName } from "./state";
 import type { Key } from "./words";
 
 export interface Action {
@@ -24,8 +24,6 @@ export function isAtNext(state: State): boolean | null {
   return off.mm < AT_VIEW_MM && (off.deg ?? 0) < AT_VIEW_DEG;
 }
 
-/** How many views had been checked when the virtual robot was last sent to one. */
-let checksBeforeDrive: number | null = null;
 
 const REPORT = "/api/report";
 export const openReport = () => void window.open(REPORT, "_blank", "noopener");
@@ -46,7 +44,7 @@ const ASKED_FOR = 20_000; // ms after which this is over in any case
 const outcomes = (state: State): number =>
   (state.captures?.length ?? 0) + (state.deleted?.length ?? 0) + (state.refused?.length ?? 0);
 
-const problemOf = ({ problem }: State): string => (problem && problem.code !== "picture-late" ? problem.message : "");
+const problemOf = ({ problem }: State): string => (problem && problem.code !== "image-late" ? problem.message : "");
 
 function isStoring(state: State): boolean {
   if (!asked) return false;
@@ -99,23 +97,6 @@ function inCapture(app: App, state: State): Action {
   return takeAction(app, state);
 }
 
-function inVerify(app: App, state: State): Action {
-  if (!state.verify) return act(app, "go_on", { do: "confirm", step: "verify" });
-  const views = state.verify.views?.length ?? 0;
-  if (state.virtual_cell?.driving) return act(app, "driving", { do: "cancel" }, false);
-  if (state.taking) return takeAction(app, state);
-  if (state.verify.verdict === "holds") return act(app, "to_result", { do: "confirm", step: "verify" });
-  if (state.verify.verdict === "does not hold") return act(app, "back_to_captures", { do: "go", step: "capture" });
-  if (state.virtual_cell && checksBeforeDrive !== views) {
-    return {
-      label: "drive_check",
-      enabled: true,
-      run: () => void app.send({ do: "drive", to: "check" }).then((sent) => sent && (checksBeforeDrive = views)),
-    };
-  }
-  return takeAction(app, state);
-}
-
 /** What the space bar does now. */
 export function primary(app: App, state: State): Action {
   const action = primaryOf(app, state);
@@ -126,10 +107,6 @@ function primaryOf(app: App, state: State): Action {
   switch (state.step) {
     case "capture":
       return inCapture(app, state);
-    case "verify":
-      return inVerify(app, state);
-    case "touch":
-      return act(app, "go_on", { do: "confirm", step: "touch" });
     case "result":
       if (!state.result) return act(app, "back_to_captures", { do: "go", step: "capture" });
       return { label: "open_report", enabled: true, icon: "page", run: openReport };
@@ -158,8 +135,6 @@ export function secondary(app: App, state: State): Action[] {
         ...(isTaking ? [] : [takeAction(app, state)]),
         { ...act(app, "automatic", { do: "automatic", on: !state.automatic }), on: state.automatic === true },
       ];
-    case "verify":
-      return [...stop, ...(isTaking || !state.verify ? [] : [takeAction(app, state)])];
     case "result":
       return state.result ? [act(app, "back_to_captures", { do: "go", step: "capture" })] : [];
     default:
@@ -177,15 +152,9 @@ export function fixedBy(state: State): Key | null {
   return state.captures?.length || state.deleted?.length ? "fixed_captures" : null;
 }
 
-/** The steps that can be gone through: those of which the session knows nothing to do are not shown, unless it is at one. */
-export function openSteps(state: State): Step[] {
-  const isThere: Partial<Record<StepName, boolean>> = { touch: Boolean(state.touch), verify: Boolean(state.verify) };
-  return (state.steps ?? []).filter(({ name }) => STEPS.includes(name) && (isThere[name] ?? true) || name === state.step);
-}
-
 /** The key N: the virtual robot drives to the next view; any other robot gets another view. */
 export function nextView(app: App): void {
-  if (app.state?.virtual_cell) void app.send({ do: "drive", to: app.state.step === "verify" ? "check" : "next" });
+  if (app.state?.virtual_cell) void app.send({ do: "drive", to: "next" });
   else skip(app);
 }
 

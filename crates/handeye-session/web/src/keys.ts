@@ -1,6 +1,6 @@
 // The keyboard. Keys that belong to a field, a button or an open sheet are left to it.
 
-import { cancel, canTake, deleteSelected, goTo, nextView, openSteps, primary, selectBy, take } from "./actions";
+import { cancel, canTake, deleteSelected, goTo, nextView, primary, selectBy, take } from "./actions";
 import type { App } from "./app";
 
 const AGAIN = 350; // ms in which a second press of the same key counts as a slip
@@ -28,8 +28,8 @@ function escape(app: App): void {
 /** What a key does; null for those that do nothing. */
 function effect(app: App, key: string, help: HTMLDialogElement): (() => void) | null {
   const state = app.state;
-  const isTaking = state?.step === "capture" || state?.step === "verify";
-  const step = state && openSteps(state)[Number(key) - 1];
+  const isTaking = state?.step === "capture";
+  const step = state?.steps?.[Number(key) - 1];
   if (step) return () => goTo(app, step.name);
   switch (key.toLowerCase()) {
     case " ":

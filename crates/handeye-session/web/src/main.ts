@@ -24,8 +24,6 @@ import { makeStepCamera } from "./step_camera";
 import { makeStepCell } from "./step_cell";
 import { makeStepResult } from "./step_result";
 import { makeStepRobot } from "./step_robot";
-import { makeStepTouch } from "./step_touch";
-import { makeStepVerify } from "./step_verify";
 import { named, speak } from "./words";
 
 const app = makeApp(redraw);
@@ -37,9 +35,9 @@ const picture = makePicture(app);
 const speakOf = makeSpeaker(place("spoken"));
 
 /** Each part, and the steps in which it is seen. */
-const ALL: StepName[] = ["cell", "camera", "robot", "board", "capture", "touch", "verify", "result"];
-const WORK: StepName[] = ["robot", "capture", "touch", "verify"];
-const ANSWER: StepName[] = ["capture", "touch", "verify", "result"];
+const ALL: StepName[] = ["cell", "camera", "robot", "board", "capture", "result"];
+const WORK: StepName[] = ["robot", "capture"];
+const ANSWER: StepName[] = ["capture", "result"];
 const onStage: [Part, StepName[]][] = [
   [picture, ALL],
   [makeCell(app), WORK],
@@ -51,8 +49,6 @@ const onSide: [Part, StepName[]][] = [
   [makeStepCamera(app), ["camera"]],
   [makeStepRobot(app), ["robot"]],
   [makeStepBoard(app), ["board"]],
-  [makeStepTouch(app), ["touch"]],
-  [makeStepVerify(app), ["verify"]],
   [makeFindings(app, "rejects"), ANSWER],
   [makeAccuracy(app), ["capture", "result"]],
   [makeCaptures(app), ["capture", "result"]],

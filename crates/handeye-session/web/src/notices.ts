@@ -45,14 +45,11 @@ function strip(look: string, sign: Icon, closed?: () => void): Strip {
   };
 }
 
-/** A verdict that says no: of the captures so far, of the verification, or of the result. */
+/** A verdict that says no: of the captures so far, or of the result. */
 export function badVerdict(state: State): Notice | null {
   if (state.step === "result" && state.result?.verdict && state.result.verdict !== "accepted") {
     const key = state.result.verdict === "rejected" ? "result_rejected" : "result_undetermined";
     return { message: t(key), advice: state.progress?.reasons?.join("; ") ?? null };
-  }
-  if (state.verify?.verdict === "does not hold") {
-    return { message: t("does_not_hold"), advice: state.verify.sentence ?? null };
   }
   if (state.progress?.verdict === "rejected") {
     return { message: t("rejected_so_far"), advice: state.progress.reasons?.join("; ") ?? null };
@@ -99,7 +96,7 @@ export function makeNotices(app: App, element: HTMLElement): Part {
       lost.set(lostNotice(app), false);
       const isEarly = state.problem?.code === "not-assessed" && (state.captures?.length ?? 0) < FEWEST;
       const given = isEarly ? null : state.problem;
-      const isMild = state.problem?.code === "picture-late"; // nothing is wrong, it only takes longer
+      const isMild = state.problem?.code === "image-late"; // nothing is wrong, it only takes longer
       problem.set(isMild ? null : shown(given));
       late.set(isMild && !lateSeen && state.step === "capture" ? shown(state.problem) : null, false);
       refused.set(shown(app.refused), false);

@@ -1,6 +1,6 @@
 // The rail on the left: the eight steps with their state and what is known of each, and the page's own settings.
 
-import { goTo, openSteps } from "./actions";
+import { goTo } from "./actions";
 import type { App, Part } from "./app";
 import { button } from "./controls";
 import { attribute, h, kind, list, show, text } from "./dom";
@@ -68,7 +68,7 @@ export function makeRail(app: App, element: HTMLElement, help: () => void): Part
       text(title, state.title ?? "handeye");
       text(folder, state.folder);
       attribute(folder, "title", state.folder);
-      draw(openSteps(state).map((step, i) => ({ ...step, number: i + 1 })));
+      draw((state.steps ?? []).map((step, i) => ({ ...step, number: i + 1 })));
       setIcon(soundIcon, app.choices.muted ? "mute" : "sound");
       named(sound, app.choices.muted ? "sound_on" : "sound_off", true);
       text(language, currentLanguage() === "en" ? "DE" : "EN");

@@ -8,8 +8,6 @@ export const SENTENCES = {
   step_robot: ["Robot", "Roboter"],
   step_board: ["Board", "Tafel"],
   step_capture: ["Captures", "Aufnahmen"],
-  step_touch: ["Touches", "Antasten"],
-  step_verify: ["Verification", "Prüfung"],
   step_result: ["Result", "Ergebnis"],
   state_done: ["(done)", "(erledigt)"],
   state_now: ["(now)", "(jetzt)"],
@@ -30,17 +28,14 @@ export const SENTENCES = {
 
   // actions
   confirm: ["This is right: go on", "Das stimmt: weiter"],
-  go_on: ["Go on", "Weiter"],
   take: ["Take a capture", "Aufnehmen"],
   waiting_for_both: ["Waiting for pose and image", "Warte auf Pose und Bild"],
   assessing_now: ["Being assessed", "Wird ausgewertet"],
   waiting_for_rest: ["Waiting for standstill", "Warte auf Stillstand"],
   driving: ["The robot drives", "Der Roboter fährt"],
   drive: ["Drive to this view", "Zur Ansicht fahren"],
-  drive_check: ["Drive to a new view", "Zu neuer Ansicht fahren"],
   finish: ["Finish: calibrate", "Fertig: kalibrieren"],
   finish_now: ["Finish with these captures", "Mit diesen Aufnahmen abschließen"],
-  to_result: ["On to the result", "Zum Ergebnis"],
   back_to_captures: ["Back to the captures", "Zurück zu den Aufnahmen"],
   open_report: ["Open the report", "Bericht öffnen"],
   cancel: ["Cancel", "Abbrechen"],
@@ -62,7 +57,6 @@ export const SENTENCES = {
   not_sent: ["The command did not reach the session.", "Der Befehl kam nicht bei der Sitzung an."],
   capture_refused: ["No capture was taken:", "Nicht aufgenommen:"],
   rejected_so_far: ["The result of the captures so far is rejected.", "Das Ergebnis der bisherigen Aufnahmen ist abgelehnt."],
-  does_not_hold: ["The result does not hold at other views.", "Das Ergebnis hält an anderen Ansichten nicht stand."],
 
   // picture
   live_picture: [
@@ -239,26 +233,6 @@ export const SENTENCES = {
   pitch: ["Distance of centres", "Abstand der Mitten"],
   row_pitch: ["Distance of rows", "Abstand der Reihen"],
   diameter: ["Diameter", "Durchmesser"],
-
-  // step: touch
-  touch: ["Touch corners of the board", "Ecken der Tafel antasten"],
-  touch_why: [
-    "Touches tie the result to the robot's own millimetres. They are optional.",
-    "Antasten bindet das Ergebnis an die Millimeter des Roboters. Es ist freiwillig.",
-  ],
-  touch_1: ["Mount a straight, stiff tip.", "Eine gerade, steife Spitze montieren."],
-  touch_2: [
-    "Touch the outermost inner corners, where two black squares meet.",
-    "Die äußersten inneren Ecken antasten, wo zwei schwarze Felder sich treffen.",
-  ],
-  touch_3: [
-    "Come down slowly and straight; do not bend the board.",
-    "Langsam und gerade herunterfahren; die Tafel nicht biegen.",
-  ],
-
-  // step: verify
-  verify: ["Largest error at views that were not used", "Größter Fehler an Ansichten, die nicht verwendet wurden"],
-  no_checks: ["No view is checked yet.", "Noch keine Ansicht geprüft."],
 
   // step: result
   result_accepted: ["Accepted", "Angenommen"],

@@ -12,7 +12,7 @@ export interface Pose {
   rotation_xyzw: [number, number, number, number];
 }
 
-export const STEPS = ["cell", "camera", "robot", "board", "capture", "touch", "verify", "result"] as const;
+export const STEPS = ["cell", "camera", "robot", "board", "capture", "result"] as const;
 export type StepName = (typeof STEPS)[number];
 
 export interface Step {
@@ -155,13 +155,6 @@ export interface Progress {
   anchor_from_target?: Maybe<Pose>;
 }
 
-export interface Verify {
-  views?: { id: string; error_mm?: Maybe<number> }[];
-  worst_mm?: Maybe<number>;
-  verdict?: "holds" | "does not hold" | "too few";
-  sentence?: string;
-}
-
 export interface Result {
   files?: string[];
   verdict?: Verdict;
@@ -189,8 +182,6 @@ export interface State {
   assessing?: boolean;
   assessed?: number; // changes with every assessment
   progress?: Maybe<Progress>;
-  touch?: Maybe<object>; // not part of sessions yet, like `verify`
-  verify?: Maybe<Verify>;
   result?: Maybe<Result>;
   virtual_cell?: Maybe<{ truth_error_mm?: Maybe<number>; driving?: boolean }>;
 }

@@ -209,8 +209,8 @@ struct Pass {
     new: Vector6<f64>,
 }
 
-/// Drift of every view given all others, and what it then misses.
-pub(super) fn smooth(lines: &[Line], levels: &Levels) -> Vec<Slow> {
+/// What is known of every view by those before it.
+fn forward(lines: &[Line], levels: &Levels) -> Vec<Pass> {
     let mut passes: Vec<Pass> = vec![];
     let mut last = None;
     for line in lines {
@@ -231,6 +231,12 @@ pub(super) fn smooth(lines: &[Line], levels: &Levels) -> Vec<Slow> {
         }
         last = Some(here);
     }
+    passes
+}
+
+/// Drift of every view given all others, and what it then misses.
+pub(super) fn smooth(lines: &[Line], levels: &Levels) -> Vec<Slow> {
+    let passes = forward(lines, levels);
     let (mut rho, mut back) = (SVector::<f64, STATE>::zeros(), Square::zeros());
     let mut all = vec![];
     for k in (0..lines.len()).rev() {

@@ -22,6 +22,7 @@ mod information;
 mod looks;
 mod planner;
 mod reach;
+mod refusals;
 mod solids;
 mod touches;
 mod travel;
@@ -233,7 +234,7 @@ fn of_mount(h: &Matrix12) -> Option<Matrix6<f64>> {
     linalg::invert_spd(h).map(|c| c.fixed_view::<6, 6>(0, 0).into_owned())
 }
 
-pub use planner::{ENOUGH, NextView, Planner, Route, Stop, USUAL_CANDIDATES};
+pub use planner::{ENOUGH, FEWEST_ENOUGH, NextView, Planner, Route, Stop, USUAL_CANDIDATES};
 pub use reach::{ArmReach, NearReach, Reach, Station, USUALLY_NEAR, Unreached};
 pub use solids::{Capsule, Cuboid};
 pub(crate) use touches::spread_corners;

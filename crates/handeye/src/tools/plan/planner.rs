@@ -6,14 +6,13 @@ use std::cmp::Reverse;
 use nalgebra::{Matrix6, SMatrix, Vector3};
 
 use super::{
-    FIRST, Setting, alike,
-    collision::Collision,
-    error, finite,
+    FIRST, Setting, alike, error, finite,
     guess::{GuessSigma, Taken, refined},
     log_determinant,
     looks::{self, Viewing},
     moment,
     reach::{Reach, Station, Unreached},
+    refusals::Refusals,
     travel,
 };
 use crate::{
@@ -106,21 +105,6 @@ impl Route {
     }
 }
 
-/// Why no more views are found.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Refusals {
-    /// Looks from where the target is not seen as a whole for sure.
-    pub unseen: usize,
-    /// Looks too like captures that were taken, or to places that failed.
-    pub alike: usize,
-    /// Poses that the robot does not reach.
-    pub unreached: usize,
-    /// Poses in collision, or to which the path is.
-    pub colliding: usize,
-    /// The first collision.
-    pub collision: Option<Collision>,
-}
-
 /// The target is seen as a whole when this many standard deviations of its predicted place leave it in the image.
 const SURE: f64 = 2.0;
 /// Around a pose that failed nothing is tried again, rad and m.
@@ -133,6 +117,8 @@ const MOST_IN_VAIN: usize = 600;
 /// states less than the tolerance itself, stops too early: the true error (95 %) was below it in 32 of 36 simulated cells, with
 /// this share in 34.
 pub const ENOUGH: f64 = 0.9;
+/// Nor are fewer captures than this enough, whatever their calibration states: the share was measured with these and more.
+pub const FEWEST_ENOUGH: usize = 5;
 /// Usual number of candidates.
 pub const USUAL_CANDIDATES: usize = 2000;
 
@@ -431,51 +417,6 @@ fn view_covariance(view: &Pose<Camera, Target>, covariance: &Matrix12) -> Matrix
     j.fixed_view_mut::<6, 6>(0, 0).copy_from(&-lie::adjoint(view.inverse().iso()));
     j.fixed_view_mut::<6, 6>(0, 6).fill_with_identity();
     j * covariance * j.transpose()
-}
-
-impl Refusals {
-    fn note(&mut self, why: Unreached) {
-        match why {
-            Unreached::TooFar => self.unreached += 1,
-            Unreached::Collides(collision) => {
-                self.colliding += 1;
-                self.collision.get_or_insert(collision);
-            }
-        }
-    }
-
-    /// Why those that came furthest came no further, in words.
-    fn reason(&self) -> String {
-        let Refusals { unseen, alike, unreached, colliding, collision } = self;
-        let (all, tried) = (unseen + alike + unreached + colliding, unreached + colliding);
-        if tried > 0 && unreached >= colliding {
-            format!(
-                "the robot does not reach {unreached} of {tried} poses that would show the target: move the board nearer \
-                 to the middle of its workspace"
-            )
-        } else if tried > 0 {
-            let which = collision
-                .as_ref()
-                .map_or(String::new(), |c| format!(" ({} and {})", c.part, c.with));
-            format!(
-                "{colliding} of {tried} poses that would show the target are in collision, or the path to them is{which}: move the \
-                 board, or correct the shapes"
-            )
-        } else if unseen >= alike {
-            format!(
-                "in {unseen} of {all} candidate views the camera would not surely see the whole target: take the first \
-                 captures near the present pose, or allow other distances"
-            )
-        } else {
-            format!(
-                "{alike} of {all} candidate views are like captures that were taken, or that failed"
-            )
-        }
-    }
-
-    fn error(&self, needed: usize) -> Error {
-        Error::TooFewPoses { found: 0, needed, advice: self.reason() }
-    }
 }
 
 impl NextView {

@@ -1,0 +1,107 @@
+//! Whole sessions in virtual cells: how many captures until the session says "enough", and whether that is true.
+//!
+//! `session SEEDS FIRST [BENCHMARK.md]`
+
+#[path = "../section.rs"]
+mod section;
+
+use std::{env, fs};
+
+use handeye::{Camera, Point, Pose, Setup, Target};
+use handeye_io::SessionFolder;
+use handeye_session::{
+    engine::{Command, Destination, Step},
+    host::Host,
+    script::Player,
+    sources::virtual_cell::{Faults, VirtualCell},
+};
+
+/// No session goes on for longer.
+const MOST: usize = 30;
+
+/// What became of a session.
+struct Ended {
+    captures: usize,
+    stated_mm: f64,
+    true_mm: f64,
+}
+
+/// Plays a session until it is enough; `None` where it never is.
+fn play(setup: Setup, seed: u64) -> Option<Ended> {
+    let root = env::temp_dir().join(format!("handeye-bench-session-{}", std::process::id()));
+    fs::remove_dir_all(&root).ok();
+    let cell = VirtualCell::new(setup, seed, Faults::default()).expect("a cell");
+    let folder = SessionFolder::open(&root, Some(&cell.settings())).expect("a folder");
+    let mut player = Player::new(Host::new(folder), cell);
+    for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
+        player.command(Command::Confirm { step }).expect("a step that is proven");
+    }
+    player.command(Command::Take).expect("a first capture");
+    let is_enough = |player: &Player| player.state().progress.is_some_and(|p| p.enough);
+    while !is_enough(&player) && player.state().captures.len() < MOST {
+        let driven = player.command(Command::Drive { to: Destination::Next });
+        if driven.and_then(|()| player.command(Command::Take)).is_err() {
+            break;
+        }
+    }
+    let ended = is_enough(&player).then(|| ended(&player)).flatten();
+    fs::remove_dir_all(&root).ok();
+    ended
+}
+
+fn ended(player: &Player) -> Option<Ended> {
+    let (state, truth) = (player.state(), player.cell().truth().mount_from_camera);
+    let progress = state.progress?;
+    let found = progress.mount_from_camera?;
+    let corners = state.cell.target.corners();
+    let seen = state.captures.iter().filter_map(|c| c.camera_from_target);
+    let off = |p: Point<Camera>| ((found * p).vector() - (truth * p).vector()).norm() * 1e3;
+    let of_view = |view: Pose<Camera, Target>| corners.iter().map(move |c| view * *c);
+    let mut all: Vec<f64> = seen.flat_map(of_view).map(off).collect();
+    all.sort_by(f64::total_cmp);
+    let true_mm = all[all.len() * 95 / 100];
+    Some(Ended { captures: state.captures.len(), stated_mm: progress.p95_mm?, true_mm })
+}
+
+fn main() {
+    let number =
+        |k: usize, usual: u64| env::args().nth(k).and_then(|n| n.parse().ok()).unwrap_or(usual);
+    let (seeds, first) = (number(1, 50), number(2, 3001));
+    let mut rows = String::new();
+    for (setup, name) in [(Setup::EyeInHand, "eye-in-hand"), (Setup::EyeToHand, "eye-to-hand")] {
+        let all: Vec<Option<Ended>> =
+            (first..first + seeds).map(|seed| play(setup, seed)).collect();
+        let tolerance = VirtualCell::new(setup, first, Faults::default())
+            .expect("a cell")
+            .settings()
+            .tolerance_mm;
+        let done: Vec<&Ended> = all.iter().flatten().collect();
+        let held = done.iter().filter(|e| e.true_mm <= tolerance).count();
+        let stated = done.iter().filter(|e| e.true_mm <= e.stated_mm).count();
+        let mut captures: Vec<usize> = done.iter().map(|e| e.captures).collect();
+        captures.sort_unstable();
+        let worst = done.iter().map(|e| e.true_mm).fold(0.0, f64::max);
+        let median = captures.get(captures.len() / 2).copied().unwrap_or(0);
+        let row = format!(
+            "| {name} | {} of {} | {median} | {held} of {} | {stated} of {} | {worst:.2} |\n",
+            done.len(),
+            all.len(),
+            done.len(),
+            done.len()
+        );
+        print!("{row}");
+        rows += &row;
+    }
+    let text = format!(
+        "## Sessions\n\n\
+         `bench/session/run`: whole sessions of {seeds} virtual cells (seeds from {first}), rendered images, a robot with 0.1 mm and \
+         0.01 degrees, a first guess off by 20 mm and 3 degrees; the next view is taken until the session says that the captures \
+         are enough for its tolerance of 0.5 mm. *true*: the error (95 %) at all corners in all captures is below the tolerance; \
+         *stated*: below what the session states.\n\n\
+         | setup | enough within {MOST} captures | median of captures | true | stated | largest true error, mm |\n\
+         |---|---|---|---|---|---|\n{rows}"
+    );
+    if let Some(file) = env::args().nth(3) {
+        section::write(file, "session", &text);
+    }
+}

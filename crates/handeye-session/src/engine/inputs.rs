@@ -1,0 +1,142 @@
+//! What comes to the engine, and what it wants done.
+
+use std::sync::Arc;
+
+use handeye::{Base, Flange, Pose};
+use handeye_io::{CellSettings, RefusedCapture, StoredCapture};
+
+use serde::Serialize;
+
+use super::{
+    Command,
+    rest::{ImageSample, RobotSample},
+};
+use crate::assess::Assessment;
+
+/// What happens to a session.
+#[derive(Debug, Clone)]
+pub enum Input {
+    /// Time goes on, s.
+    Clock(f64),
+    /// The robot is somewhere.
+    Robot(RobotSample),
+    /// An image has come and was looked at.
+    Image(ImageSample),
+    /// Somebody asks for something.
+    Command(Command),
+    /// What the folder holds now.
+    Folder(Box<FolderState>),
+    /// A capture was stored under this name, or why it was not.
+    Stored(Result<String, String>),
+    /// A change of the folder could not be made.
+    Failed(String),
+    /// The captures were assessed.
+    Assessed {
+        /// Which state of the captures.
+        generation: u64,
+        /// What they are worth, or why that cannot be said.
+        assessment: Result<Arc<Assessment>, String>,
+    },
+    /// The result was written, or why not.
+    Written(Result<Written, String>),
+    /// A source has trouble.
+    Trouble(Problem),
+}
+
+/// What went wrong.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Problem {
+    /// A fixed name.
+    pub code: String,
+    /// What.
+    pub message: String,
+    /// What to do.
+    pub advice: String,
+}
+
+/// How poses or images come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// All the time: whether they stand is seen.
+    Stream,
+    /// One by one, from a person or a program that knows when.
+    Single,
+}
+
+/// What a session has for sources.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sources {
+    /// How poses come.
+    pub robot: Flow,
+    /// How images come.
+    pub camera: Flow,
+    /// Whether an image is taken when it is asked for.
+    pub takes_images: bool,
+    /// Whether robot and camera are virtual.
+    pub is_virtual: bool,
+}
+
+impl Sources {
+    /// Those of a virtual cell.
+    pub const VIRTUAL: Self =
+        Self { robot: Flow::Stream, camera: Flow::Stream, takes_images: false, is_virtual: true };
+}
+
+/// The files of a result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// The folder.
+    pub folder: String,
+    /// Names of the files in it.
+    pub files: Vec<String>,
+}
+
+/// What the folder holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FolderState {
+    /// What is known of the cell.
+    pub settings: CellSettings,
+    /// The captures that stand.
+    pub captures: Vec<StoredCapture>,
+    /// Names of deleted captures.
+    pub deleted: Vec<String>,
+    /// Captures that were not taken.
+    pub refused: Vec<RefusedCapture>,
+}
+
+/// What a session wants to be done.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Effect {
+    /// Store a capture of this image.
+    Store {
+        /// The image's number.
+        frame: u64,
+        /// Where the robot stood.
+        robot: RobotSample,
+        /// When the image was taken, s.
+        image_time_s: f64,
+    },
+    /// Remember a capture that was not taken.
+    Refuse(RefusedCapture),
+    /// Delete a capture.
+    Delete(String),
+    /// Take a deleted one in again.
+    Restore(String),
+    /// Other settings of the cell.
+    Configure(Box<CellSettings>),
+    /// Assess the captures.
+    Assess {
+        /// Which state of the captures.
+        generation: u64,
+        /// Poses that nobody goes to (again).
+        not_near: Vec<Pose<Base, Flange>>,
+    },
+    /// Write the result.
+    Write,
+    /// Take an image.
+    Grab,
+    /// Drive the robot of a virtual cell; no other robot can be moved.
+    Drive(Pose<Base, Flange>),
+    /// Move the robot of a virtual cell a little, in the camera's axes (mm, degrees).
+    Jog([f64; 3], [f64; 3]),
+}

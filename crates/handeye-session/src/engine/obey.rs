@@ -1,0 +1,213 @@
+//! What people and scripts ask for: obeyed, or refused with the reason.
+
+use handeye::Setup;
+use handeye_io::{CellSettings, Writing};
+
+use super::{
+    Change, Command, Destination, Effect, Engine, Step,
+    taking::{Asked, Wish},
+};
+use crate::assess::ProposedView;
+
+/// Why a command is not obeyed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{message}")]
+pub struct Refusal {
+    /// Why.
+    pub message: String,
+    /// Whether it would be obeyed at another time.
+    pub later: bool,
+}
+
+impl Engine {
+    pub(super) fn obey(&mut self, command: Command) -> Result<Vec<Effect>, Refusal> {
+        match command {
+            Command::Confirm { step } => self.confirm(step),
+            Command::Go { step } => self.go(step),
+            Command::Cell { setup, tolerance_mm } => self.change_cell(setup, tolerance_mm),
+            Command::Target { target } => {
+                target.check().map_err(|e| wrong(e.to_string()))?;
+                self.configure(CellSettings { target, ..self.settings().clone() })
+            }
+            Command::Camera { intrinsics } => {
+                intrinsics.map_or(Ok(()), |c| c.check()).map_err(|e| wrong(e.to_string()))?;
+                self.configure(CellSettings { intrinsics, ..self.settings().clone() })
+            }
+            Command::Notation { name } => {
+                Writing::of(&name).map_err(wrong)?;
+                self.configure(CellSettings { notation: name, ..self.settings().clone() })
+            }
+            Command::Take => self.want(),
+            Command::Automatic { on } => {
+                self.automatic = on;
+                Ok(vec![])
+            }
+            Command::Cancel => {
+                self.wish = None;
+                Ok(vec![])
+            }
+            Command::Grab if self.sources.takes_images => {
+                self.grabbing = true;
+                Ok(vec![Effect::Grab])
+            }
+            Command::Grab => Err(wrong("images come by themselves in this session")),
+            Command::Pose { text } => self.typed(&text),
+            Command::Delete { id } => self.delete(id),
+            Command::Restore { id } => self.restore(id),
+            Command::Retake { id } => self.retake(id),
+            Command::Undo => self.undo(),
+            Command::Skip { .. } => self.skip(),
+            Command::Finish => self.finish(),
+            Command::Drive { to } => self.drive(to),
+            Command::Jog { move_mm, turn_deg } => match self.sources.is_virtual {
+                true => Ok(vec![Effect::Jog(move_mm, turn_deg)]),
+                false => Err(only_virtual()),
+            },
+        }
+    }
+
+    /// The view to take next: that of a capture which is to be taken again, else the most informative one.
+    pub(super) fn next(&self) -> Option<&ProposedView> {
+        let assessed = self.assessed.as_ref().filter(|_| !self.assessing);
+        self.again.as_ref().or_else(|| assessed?.next.as_ref())
+    }
+
+    fn go(&mut self, step: Step) -> Result<Vec<Effect>, Refusal> {
+        if step > self.farthest {
+            let step = step.name();
+            return Err(later(format!("the step {step} is not open yet: confirm those before it")));
+        }
+        self.enter(step);
+        Ok(vec![])
+    }
+
+    fn change_cell(
+        &mut self,
+        setup: Option<Setup>,
+        tolerance_mm: Option<f64>,
+    ) -> Result<Vec<Effect>, Refusal> {
+        if tolerance_mm.is_some_and(|mm| !(mm > 0.0 && mm.is_finite())) {
+            return Err(wrong("the tolerance is a positive number of millimetres"));
+        }
+        let old = self.settings();
+        self.configure(CellSettings {
+            setup: setup.unwrap_or(old.setup),
+            tolerance_mm: tolerance_mm.unwrap_or(old.tolerance_mm),
+            ..old.clone()
+        })
+    }
+
+    fn skip(&mut self) -> Result<Vec<Effect>, Refusal> {
+        if self.again.take().is_some() {
+            return Ok(vec![]);
+        }
+        let next = self.next().ok_or_else(|| later("there is no next view to skip".into()))?;
+        self.skipped.push(next.base_from_flange);
+        Ok(self.assess())
+    }
+
+    /// Takes a capture out, and proposes its view again.
+    fn retake(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
+        let again = self.assessed.as_ref().and_then(|assessed| assessed.view_of(&id));
+        let effects = self.delete(id)?;
+        self.again = again;
+        Ok(effects)
+    }
+
+    fn confirm(&mut self, step: Step) -> Result<Vec<Effect>, Refusal> {
+        if step != self.step {
+            return Err(later(format!("the session is at another step: {}", self.step.name())));
+        }
+        let proof = self.proof(step);
+        if !proof.proven {
+            return Err(later(proof.text));
+        }
+        match step.next() {
+            Some(Step::Result) => self.finish(),
+            Some(next) => {
+                self.enter(next);
+                Ok(vec![])
+            }
+            None => Ok(vec![]),
+        }
+    }
+
+    fn configure(&mut self, settings: CellSettings) -> Result<Vec<Effect>, Refusal> {
+        let is_other = !settings.is_of_same_cell(self.settings());
+        if is_other && !(self.folder.captures.is_empty() && self.folder.deleted.is_empty()) {
+            return Err(later(
+                "there are captures of the cell as it was: begin a session in a new folder for another camera, board or setup".into(),
+            ));
+        }
+        if is_other && self.sources.is_virtual {
+            return Err(wrong("a virtual cell has its own setup, camera and board"));
+        }
+        Ok(vec![Effect::Configure(Box::new(settings))])
+    }
+
+    fn want(&mut self) -> Result<Vec<Effect>, Refusal> {
+        if self.step != Step::Capture {
+            return Err(later("captures are taken in the step `capture`".into()));
+        }
+        if self.storing {
+            return Err(later("a capture is being stored".into()));
+        }
+        if self.wish.is_none() {
+            self.wish = Some(Wish::new(self.now, Asked::Person));
+        }
+        self.problem = None;
+        Ok(self.wait())
+    }
+
+    fn delete(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
+        if !self.folder.captures.iter().any(|c| c.id == id) {
+            return Err(wrong(format!("there is no capture {id}")));
+        }
+        self.changes.push(Change::Deleted(id.clone()));
+        Ok(vec![Effect::Delete(id)])
+    }
+
+    fn restore(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
+        if !self.folder.deleted.contains(&id) {
+            return Err(wrong(format!("there is no deleted capture {id}")));
+        }
+        self.changes.push(Change::Restored(id.clone()));
+        Ok(vec![Effect::Restore(id)])
+    }
+
+    fn undo(&mut self) -> Result<Vec<Effect>, Refusal> {
+        match self.changes.pop() {
+            None => Err(later("there is nothing to undo".into())),
+            Some(Change::Taken(id) | Change::Restored(id)) => Ok(vec![Effect::Delete(id)]),
+            Some(Change::Deleted(id)) => Ok(vec![Effect::Restore(id)]),
+        }
+    }
+
+    fn finish(&mut self) -> Result<Vec<Effect>, Refusal> {
+        match self.folder.captures.is_empty() {
+            true => Err(later("there are no captures yet".into())),
+            false => Ok(vec![Effect::Write]),
+        }
+    }
+
+    fn drive(&mut self, to: Destination) -> Result<Vec<Effect>, Refusal> {
+        if !self.sources.is_virtual {
+            return Err(only_virtual());
+        }
+        let Destination::Next = to;
+        let next = self.next().ok_or_else(|| later("there is no next view yet".into()))?;
+        Ok(vec![Effect::Drive(next.base_from_flange)])
+    }
+}
+
+pub(super) fn wrong(message: impl Into<String>) -> Refusal {
+    Refusal { message: message.into(), later: false }
+}
+
+pub(super) fn later(message: String) -> Refusal {
+    Refusal { message, later: true }
+}
+
+fn only_virtual() -> Refusal {
+    wrong("no robot is moved but that of a virtual cell: drive it by its pendant")
+}
