@@ -261,7 +261,7 @@ fn a_script_plays_a_session_and_the_folder_gives_the_same_bytes() {
     // it is another cell, no script, or nothing is said of the camera
     for (words, said) in [
         (&["session", "cell", "--virtual", "4", "--no-open"][..], "session of another cell"),
-        (&["session", "new"], "where do pictures come from?"),
+        (&["session", "new"], "where do images come from?"),
         (&["session", "new", "--images-from", "nowhere"], "is not a folder"),
         (
             &["session", "new", "--virtual", "--headless", "--script", "cell/robot.csv"],

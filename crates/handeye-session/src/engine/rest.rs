@@ -198,7 +198,8 @@ fn robot_motion(samples: &[RobotSample], memory: &mut Memory, now: f64) -> Motio
     let first = offsets[0].0;
     Memory::renew(&mut memory.robot_far, since(&offsets, FAR), first);
     let limits = [(SLOW_M_S, LEAST_M), (SLOW_RAD_S, LEAST_RAD)];
-    let mut moves = "the robot has just stopped".to_owned();
+    // the shortest window that proves a motion tells how fast it is now
+    let mut moves = None;
     for window in ROBOT_WINDOWS {
         let from = offsets.partition_point(|(t, _)| *t < last.time_s - window);
         let inside = &offsets[from..];
@@ -215,19 +216,19 @@ fn robot_motion(samples: &[RobotSample], memory: &mut Memory, now: f64) -> Motio
             let near = [0, 1].map(|k: usize| (ELSEWHERE * speeds[k].scatter).max(slow[k]));
             return Motion::Stands(Memory::renew(&mut memory.robot, since(&offsets, near), first));
         }
-        moves = faster(&speeds);
+        moves = moves.or_else(|| faster(&speeds));
     }
-    Motion::Moves(moves)
+    Motion::Moves(moves.unwrap_or_else(|| "the robot has just stopped".into()))
 }
 
-/// In a sentence, how fast the robot moves; or that nothing is proven yet.
-fn faster([position, rotation]: &[Line; 2]) -> String {
+/// In a sentence, how fast the robot moves, where that is proven.
+fn faster([position, rotation]: &[Line; 2]) -> Option<String> {
     if position.speed > SURE * position.sigma && position.speed > SLOW_M_S {
-        format!("the robot still moves {:.1} mm/s", position.speed * 1e3)
+        Some(format!("the robot still moves {:.1} mm/s", position.speed * 1e3))
     } else if rotation.speed > SURE * rotation.sigma && rotation.speed > SLOW_RAD_S {
-        format!("the robot still rotates {:.2} degrees/s", rotation.speed.to_degrees())
+        Some(format!("the robot still rotates {:.2} degrees/s", rotation.speed.to_degrees()))
     } else {
-        "the robot has just stopped".into()
+        None
     }
 }
 
@@ -280,7 +281,7 @@ fn image_motion(images: &[ImageSample], memory: &mut Memory, now: f64) -> Motion
         p.corners.as_ref().ok().and_then(|before| Shift::between(before, &corners))
     };
     let shifts: Vec<(f64, Option<Shift>)> = images.iter().map(|p| (p.time_s, shift(p))).collect();
-    let mut moves = "the image has just come to rest".to_owned();
+    let mut moves: Option<String> = None;
     for window in IMAGE_WINDOWS {
         let from = shifts.partition_point(|(t, _)| *t < last.time_s - window);
         let inside = &shifts[from..];
@@ -290,7 +291,7 @@ fn image_motion(images: &[ImageSample], memory: &mut Memory, now: f64) -> Motion
         let all: Option<Vec<(f64, Shift)>> =
             inside.iter().map(|(t, s)| Some((*t, (*s)?))).collect();
         let Some(all) = all else {
-            moves = "the board was not found a moment ago".into();
+            moves.get_or_insert_with(|| "the board was not found a moment ago".into());
             continue;
         };
         let is_slow = |(t, shift): &(f64, Shift)| {
@@ -304,10 +305,10 @@ fn image_motion(images: &[ImageSample], memory: &mut Memory, now: f64) -> Motion
         }
         let speed = farthest.length / (last.time_s - first).max(1e-3);
         if speed > SLOW_PX_S && farthest.length > SURE * farthest.sigma {
-            moves = format!("the image still moves {speed:.1} px/s");
+            moves.get_or_insert_with(|| format!("the image still moves {speed:.1} px/s"));
         }
     }
-    Motion::Moves(moves)
+    Motion::Moves(moves.unwrap_or_else(|| "the image has just come to rest".into()))
 }
 
 /// The time of the first of the last images that show the target where it is; `None` where all do.

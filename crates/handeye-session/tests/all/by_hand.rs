@@ -69,7 +69,7 @@ fn is_store(effects: &[Effect]) -> bool {
 }
 
 #[test]
-fn a_pose_and_a_image_make_one_capture_in_either_order() {
+fn a_pose_and_an_image_make_one_capture_in_either_order() {
     let mut bench = Bench::new(false);
     bench.begin();
     assert!(is_store(&bench.ask(Command::Take)));
@@ -90,7 +90,7 @@ fn a_pose_and_a_image_make_one_capture_in_either_order() {
 }
 
 #[test]
-fn a_image_without_the_board_is_refused_and_its_pose_waits_for_another() {
+fn an_image_without_the_board_is_refused_and_its_pose_waits_for_another() {
     let mut bench = Bench::new(false);
     bench.begin();
     bench.image(false);

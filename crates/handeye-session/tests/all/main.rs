@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails loudly")]
 
 mod by_hand;
+mod gate;
 #[cfg(unix)]
 mod line;
 mod standstill;
