@@ -165,6 +165,16 @@ pub enum Error {
 }
 
 impl Error {
+    /// The sentence without the file that it is about, for those who know the file.
+    pub fn without_place(&self) -> String {
+        match self {
+            Error::Malformed { what, advice, .. } => format!("{what}; {advice}"),
+            Error::Json { what, .. } | Error::Unusable { what, .. } => what.clone(),
+            Error::Undeclared { key, question, .. } => format!("{key} is missing; {question}"),
+            _ => self.to_string(),
+        }
+    }
+
     /// Short fixed name, for programs.
     pub fn code(&self) -> &'static str {
         match self {

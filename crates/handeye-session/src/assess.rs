@@ -79,7 +79,7 @@ pub fn assess(
     let planned = plan::plan_after(&dataset, calibration.clone(), session, &options);
     let (next, no_next, enough) = match planned {
         Ok(plan) => (plan.route.views.into_iter().next(), plan.route.stopped, plan.enough),
-        Err(error) => (None, Some(error.to_string()), false),
+        Err(error) => (None, Some(error.without_place()), false),
     };
     let next = next.map(|view| ProposedView::planned(&view, session));
     let measured = measured_captures(session, &calibration);
@@ -87,9 +87,9 @@ pub fn assess(
 }
 
 impl Assessment {
-    /// The error that the calibration states (95 %), mm; `None` where it determines none.
+    /// The error that the calibration states (95 %), mm; `None` where it determines none, or is wrong.
     pub fn p95_mm(&self) -> Option<f64> {
-        let is_known = self.calibration.verdict != Verdict::Undetermined;
+        let is_known = self.calibration.verdict == Verdict::Accepted || self.is_only_inaccurate();
         self.calibration.predicted_tre_mm.as_ref().filter(|_| is_known).map(|error| error.p95)
     }
 

@@ -20,7 +20,7 @@ use crate::{
     sources::{
         command, folder,
         outlet::{CameraImage, Outlet, Wanted},
-        virtual_cell::VirtualCell,
+        virtual_cell::{VirtualCamera, VirtualCell},
     },
 };
 
@@ -78,8 +78,6 @@ const TICK: Duration = Duration::from_millis(20);
 /// Between two poses of a virtual robot, and two images of its camera.
 const POSES: Duration = Duration::from_millis(40);
 const IMAGES: Duration = Duration::from_millis(200);
-/// Images of a virtual robot that stands.
-const STANDING: usize = 4;
 
 impl Live {
     /// Begins a session.
@@ -310,19 +308,11 @@ fn virtual_robot(cell: Arc<VirtualCell>, outlet: Outlet) {
 
 fn virtual_camera(cell: Arc<VirtualCell>, outlet: Outlet) {
     thread::spawn(move || {
-        let mut standing: VecDeque<Arc<handeye::GrayImage>> = VecDeque::new();
-        let mut there = None;
+        let mut camera = VirtualCamera::default();
         for frame in 1.. {
             let begin = Instant::now();
             let time_s = outlet.now();
-            let pose = cell.flange_in_image(time_s);
-            if there.replace(pose) != Some(pose) {
-                standing.clear();
-            }
-            // rendering takes long: of a robot that stands a few images come in turn
-            let old = (standing.len() == STANDING).then(|| standing.pop_front()).flatten();
-            let image = old.unwrap_or_else(|| Arc::new(cell.image(time_s, frame)));
-            standing.push_back(image.clone());
+            let image = camera.image(&cell, time_s, frame);
             if !outlet.image(CameraImage { grey: image, file: None }, time_s) {
                 return;
             }

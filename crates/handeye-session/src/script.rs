@@ -7,7 +7,7 @@
 //!  {"do": "finish"}]
 //! ```
 
-use std::{collections::VecDeque, sync::Arc};
+use std::collections::VecDeque;
 
 use serde::Deserialize;
 
@@ -16,7 +16,7 @@ use crate::{
     host::{Host, drive},
     sources::{
         outlet::{CameraImage, RecentImages, Wanted},
-        virtual_cell::VirtualCell,
+        virtual_cell::{VirtualCamera, VirtualCell},
     },
 };
 
@@ -62,6 +62,7 @@ pub struct Player {
     engine: Engine,
     host: Host,
     cell: VirtualCell,
+    camera: VirtualCamera,
     images: RecentImages,
     now: f64,
     frame: u64,
@@ -72,6 +73,8 @@ pub struct Player {
 const TICK_S: f64 = 0.04;
 /// Poses for each image: five images a second.
 const TICKS: u64 = 5;
+/// After a motion by hand everything stands again, s.
+const SETTLED_S: f64 = 4.0;
 /// An action that takes longer has failed, s.
 const PATIENCE_S: f64 = 60.0;
 
@@ -81,7 +84,8 @@ impl Player {
         let folder = host.state();
         let (engine, effects) = Engine::new(folder, Sources::VIRTUAL);
         let (images, inputs) = (RecentImages::default(), VecDeque::new());
-        let mut player = Self { engine, host, cell, images, now: 0.0, frame: 0, inputs };
+        let camera = VirtualCamera::default();
+        let mut player = Self { engine, host, cell, camera, images, now: 0.0, frame: 0, inputs };
         player.perform(effects);
         player.pass(1.0);
         player
@@ -97,6 +101,16 @@ impl Player {
     /// The cell, whose truth is known.
     pub fn cell(&self) -> &VirtualCell {
         &self.cell
+    }
+
+    /// Somebody drives the robot by hand to where the camera sees the board, whatever the session believes.
+    ///
+    /// # Errors
+    /// A cell that shows nothing of its board.
+    pub fn show_board(&mut self, number: usize) -> Result<(), handeye::Error> {
+        self.cell.show_board(number, self.now)?;
+        self.pass(SETTLED_S);
+        Ok(())
     }
 
     /// Plays actions in order.
@@ -168,7 +182,7 @@ impl Player {
             self.inputs.push_back(Input::Robot(self.cell.sample(self.now)));
             self.frame += 1;
             if self.frame.is_multiple_of(TICKS) {
-                let image = Arc::new(self.cell.image(self.now, self.frame));
+                let image = self.camera.image(&self.cell, self.now, self.frame);
                 self.images.keep(self.frame, CameraImage { grey: image.clone(), file: None });
                 let found = Wanted::of(self.engine.settings());
                 let found = found.found_in(&image, self.frame, self.now);

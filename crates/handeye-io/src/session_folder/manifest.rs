@@ -3,7 +3,7 @@
 use handeye::{Camera, Intrinsics, Mount, Pose, Setup, TargetModel};
 use serde::{Deserialize, Serialize};
 
-use super::{NOTATION, StoredCapture};
+use super::StoredCapture;
 use crate::{
     camera::CameraSpec,
     dataset::{
@@ -12,7 +12,7 @@ use crate::{
             GuessSpec, ImagesSpec, LimitsSpec, Pairing, RobotDirection, RobotSpec, ScansSpec,
         },
     },
-    units::LengthUnit,
+    robot::Notation,
 };
 
 /// What is known of a cell before its captures are taken.
@@ -56,14 +56,15 @@ pub(super) fn text(settings: &CellSettings, captures: &[&StoredCapture]) -> Stri
     let mut draft = Draft::new();
     draft.head("The captures of a session; `handeye session` goes on with it, `handeye calibrate` calibrates it.");
     draft.set_target(settings.target.clone());
+    let units = Notation::named(&settings.notation).ok().map(|notation| notation.own_units());
     let m = &mut draft.manifest;
     m.setup = settings.setup;
     m.camera = Some(camera(settings.intrinsics.as_ref()));
     m.robot = Some(RobotSpec {
         poses: "robot.csv".into(),
         direction: Some(RobotDirection::BaseFromFlange),
-        notation: Some(NOTATION.into()),
-        length_unit: Some(LengthUnit::Metre),
+        notation: Some(settings.notation.clone()),
+        length_unit: units.map(|units| units.length),
         ..RobotSpec::default()
     });
     // both are paired by the number in their names: a capture that is half there is not used

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! handeye.toml        the manifest
-//! robot.csv           the flange's pose in each capture
+//! robot.csv           the flange's pose in each capture, in the robot's notation
 //! images/001.png      scans/001.ply
 //! journal.jsonl       what was done, a line each: the truth, from which the rest follows
 //! deleted/            images and scans of captures that were deleted, for those who want them back
@@ -31,8 +31,6 @@ pub use manifest::{CameraGuess, CellSettings};
 const JOURNAL: &str = "journal.jsonl";
 /// Where files of deleted captures are kept.
 const DELETED: &str = "deleted";
-/// The notation of the table of poses: nothing is lost in it.
-const NOTATION: &str = "quaternion-xyzw";
 /// No session has more captures.
 const MOST_CAPTURES: u32 = 9999;
 
@@ -256,7 +254,9 @@ impl SessionFolder {
     fn table(&self) -> String {
         let poses = self.captures();
         let poses = poses.iter().map(|c| (&c.id[..], &c.base_from_flange));
-        Writing::of(NOTATION).map_or_else(|_| String::new(), |writing| writing.table(poses))
+        // as on the pendant: mistakes about these numbers can be found in them
+        let writing = Writing::of(&self.settings.notation);
+        writing.map_or_else(|_| String::new(), |writing| writing.table(poses))
     }
 
     fn write_if_changed(&self, name: &str, text: &str) -> Result<(), Error> {

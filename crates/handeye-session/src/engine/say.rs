@@ -179,10 +179,15 @@ impl Engine {
 
     /// Whether a robot whose poses stream stands at the view, so far as the planner tells views apart.
     fn is_at(&self, next: &ProposedView) -> bool {
+        self.sources.robot == Flow::Stream && self.was_at(next)
+    }
+
+    /// Whether the last pose that came is that of a view.
+    pub(super) fn was_at(&self, next: &ProposedView) -> bool {
         let there = &next.base_from_flange;
         let near =
             |s: &RobotSample| Residual::between(&s.base_from_flange, there).is_within(ELSEWHERE);
-        self.sources.robot == Flow::Stream && self.robot.back().is_some_and(near)
+        self.robot.back().is_some_and(near)
     }
 
     fn say_result(&self) -> String {

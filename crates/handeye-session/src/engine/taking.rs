@@ -20,6 +20,8 @@ pub(super) const ELSEWHERE: Residual = Residual { angle: 0.03, distance: 0.01 };
 const APPROACHES: usize = 5;
 /// Images may be so much later than the latest approach shows, s.
 const DELAY_MARGIN_S: f64 = 0.05;
+/// Fewer captures do not tell where robot and camera sit.
+const KNOWN: usize = 4;
 /// Images that come later than this are worth a word, s.
 pub(super) const LATE_S: f64 = 0.3;
 
@@ -170,12 +172,16 @@ impl Engine {
     /// Takes no capture; where the board was not found, nobody is sent there again.
     fn refuse(&mut self, why: String, is_unseen: bool) -> Vec<Effect> {
         self.wish = None;
+        let is_proposed = self.next().is_some_and(|next| self.was_at(next));
+        // where robot and camera sit is not known by captures yet
+        let is_astray = is_unseen && is_proposed && self.folder.captures.len() < KNOWN;
         self.problem = Some(Problem {
-            code: "not-taken".into(),
+            code: if is_astray { "board-not-where-expected" } else { "not-taken" }.into(),
             message: format!("no capture was taken: {why}"),
-            advice: match is_unseen {
-                true => "go to another pose from where the whole board is seen, or skip this view",
-                false => "wait until the robot stands, then take it again",
+            advice: match (is_astray, is_unseen) {
+                (true, _) => "the board was expected at this view: drive by hand until it is seen and take it, several times; from the fourth capture on it can be told whether notation, unit or direction of the poses, the setup or the board are other than is said",
+                (_, true) => "go to another pose from where the whole board is seen, or skip this view",
+                _ => "wait until the robot stands, then take it again",
             }
             .into(),
         });

@@ -3,5 +3,6 @@
 
 pub mod command;
 pub mod folder;
+pub mod mistakes;
 pub mod outlet;
 pub mod virtual_cell;

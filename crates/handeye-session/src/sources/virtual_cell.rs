@@ -1,15 +1,19 @@
 //! A cell that exists in memory alone: to try a session in the first minute, and to test everything with a known truth.
 
-use std::sync::{Mutex, PoisonError};
+use std::{
+    collections::VecDeque,
+    sync::{Arc, Mutex, PoisonError},
+};
 
 use handeye::{
-    Base, Error, Flange, GrayImage, HandEye, ImageCorner, Intrinsics, Pose, Setup,
+    Base, Camera, Error, Flange, GrayImage, HandEye, ImageCorner, Intrinsics, Pose, Setup, Target,
     math::random::Random,
     nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3},
     simulate::{Cell, CellNoise, Optics, Scene},
 };
 use handeye_io::{CameraGuess, CellSettings};
 
+use super::mistakes::{Event, Mistake};
 use crate::engine::rest::RobotSample;
 
 /// What is wrong with a virtual cell, on purpose.
@@ -21,6 +25,8 @@ pub struct Faults {
     pub creep_m_s: f64,
     /// Likewise about an axis, rad/s.
     pub creep_rad_s: f64,
+    /// What people got wrong.
+    pub mistake: Option<Mistake>,
 }
 
 /// A virtual robot, camera and board.
@@ -29,6 +35,7 @@ pub struct VirtualCell {
     faults: Faults,
     guess: CameraGuess,
     robot: Mutex<Robot>,
+    places: Mutex<HandEye>,
 }
 
 /// The robot's motions: true poses, and what it errs by at their ends.
@@ -94,28 +101,45 @@ impl VirtualCell {
         };
         let errors = [Vector3::zeros(); 4];
         let leg = Leg { starts_s: f64::NEG_INFINITY, takes_s: 0.0, from: start, to: start, errors };
-        Ok(Self { cell, faults, guess, robot: Mutex::new(Robot { legs: vec![leg], random }) })
+        let places = Mutex::new(cell.hand_eye);
+        let robot = Mutex::new(Robot { legs: vec![leg], random });
+        Ok(Self { cell, faults, guess, robot, places })
     }
 
-    /// What a person would know of it.
+    /// What a person would know of it, or believe.
     pub fn settings(&self) -> CellSettings {
-        CellSettings {
+        let settings = CellSettings {
             setup: self.cell.setup,
             target: self.cell.target.clone(),
             intrinsics: Some(self.cell.intrinsics),
             tolerance_mm: 0.5,
             notation: "ur".into(),
             guess: Some(self.guess),
+        };
+        match &self.faults.mistake {
+            Some(mistake) => mistake.believed(settings),
+            None => settings,
         }
     }
 
-    /// Where camera and board really sit.
+    /// Where camera and board really sit now.
     pub fn truth(&self) -> HandEye {
-        self.cell.hand_eye
+        *self.places.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Something happens to camera or board.
+    pub fn happens(&self, event: &Event) {
+        let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
+        *places = event.after(*places);
     }
 
     /// Drives the robot to where it is to report that it is.
     pub fn drive(&self, to: Pose<Base, Flange>, now: f64) {
+        let meant = self.faults.mistake.as_ref().map_or(to, |mistake| mistake.meant(&to));
+        self.send(meant, now);
+    }
+
+    fn send(&self, to: Pose<Base, Flange>, now: f64) {
         let mut robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
         let noise = &self.cell.noise;
         let (rotation, position) = (
@@ -142,22 +166,45 @@ impl VirtualCell {
         }
     }
 
+    /// Somebody drives it to where the camera sees the board, whatever the session believes; `number` tells such poses apart.
+    ///
+    /// # Errors
+    /// A cell that shows nothing of its board.
+    pub fn show_board(&self, number: usize, now: f64) -> Result<(), Error> {
+        let cell = Cell { hand_eye: self.truth(), captures: number + 1, ..self.cell.clone() };
+        self.send(cell.record(0)?.truth.base_from_flange[number], now);
+        Ok(())
+    }
+
     /// Moves it a little, in the camera's axes (mm, degrees).
     pub fn jog(&self, move_mm: [f64; 3], turn_deg: [f64; 3], now: f64) {
         let here = self.reported(now);
         let turn = Rotation3::new(Vector3::from(turn_deg).map(f64::to_radians));
         let step: Pose<Flange, Flange> =
             Pose::from_parts(turn.matrix(), Vector3::from(move_mm) * 1e-3);
-        self.drive(here * step, now);
+        self.send(here * step, now);
     }
 
     /// What the robot reports.
     pub fn sample(&self, now: f64) -> RobotSample {
-        let base_from_flange = self.reported(now);
+        let reported = match self.faults.mistake {
+            Some(Mistake::Behind) => self.before(now),
+            _ => self.reported(now),
+        };
         let mut robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
         let noise =
             error(&(robot.random.normal3() * ENCODERS.1), &(robot.random.normal3() * ENCODERS.0));
-        RobotSample { time_s: now, base_from_flange: base_from_flange * noise, joints: vec![] }
+        let noisy = reported * noise;
+        let base_from_flange =
+            self.faults.mistake.as_ref().map_or(noisy, |mistake| mistake.told(&noisy));
+        RobotSample { time_s: now, base_from_flange, joints: vec![] }
+    }
+
+    /// Where the robot stood before it came here.
+    fn before(&self, now: f64) -> Pose<Base, Flange> {
+        let robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
+        let leg = robot.legs.iter().rev().find(|leg| leg.starts_s <= now);
+        leg.unwrap_or(&robot.legs[0]).from
     }
 
     fn reported(&self, now: f64) -> Pose<Base, Flange> {
@@ -178,8 +225,7 @@ impl VirtualCell {
     }
 
     fn scene(&self, now: f64) -> Scene {
-        let seen =
-            self.cell.hand_eye.camera_from_target(self.cell.setup, &self.flange_in_image(now));
+        let seen = self.truth().camera_from_target(self.cell.setup, &self.flange_in_image(now));
         let (target, intrinsics) = (self.cell.target.clone(), self.cell.intrinsics);
         Scene { target, camera_from_target: seen, intrinsics }
     }
@@ -198,7 +244,35 @@ impl VirtualCell {
 
     /// The image that comes at this moment; number `frame` decides on its noise.
     pub fn image(&self, now: f64, frame: u64) -> GrayImage {
-        self.scene(now).picture(&Optics::default(), frame)
+        let image = self.scene(now).picture(&Optics::default(), frame);
+        match self.faults.mistake {
+            Some(Mistake::Mirrored) => mirrored(&image).unwrap_or(image),
+            _ => image,
+        }
+    }
+}
+
+/// The camera of a virtual cell. Rendering takes long: of a robot that stands a few images come in turn.
+#[derive(Default)]
+pub struct VirtualCamera {
+    seen: Option<Pose<Camera, Target>>,
+    standing: VecDeque<Arc<GrayImage>>,
+}
+
+/// Images of a robot that stands.
+const STANDING: usize = 4;
+
+impl VirtualCamera {
+    /// The image that comes at this moment.
+    pub fn image(&mut self, cell: &VirtualCell, now: f64, frame: u64) -> Arc<GrayImage> {
+        let seen = cell.scene(now).camera_from_target;
+        if self.seen.replace(seen) != Some(seen) {
+            self.standing.clear();
+        }
+        let old = (self.standing.len() == STANDING).then(|| self.standing.pop_front()).flatten();
+        let image = old.unwrap_or_else(|| Arc::new(cell.image(now, frame)));
+        self.standing.push_back(image.clone());
+        image
     }
 }
 
@@ -229,4 +303,11 @@ impl Robot {
 
 fn error(rotation: &Vector3<f64>, position: &Vector3<f64>) -> Pose<Flange, Flange> {
     Pose::from_parts(Rotation3::new(*rotation).matrix(), *position)
+}
+
+/// As a camera gives it that swaps left and right.
+fn mirrored(image: &GrayImage) -> Option<GrayImage> {
+    let (width, height) = (image.width(), image.height());
+    let values = image.values().chunks(width).flat_map(|row| row.iter().rev().copied());
+    GrayImage::new(width, height, values.collect())
 }

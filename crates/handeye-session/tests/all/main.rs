@@ -6,6 +6,7 @@ mod by_hand;
 mod gate;
 #[cfg(unix)]
 mod line;
+mod mistakes;
 mod standstill;
 mod virtual_cell;
 
