@@ -8,7 +8,7 @@ use std::{
 use handeye::{Calibration, Config, Session, Verdict, calibrate::findings, register::IcpConfig};
 use handeye_io::{
     Dataset, ResultFolder,
-    calibrate::{calibrate_dataset, is_too_inaccurate_alone, write_run},
+    calibrate::{calibrate_dataset, write_run},
     checkup::can_be_checked,
     export::Format,
     report::dataset_html,
@@ -39,7 +39,7 @@ pub fn run(args: &CalibrateArgs, global: &GlobalArgs) -> Result<u8, Failure> {
         let unseen = calibration.captures.iter().all(|c| c.camera_from_target.is_none());
         let refused = calibration.verdict == Verdict::Rejected
             || calibration.verdict == Verdict::Undetermined && unseen;
-        if refused && !is_too_inaccurate_alone(&calibration) && can_be_checked(&dataset) {
+        if refused && !calibration.is_only_imprecise() && can_be_checked(&dataset) {
             output::print(&format!("\nnext: handeye check {}\n", output::word(&args.dataset)));
         }
     }

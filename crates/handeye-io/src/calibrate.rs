@@ -139,14 +139,6 @@ fn explained(
     })
 }
 
-/// Whether nothing speaks against the answer but that it may be wrong by more than is allowed.
-pub fn is_too_inaccurate_alone(calibration: &Calibration) -> bool {
-    let predicted =
-        calibration.predicted_tre_mm.as_ref().map(|tre| tre.at_task_p95.unwrap_or(tre.p95));
-    let limit = calibration.max_error_mm;
-    calibration.reasons.len() == 1 && predicted.zip(limit).is_some_and(|(mm, limit)| mm > limit)
-}
-
 /// The name of a run: the same inputs and the same result have the same one.
 pub(crate) fn run_id(inputs: &str, calibration: &Calibration) -> String {
     let result = serde_json::to_vec(calibration).unwrap_or_default();

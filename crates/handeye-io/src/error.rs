@@ -171,6 +171,7 @@ impl Error {
             Error::Malformed { what, advice, .. } => format!("{what}; {advice}"),
             Error::Json { what, .. } | Error::Unusable { what, .. } => what.clone(),
             Error::Undeclared { key, question, .. } => format!("{key} is missing; {question}"),
+            Error::Values { source, .. } => source.to_string(),
             _ => self.to_string(),
         }
     }

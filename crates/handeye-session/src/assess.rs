@@ -7,7 +7,7 @@ use handeye::{
 };
 use handeye_io::{
     Error, SessionFolder,
-    calibrate::{calibrate_measured, is_too_inaccurate_alone},
+    calibrate::calibrate_measured,
     measure::{self, Measurements},
     plan::{self, PlanOptions},
 };
@@ -89,7 +89,8 @@ pub fn assess(
 impl Assessment {
     /// The error that the calibration states (95 %), mm; `None` where it determines none, or is wrong.
     pub fn p95_mm(&self) -> Option<f64> {
-        let is_known = self.calibration.verdict == Verdict::Accepted || self.is_only_inaccurate();
+        let is_known =
+            self.calibration.verdict == Verdict::Accepted || self.calibration.is_only_imprecise();
         self.calibration.predicted_tre_mm.as_ref().filter(|_| is_known).map(|error| error.p95)
     }
 
@@ -108,9 +109,12 @@ impl Assessment {
         })
     }
 
-    /// Whether nothing is wrong but that the tolerance is not reached.
-    pub fn is_only_inaccurate(&self) -> bool {
-        self.calibration.verdict == Verdict::Rejected && is_too_inaccurate_alone(&self.calibration)
+    /// What the captures say against one another, or against what is declared of them; `None` where more captures are all
+    /// that is missing.
+    pub fn contradiction(&self) -> Option<&str> {
+        let result = &self.calibration;
+        let is_wrong = result.verdict == Verdict::Rejected && !result.is_only_imprecise();
+        result.reasons.first().filter(|_| is_wrong).map(String::as_str)
     }
 }
 

@@ -88,6 +88,10 @@ impl Host {
                 let done = self.folder.set(&settings);
                 self.changed(done)
             }
+            Effect::Reread(notation) => {
+                let done = self.folder.reread(&notation);
+                self.changed(done)
+            }
             Effect::Assess { generation, not_near } => {
                 let assessment = assess(&self.folder, &mut self.measurements, &not_near);
                 let assessment = assessment.map(Arc::new).map_err(|e| e.to_string());

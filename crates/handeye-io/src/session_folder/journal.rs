@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::CellSettings;
 use crate::{
-    Error, Place,
+    Error, Place, Writing,
     error::malformed,
     files::{self, write_atomically},
 };
@@ -67,6 +67,23 @@ pub(super) enum Line {
     Delete(String),
     /// And taken in again.
     Restore(String),
+    /// The numbers of the poses up to here were typed in another notation than they were read in.
+    Reread {
+        /// As what they were read.
+        read: String,
+        /// What they are.
+        written: String,
+    },
+}
+
+/// The pose of which the numbers were typed that were read in one notation, and are written in another.
+pub(super) fn reread(
+    pose: &Pose<Base, Flange>,
+    read: &str,
+    written: &str,
+) -> Result<Pose<Base, Flange>, String> {
+    let numbers = Writing::of(read)?.numbers(pose).into_iter().map(|x| format!("{x:.9}"));
+    Writing::of(written)?.typed(&numbers.collect::<Vec<_>>().join(" "))
 }
 
 /// The journal's file, and what it says.
@@ -98,8 +115,25 @@ impl Journal {
                 malformed(Place::line(path, k + 1), what, advice)
             })
         };
-        let lines = text.lines().enumerate().map(line).collect::<Result<_, _>>()?;
-        Ok(Self { path: path.into(), lines })
+        let mut journal = Self { path: path.into(), lines: vec![] };
+        for numbered in text.lines().enumerate() {
+            journal.add(line(numbered)?);
+        }
+        Ok(journal)
+    }
+
+    /// A line, and what it changes in those before it.
+    fn add(&mut self, line: Line) {
+        if let Line::Reread { read, written } = &line {
+            for before in &mut self.lines {
+                if let Line::Take(capture) = before {
+                    // it was tried before the line was written
+                    let again = reread(&capture.base_from_flange, read, written);
+                    capture.base_from_flange = again.unwrap_or(capture.base_from_flange);
+                }
+            }
+        }
+        self.lines.push(line);
     }
 
     /// Writes a line and syncs it; on a full disk the journal is as before.
@@ -115,7 +149,7 @@ impl Journal {
             file.set_len(length).ok();
             return Err(failed(source));
         }
-        self.lines.push(line);
+        self.add(line);
         Ok(())
     }
 

@@ -151,6 +151,24 @@ impl SessionFolder {
         self.settle()
     }
 
+    /// Reads the numbers of all poses again, as those of another notation: they were typed in it, and nobody had said so.
+    ///
+    /// # Errors
+    /// Poses that are none in the other notation; a folder that cannot be written.
+    pub fn reread(&mut self, notation: &str) -> Result<(), Error> {
+        let (read, written) = (self.settings.notation.clone(), notation.to_owned());
+        for capture in self.journal.taken() {
+            journal::reread(&capture.base_from_flange, &read, &written).map_err(|why| {
+                unusable(
+                    &self.root,
+                    format!("capture {} is not written as {written}: {why}", capture.id),
+                )
+            })?;
+        }
+        self.journal.append(Line::Reread { read, written: written.clone() })?;
+        self.set(&CellSettings { notation: written, ..self.settings.clone() })
+    }
+
     /// Stores a capture; what it returns, its name, is never used for another.
     ///
     /// # Errors

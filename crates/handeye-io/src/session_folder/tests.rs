@@ -166,3 +166,47 @@ fn other_folders_and_damaged_journals_are_refused_with_what_to_do() {
     assert!(message.contains("line 1") && message.contains("calibrate the folder"), "{message}");
     fs::remove_dir_all(root).unwrap();
 }
+
+#[test]
+fn numbers_that_were_typed_in_another_notation_are_read_again() {
+    let (root, cell) = (new_folder(), cell());
+    let recording = cell.record(0).unwrap();
+    let read_as_fanuc = CellSettings { notation: "fanuc".into(), ..settings(&cell) };
+    let mut folder = SessionFolder::open(&root, Some(&read_as_fanuc)).unwrap();
+    // the pendant shows them as a KUKA does: the numbers are the same, their order of rotations is not
+    let kuka = Writing::of("kuka").unwrap();
+    let typed = |k: usize| {
+        let numbers = kuka.numbers(&recording.base_from_flange[k]);
+        let text: Vec<String> = numbers.iter().map(|x| format!("{x:.6}")).collect();
+        Writing::of("fanuc").unwrap().typed(&text.join(" ")).unwrap()
+    };
+    for k in 0..2 {
+        let base_from_flange = typed(k);
+        let capture = NewCapture {
+            base_from_flange,
+            joints: &[],
+            robot_time_s: None,
+            image_time_s: None,
+            image: None,
+            scan: None,
+        };
+        folder.take(&capture).unwrap();
+    }
+    let off = |folder: &SessionFolder, k: usize| {
+        let pose = folder.captures()[k].base_from_flange;
+        let truth = recording.base_from_flange[k];
+        pose.distance_to(&truth) + pose.angle_to(&truth)
+    };
+    assert!(off(&folder, 0) > 0.1 && off(&folder, 1) > 0.1);
+    folder.reread("kuka").unwrap();
+    assert!(off(&folder, 0) < 1e-7 && off(&folder, 1) < 1e-7);
+
+    // and so they are when the folder is opened again, and in its table
+    drop(folder);
+    let folder = SessionFolder::open(&root, None).unwrap();
+    assert!(off(&folder, 0) < 1e-7 && off(&folder, 1) < 1e-7);
+    assert_eq!(folder.settings().notation, "kuka");
+    let table = fs::read_to_string(root.join("robot.csv")).unwrap();
+    assert!(table.starts_with("id,x,y,z,A,B,C\n"), "{table}");
+    fs::remove_dir_all(root).unwrap();
+}

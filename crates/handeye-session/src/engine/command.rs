@@ -81,6 +81,9 @@ pub enum Command {
     Notation {
         /// A name of a robot's notation, such as `ur`.
         name: String,
+        /// Whether the poses that were typed until now were typed in it, and are to be read again.
+        #[serde(default)]
+        reread: bool,
     },
     /// Take a capture as soon as robot and image stand.
     Take,

@@ -124,6 +124,8 @@ pub enum Effect {
     Restore(String),
     /// Other settings of the cell.
     Configure(Box<CellSettings>),
+    /// Read the numbers of all poses again, as those of this notation.
+    Reread(String),
     /// Assess the captures.
     Assess {
         /// Which state of the captures.

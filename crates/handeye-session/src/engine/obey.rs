@@ -4,7 +4,7 @@ use handeye::Setup;
 use handeye_io::{CellSettings, Writing};
 
 use super::{
-    Change, Command, Destination, Effect, Engine, Step,
+    Change, Command, Destination, Effect, Engine, Flow, Step,
     taking::{Asked, Wish},
 };
 use crate::assess::ProposedView;
@@ -33,8 +33,11 @@ impl Engine {
                 intrinsics.map_or(Ok(()), |c| c.check()).map_err(|e| wrong(e.to_string()))?;
                 self.configure(CellSettings { intrinsics, ..self.settings().clone() })
             }
-            Command::Notation { name } => {
+            Command::Notation { name, reread } => {
                 Writing::of(&name).map_err(wrong)?;
+                if reread {
+                    return self.reread(name);
+                }
                 self.configure(CellSettings { notation: name, ..self.settings().clone() })
             }
             Command::Take => self.want(),
@@ -143,6 +146,15 @@ impl Engine {
             return Err(wrong("a virtual cell has its own setup, camera and board"));
         }
         Ok(vec![Effect::Configure(Box::new(settings))])
+    }
+
+    /// Poses that were typed in another notation are read again, the captures' and the last one.
+    fn reread(&mut self, name: String) -> Result<Vec<Effect>, Refusal> {
+        if self.sources.robot == Flow::Stream {
+            return Err(wrong("poses come from the robot itself in this session, none are typed"));
+        }
+        self.robot.clear();
+        Ok(vec![Effect::Reread(name)])
     }
 
     fn want(&mut self) -> Result<Vec<Effect>, Refusal> {

@@ -1,12 +1,12 @@
 //! What to do next, in one sentence, and what is known of each step.
 
-use handeye::{Setup, Verdict, model::residual::Residual};
+use handeye::{Setup, Verdict, mistakes, model::residual::Residual};
 use handeye_io::StoredCapture;
 
 use super::{
     Engine, Flow, Step,
     rest::{Motion, RobotSample},
-    taking::ELSEWHERE,
+    taking::{ELSEWHERE, KNOWN},
 };
 use crate::assess::ProposedView;
 
@@ -88,7 +88,23 @@ impl Engine {
             return proof(false, format!("no pose for {silent:.0} s"));
         }
         let at = last.base_from_flange.translation() * 1e3;
-        proof(true, format!("the flange is at x {:.1}, y {:.1}, z {:.1} mm", at.x, at.y, at.z))
+        let place = format!("the flange is at x {:.1}, y {:.1}, z {:.1} mm", at.x, at.y, at.z);
+        let (least, most) = mistakes::REACH;
+        match at.norm() * 1e-3 {
+            far if far < least => proof(
+                false,
+                format!(
+                    "{place}, inside the robot's foot: are its lengths in another unit, or is this another notation?"
+                ),
+            ),
+            far if far > most => proof(
+                false,
+                format!(
+                    "{place}, farther than arms reach: are its lengths in another unit, or is this another notation?"
+                ),
+            ),
+            _ => proof(true, place),
+        }
     }
 
     fn board_proof(&self) -> Proof {
@@ -166,6 +182,9 @@ impl Engine {
                 self.folder.settings.tolerance_mm
             );
         }
+        if let Some(why) = assessed.contradiction() {
+            return contradiction(why, self.folder.captures.len());
+        }
         match (&assessed.next, &assessed.no_next) {
             (Some(next), _) if self.is_at(next) => {
                 "The robot is at the view: take the capture.".into()
@@ -210,6 +229,17 @@ fn reasons(all: &[String]) -> String {
         .first()
         .map_or("the captures do not determine the answer", |first| first.trim_end_matches('.'));
     text.to_owned()
+}
+
+/// What is wrong comes before where to drive next.
+fn contradiction(why: &str, captures: usize) -> String {
+    let why = why.trim_end_matches('.');
+    match captures < KNOWN {
+        true => format!(
+            "These captures do not fit together: {why}. Take another one wherever the whole board is seen: from {KNOWN} on the cause can be told."
+        ),
+        false => format!("Something is wrong: {why}. Put it right before you go on."),
+    }
 }
 
 /// Views before anything can be planned: they differ in what every cell needs.

@@ -21,7 +21,7 @@ const APPROACHES: usize = 5;
 /// Images may be so much later than the latest approach shows, s.
 const DELAY_MARGIN_S: f64 = 0.05;
 /// Fewer captures do not tell where robot and camera sit.
-const KNOWN: usize = 4;
+pub(super) const KNOWN: usize = 4;
 /// Images that come later than this are worth a word, s.
 pub(super) const LATE_S: f64 = 0.3;
 

@@ -195,7 +195,7 @@ impl Engine {
         let result = &assessed.calibration;
         Progress {
             captures: result.captures.len(),
-            verdict: match assessed.is_only_inaccurate() {
+            verdict: match result.is_only_imprecise() {
                 true => Verdict::Undetermined,
                 false => result.verdict,
             },

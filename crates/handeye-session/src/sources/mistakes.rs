@@ -46,6 +46,9 @@ impl Mistake {
                 });
                 CellSettings { intrinsics, ..real }
             }
+            (Mistake::Notation { read, .. }, _) => {
+                CellSettings { notation: (*read).to_owned(), ..real }
+            }
             (Mistake::OtherSetup, _) => {
                 let setup = match real.setup {
                     Setup::EyeInHand => Setup::EyeToHand,

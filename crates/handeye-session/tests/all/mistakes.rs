@@ -80,7 +80,11 @@ fn play(
     }
     player.command(Command::Finish).ok();
     log += &format!("  END {:?}\n", player.state().result.map(|r| r.headline));
-    fs::remove_dir_all(root).unwrap();
+    if std::env::var("KEEP").is_ok() {
+        log += &format!("{}\n", root.display());
+    } else {
+        fs::remove_dir_all(root).unwrap();
+    }
     log
 }
 

@@ -91,7 +91,7 @@ fn captures_are_deleted_restored_undone_and_skipped() {
         (Command::Go { step: Step::Result }, "not open yet"),
         (Command::Cell { setup: None, tolerance_mm: Some(-1.0) }, "positive"),
         (Command::Cell { setup: Some(Setup::EyeToHand), tolerance_mm: None }, "new folder"),
-        (Command::Notation { name: "robo".into() }, "there are matrix4x4"),
+        (Command::Notation { name: "robo".into(), reread: false }, "there are matrix4x4"),
         (Command::Pose { text: "1 2 3".into() }, "none are typed"),
     ] {
         let why = player.command(command).unwrap_err();

@@ -193,6 +193,13 @@ export const SENTENCES = {
   ],
   type_pose: ["Type a pose", "Pose eintippen"],
   use_pose: ["Use this pose", "Diese Pose verwenden"],
+  typed_otherwise: ["Typed in another notation?", "In anderer Schreibweise getippt?"],
+  typed_otherwise_hint: [
+    "The numbers of all captures stay as they are, and are read as those of the other notation.",
+    "Die Zahlen aller Aufnahmen bleiben, wie sie sind, und werden in der anderen Schreibweise gelesen.",
+  ],
+  typed_in: ["They were typed in", "Getippt wurden sie in"],
+  reread: ["Read them again", "Neu lesen"],
   jog: ["Move the virtual robot", "Virtuellen Roboter bewegen"],
   jog_what: ["In the camera's axes: 40 mm, or 10°.", "In den Achsen der Kamera: 40 mm oder 10°."],
 

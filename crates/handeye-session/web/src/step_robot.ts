@@ -27,8 +27,17 @@ const NOTATIONS: [name: string, what: string][] = [
 
 export function makeStepRobot(app: App): Part {
   const seen = facts();
-  const notation = h("select", {}, ...NOTATIONS.map(([value, what]) => h("option", { value }, what)));
+  const choice = () => h("select", {}, ...NOTATIONS.map(([value, what]) => h("option", { value }, what)));
+  const notation = choice();
   notation.addEventListener("change", () => void app.send({ do: "notation", name: notation.value }));
+  const really = choice();
+  const reread = button("reread", () => void app.send({ do: "notation", name: really.value, reread: true }));
+  const typedOtherwise = card(
+    "typed_otherwise",
+    said(h("p", { class: "hint" }), "typed_otherwise_hint"),
+    labelled("typed_in", really),
+    reread,
+  );
   const typed = makeTyping(app, () => void sendTyped(app));
   const use = button("use_pose", () => void sendTyped(app));
   const jog = makeJog(app);
@@ -38,6 +47,7 @@ export function makeStepRobot(app: App): Part {
     { class: "stack" },
     card("robot", seen.element, labelled("notation", notation), said(h("p", { class: "hint" }), "flange_hint")),
     typing,
+    typedOtherwise,
     jog.element,
   );
   return {
@@ -58,6 +68,7 @@ export function makeStepRobot(app: App): Part {
       field(notation, wanted);
       typed.update(state);
       show(typing, robot?.typed === true);
+      show(typedOtherwise, robot?.typed === true && (state.captures?.length ?? 0) > 0);
       jog.update(state);
     },
   };

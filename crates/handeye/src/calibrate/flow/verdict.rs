@@ -141,6 +141,9 @@ pub(crate) fn is_believable(residual: &RmsResidual) -> bool {
     within(deg, BELIEVABLE.degrees()) && within(mm, BELIEVABLE.millimetres())
 }
 
+/// How a reason begins that speaks of nothing but the precision.
+pub(crate) const TOO_IMPRECISE: &str = "the predicted error (95 %)";
+
 /// Why the answer is not certain enough.
 fn imprecision(config: &Config, found: &Evidence) -> Vec<String> {
     let limit = limit(config);
@@ -148,7 +151,7 @@ fn imprecision(config: &Config, found: &Evidence) -> Vec<String> {
     match &choice.predicted_tre_mm {
         Some(tre) if tre.p95 <= limit => vec![],
         Some(tre) => vec![format!(
-            "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm: add captures with \
+            "{TOO_IMPRECISE} in {} is {:.2} mm, more than {limit} mm: add captures with \
              more tilt{}",
             tre.r#where,
             tre.p95,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::{Calibration, JudgedFinding};
 use crate::{
     Warning,
+    calibrate::flow::verdict::TOO_IMPRECISE,
     findings::{
         frames::{PARTS_OF_DISAGREE, PICTURE_AND_SCAN_DISAGREE},
         severity::{Severity, row},
@@ -72,6 +73,13 @@ impl Calibration {
     /// Whether a finding is among the reasons of the verdict: a reason that is a finding has its sentence.
     pub fn is_reason(&self, warning: &Warning) -> bool {
         self.reasons.iter().any(|reason| warning.says(reason))
+    }
+
+    /// Whether nothing speaks against the answer but that it may be wrong by more than is allowed: more captures can
+    /// put that right.
+    pub fn is_only_imprecise(&self) -> bool {
+        matches!(&self.reasons[..], [only] if only.starts_with(TOO_IMPRECISE))
+            && self.verdict == Verdict::Rejected
     }
 
     /// With what was noticed beside it, after what is said already.

@@ -375,9 +375,11 @@ fn judged(
         Some(tre) if tre.p95 <= limit && accepted => reasons.push(tre.in_words()),
         Some(tre) if tre.p95 > limit => {
             reasons.push(format!(
-                "the predicted error (95 %) in {} is {:.2} mm, more than {limit} mm: the errors \
+                "{} in {} is {:.2} mm, more than {limit} mm: the errors \
                  drift, so add captures with more tilt, or find out what moves",
-                tre.r#where, tre.p95
+                verdict::TOO_IMPRECISE,
+                tre.r#where,
+                tre.p95
             ));
             return (Verdict::Rejected, reasons);
         }
