@@ -360,8 +360,8 @@ fn mirrored(dataset: &Dataset) -> Vec<Rereading> {
         signs[k] = -1.0;
         sign(&format!("{} of the robot positions has the wrong sign", ["x", "y", "z"][k]), signs)
     };
-    let left_handed =
-        "an axis of the robot's base frame is mirrored (x, y or z: the data cannot tell)";
+    let left_handed = "an axis of the robot's base frame is mirrored (x, y or z: the data cannot tell), or the \
+         images are";
     let transposed = "the rotations of the robot poses turn the other way: they are transposed, \
                       or their angles have the wrong sign";
     (0..3)

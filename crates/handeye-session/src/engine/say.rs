@@ -1,6 +1,8 @@
 //! What to do next, in one sentence, and what is known of each step.
 
-use handeye::{Setup, Verdict, mistakes, model::residual::Residual};
+use handeye::{
+    Setup, Verdict, calibrate::findings::reservation, mistakes, model::residual::Residual,
+};
 use handeye_io::StoredCapture;
 
 use super::{
@@ -177,10 +179,14 @@ impl Engine {
         };
         if assessed.enough {
             let mm = assessed.p95_mm().unwrap_or_default();
-            return format!(
-                "Enough: the calibration states {mm:.2} mm (95 %), and {} mm are tolerated. Go on.",
-                self.folder.settings.tolerance_mm
-            );
+            let limit = self.folder.settings.tolerance_mm;
+            let stated =
+                format!("the calibration states {mm:.2} mm (95 %), and {limit} mm are tolerated");
+            // what changes the answer is said with it
+            return match reservation(&assessed.calibration) {
+                Some(but) => format!("Enough: {stated}. {but}."),
+                None => format!("Enough: {stated}. Go on."),
+            };
         }
         if let Some(why) = assessed.contradiction() {
             return contradiction(why, self.folder.captures.len());
@@ -214,7 +220,8 @@ impl Engine {
         let result = &assessed.calibration;
         match (result.verdict, assessed.p95_mm()) {
             (Verdict::Accepted, Some(mm)) => {
-                format!("Accepted: {mm:.2} mm (95 %). Copy the transform, or open the report.")
+                let what = reservation(result).unwrap_or_else(|| "Accepted".into());
+                format!("{what}: {mm:.2} mm (95 %). Copy the transform, or open the report.")
             }
             (Verdict::Rejected, _) => {
                 format!("Rejected: {}. Do not use this transform.", reasons(&result.reasons))

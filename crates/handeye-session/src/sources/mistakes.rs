@@ -23,6 +23,12 @@ pub enum Mistake {
     Square(f64),
     /// The camera's focal length is so many times longer than is said.
     FocalLength(f64),
+    /// The intrinsics are of images half as large.
+    OtherResolution,
+    /// The board has a column of corners more than is said.
+    OtherBoard,
+    /// Poses never change.
+    Frozen,
     /// The camera is not where it is said to be: the robot carries the board, not the camera, or the other way round.
     OtherSetup,
     /// Images are mirrored.
@@ -44,6 +50,14 @@ impl Mistake {
                     camera.fy /= factor;
                     camera
                 });
+                CellSettings { intrinsics, ..real }
+            }
+            (Mistake::OtherBoard, &TargetModel::Checkerboard { columns, rows, square_mm }) => {
+                let target = TargetModel::Checkerboard { columns: columns - 1, rows, square_mm };
+                CellSettings { target, ..real }
+            }
+            (Mistake::OtherResolution, _) => {
+                let intrinsics = real.intrinsics.map(|camera| camera.resized(0.5));
                 CellSettings { intrinsics, ..real }
             }
             (Mistake::Notation { read, .. }, _) => {

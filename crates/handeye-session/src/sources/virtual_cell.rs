@@ -36,6 +36,7 @@ pub struct VirtualCell {
     guess: CameraGuess,
     robot: Mutex<Robot>,
     places: Mutex<HandEye>,
+    start: Pose<Base, Flange>,
 }
 
 /// The robot's motions: true poses, and what it errs by at their ends.
@@ -103,7 +104,7 @@ impl VirtualCell {
         let leg = Leg { starts_s: f64::NEG_INFINITY, takes_s: 0.0, from: start, to: start, errors };
         let places = Mutex::new(cell.hand_eye);
         let robot = Mutex::new(Robot { legs: vec![leg], random });
-        Ok(Self { cell, faults, guess, robot, places })
+        Ok(Self { cell, faults, guess, robot, places, start })
     }
 
     /// What a person would know of it, or believe.
@@ -189,6 +190,7 @@ impl VirtualCell {
     pub fn sample(&self, now: f64) -> RobotSample {
         let reported = match self.faults.mistake {
             Some(Mistake::Behind) => self.before(now),
+            Some(Mistake::Frozen) => self.start,
             _ => self.reported(now),
         };
         let mut robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
