@@ -148,6 +148,7 @@ fn usual() -> CellSettings {
         tolerance_mm: 0.5,
         notation: "ur".into(),
         guess: None,
+        tip_mm: None,
     }
 }
 

@@ -45,6 +45,7 @@ impl Host {
             captures: owned(self.folder.captures()),
             deleted: self.folder.deleted().iter().map(|c| c.id.clone()).collect(),
             refused: self.folder.refused().into_iter().cloned().collect(),
+            touches: self.folder.touches().into_iter().cloned().collect(),
         }
     }
 
@@ -72,6 +73,15 @@ impl Host {
                 // first what lies in the folder: until then it is being stored
                 vec![Input::Folder(Box::new(self.state())), Input::Stored(stored)]
             }
+            Effect::StoreTouch { corner, robot } => {
+                let stored = self.folder.touch(corner, robot.base_from_flange, robot.time_s);
+                let stored = stored.map_err(|e| e.to_string());
+                vec![Input::Folder(Box::new(self.state())), Input::Touched(stored)]
+            }
+            Effect::Untouch(id) => {
+                let done = self.folder.untouch(&id);
+                self.changed(done)
+            }
             Effect::Refuse(refused) => {
                 let done = self.folder.refuse(refused);
                 self.changed(done)
@@ -98,7 +108,7 @@ impl Host {
                 vec![Input::Assessed { generation, assessment }]
             }
             Effect::Write => vec![Input::Written(self.write().map_err(|e| e.to_string()))],
-            Effect::Drive(_) | Effect::Jog(..) | Effect::Grab => vec![],
+            Effect::Drive(_) | Effect::DriveTip(_) | Effect::Jog(..) | Effect::Grab => vec![],
         }
     }
 
@@ -124,6 +134,7 @@ impl Host {
 pub fn drive(cell: &VirtualCell, effect: &Effect, now: f64) -> bool {
     match effect {
         Effect::Drive(to) => cell.drive(*to, now),
+        Effect::DriveTip(corner) => cell.drive_tip(*corner, now),
         Effect::Jog(by, turn) => cell.jog(*by, *turn, now),
         _ => return false,
     }

@@ -244,7 +244,10 @@ impl Runner {
     fn perform(&mut self, effects: Vec<Effect>) {
         for effect in effects {
             match (&effect, &self.equipment) {
-                (Effect::Drive(_) | Effect::Jog(..), Equipment::Virtual(cell)) => {
+                (
+                    Effect::Drive(_) | Effect::DriveTip(_) | Effect::Jog(..),
+                    Equipment::Virtual(cell),
+                ) => {
                     drive(cell, &effect, self.outlet.now());
                 }
                 (Effect::Grab, Equipment::Command(ask)) => _ = ask.send(()),

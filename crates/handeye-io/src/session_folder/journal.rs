@@ -53,6 +53,19 @@ pub struct RefusedCapture {
     pub time_s: f64,
 }
 
+/// A corner of the board that the tip of a tool touched.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StoredTouch {
+    /// Its name.
+    pub id: String,
+    /// Which corner.
+    pub corner: u32,
+    /// What the robot reported.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// When, s.
+    pub time_s: f64,
+}
+
 /// A line of the journal.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -67,6 +80,10 @@ pub(super) enum Line {
     Delete(String),
     /// And taken in again.
     Restore(String),
+    /// A corner was touched.
+    Touch(StoredTouch),
+    /// A touch was deleted.
+    Untouch(String),
     /// The numbers of the poses up to here were typed in another notation than they were read in.
     Reread {
         /// As what they were read.
@@ -126,11 +143,13 @@ impl Journal {
     fn add(&mut self, line: Line) {
         if let Line::Reread { read, written } = &line {
             for before in &mut self.lines {
-                if let Line::Take(capture) = before {
-                    // it was tried before the line was written
-                    let again = reread(&capture.base_from_flange, read, written);
-                    capture.base_from_flange = again.unwrap_or(capture.base_from_flange);
-                }
+                let pose = match before {
+                    Line::Take(capture) => &mut capture.base_from_flange,
+                    Line::Touch(touch) => &mut touch.base_from_flange,
+                    _ => continue,
+                };
+                // it was tried before the line was written
+                *pose = reread(pose, read, written).unwrap_or(*pose);
             }
         }
         self.lines.push(line);
@@ -197,6 +216,26 @@ impl Journal {
     pub(super) fn deleted(&self) -> Vec<&StoredCapture> {
         let gone = self.gone();
         self.taken().into_iter().filter(|c| gone.contains(&c.id[..])).collect()
+    }
+
+    /// All touches that were ever made.
+    pub(super) fn touched(&self) -> Vec<&StoredTouch> {
+        let mut all = vec![];
+        for line in &self.lines {
+            if let Line::Touch(touch) = line {
+                all.push(touch);
+            }
+        }
+        all
+    }
+
+    /// Those that stand.
+    pub(super) fn touches(&self) -> Vec<&StoredTouch> {
+        let is_gone = |id: &str| {
+            let mut gone = self.lines.iter();
+            gone.any(|line| matches!(line, Line::Untouch(other) if other == id))
+        };
+        self.touched().into_iter().filter(|touch| !is_gone(&touch.id)).collect()
     }
 
     pub(super) fn refused(&self) -> Vec<&RefusedCapture> {

@@ -3,13 +3,13 @@
 use handeye::{Camera, Intrinsics, Mount, Pose, Setup, TargetModel};
 use serde::{Deserialize, Serialize};
 
-use super::StoredCapture;
 use crate::{
     camera::CameraSpec,
     dataset::{
         Draft,
         manifest::{
             GuessSpec, ImagesSpec, LimitsSpec, Pairing, RobotDirection, RobotSpec, ScansSpec,
+            TipSpec, TouchKind, TouchesSpec,
         },
     },
     robot::Notation,
@@ -30,13 +30,17 @@ pub struct CellSettings {
     pub notation: String,
     /// Roughly where the camera sits, with standard deviations (mm, degrees).
     pub guess: Option<CameraGuess>,
+    /// Where the tip of the tool that touches corners is in the flange, mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip_mm: Option<[f64; 3]>,
 }
 
 impl CellSettings {
-    /// Whether captures of the one are captures of the other: all but what is tolerated and how poses are written.
+    /// Whether captures of the one are captures of the other: all but what is tolerated, how poses are written, and the
+    /// tool that touches corners.
     pub fn is_of_same_cell(&self, other: &Self) -> bool {
-        let Self { tolerance_mm, notation, .. } = self.clone();
-        *self == Self { tolerance_mm, notation, ..other.clone() }
+        let Self { tolerance_mm, notation, tip_mm, .. } = self.clone();
+        *self == Self { tolerance_mm, notation, tip_mm, ..other.clone() }
     }
 }
 
@@ -51,8 +55,14 @@ pub struct CameraGuess {
     pub sigma_deg: f64,
 }
 
+/// What a session's folder holds beside images and poses.
+pub(super) struct Held {
+    pub(super) has_scans: bool,
+    pub(super) has_touches: bool,
+}
+
 /// The text of the manifest.
-pub(super) fn text(settings: &CellSettings, captures: &[&StoredCapture]) -> String {
+pub(super) fn text(settings: &CellSettings, held: &Held) -> String {
     let mut draft = Draft::new();
     draft.head("The captures of a session; `handeye session` goes on with it, `handeye calibrate` calibrates it.");
     draft.set_target(settings.target.clone());
@@ -69,9 +79,14 @@ pub(super) fn text(settings: &CellSettings, captures: &[&StoredCapture]) -> Stri
     });
     // both are paired by the number in their names: a capture that is half there is not used
     m.captures.pairing = Pairing::Number;
-    let has_scans = captures.iter().any(|c| c.scan.is_some());
     m.images = Some(ImagesSpec::of("images/*"));
-    m.scans = has_scans.then(|| ScansSpec { files: "scans/*".into(), ..ScansSpec::default() });
+    m.touches = settings.tip_mm.filter(|_| held.has_touches).map(|in_flange_mm| TouchesSpec {
+        file: Some(super::TOUCHES.into()),
+        kind: Some(TouchKind::FlangePose),
+        tip: Some(TipSpec { in_flange_mm }),
+        ..TouchesSpec::default()
+    });
+    m.scans = held.has_scans.then(|| ScansSpec { files: "scans/*".into(), ..ScansSpec::default() });
     m.limits = LimitsSpec { max_error_mm: Some(settings.tolerance_mm) };
     m.guess = settings.guess.map(|guess| guess_keys(&guess));
     draft.written().0

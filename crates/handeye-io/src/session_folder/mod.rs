@@ -3,6 +3,7 @@
 //! ```text
 //! handeye.toml        the manifest
 //! robot.csv           the flange's pose in each capture, in the robot's notation
+//! touches.csv         the same for each corner that was touched
 //! images/001.png      scans/001.ply
 //! journal.jsonl       what was done, a line each: the truth, from which the rest follows
 //! deleted/            images and scans of captures that were deleted, for those who want them back
@@ -24,11 +25,13 @@ use handeye::{Base, Flange, Pose};
 
 use crate::{Dataset, Error, MANIFEST, Writing, error::unusable, files::write_atomically};
 use journal::{Journal, Line};
-pub use journal::{RefusedCapture, StoredCapture};
+pub use journal::{RefusedCapture, StoredCapture, StoredTouch};
 pub use manifest::{CameraGuess, CellSettings};
 
 /// The journal's name.
 const JOURNAL: &str = "journal.jsonl";
+/// The table of touches.
+const TOUCHES: &str = "touches.csv";
 /// Where files of deleted captures are kept.
 const DELETED: &str = "deleted";
 /// No session has more captures.
@@ -157,6 +160,14 @@ impl SessionFolder {
     /// Poses that are none in the other notation; a folder that cannot be written.
     pub fn reread(&mut self, notation: &str) -> Result<(), Error> {
         let (read, written) = (self.settings.notation.clone(), notation.to_owned());
+        for touch in self.journal.touched() {
+            journal::reread(&touch.base_from_flange, &read, &written).map_err(|why| {
+                unusable(
+                    &self.root,
+                    format!("touch {} is not written as {written}: {why}", touch.id),
+                )
+            })?;
+        }
         for capture in self.journal.taken() {
             journal::reread(&capture.base_from_flange, &read, &written).map_err(|why| {
                 unusable(
@@ -209,6 +220,47 @@ impl SessionFolder {
         written?;
         self.settle()?;
         Ok(id)
+    }
+
+    /// Corners that were touched, in the order in which they were.
+    pub fn touches(&self) -> Vec<&StoredTouch> {
+        self.journal.touches()
+    }
+
+    /// Stores a touch of a corner with the flange there; returns its name.
+    ///
+    /// # Errors
+    /// A corner that the board has not; a folder that cannot be written.
+    pub fn touch(
+        &mut self,
+        corner: u32,
+        base_from_flange: Pose<Base, Flange>,
+        time_s: f64,
+    ) -> Result<String, Error> {
+        if self.settings.target.corner(corner).is_none() {
+            return Err(unusable(&self.root, format!("the board has no corner {corner}")));
+        }
+        let id = format!("t{:02}", self.journal.touched().len() + 1);
+        self.journal.append(Line::Touch(StoredTouch {
+            id: id.clone(),
+            corner,
+            base_from_flange,
+            time_s,
+        }))?;
+        self.settle()?;
+        Ok(id)
+    }
+
+    /// Takes a touch out.
+    ///
+    /// # Errors
+    /// No such touch; a folder that cannot be written.
+    pub fn untouch(&mut self, id: &str) -> Result<(), Error> {
+        if !self.touches().iter().any(|touch| touch.id == id) {
+            return Err(unusable(&self.root, format!("has no touch {id}")));
+        }
+        self.journal.append(Line::Untouch(id.into()))?;
+        self.settle()
     }
 
     /// Remembers a capture that was not taken, and why.
@@ -266,7 +318,15 @@ impl SessionFolder {
             .iter()
             .for_each(|name| _ = fs::remove_dir(self.root.join(name)));
         self.write_if_changed("robot.csv", &self.table())?;
-        self.write_if_changed(MANIFEST, &manifest::text(&self.settings, &self.journal.standing()))
+        let touches = self.touches();
+        if !touches.is_empty() {
+            self.write_if_changed(TOUCHES, &self.table_of(&touches))?;
+        }
+        let held = manifest::Held {
+            has_scans: self.captures().iter().any(|c| c.scan.is_some()),
+            has_touches: !touches.is_empty(),
+        };
+        self.write_if_changed(MANIFEST, &manifest::text(&self.settings, &held))
     }
 
     fn table(&self) -> String {
@@ -275,6 +335,15 @@ impl SessionFolder {
         // as on the pendant: mistakes about these numbers can be found in them
         let writing = Writing::of(&self.settings.notation);
         writing.map_or_else(|_| String::new(), |writing| writing.table(poses))
+    }
+
+    /// The table of touches: that of poses, with the corner in front.
+    fn table_of(&self, touches: &[&StoredTouch]) -> String {
+        let corners: Vec<String> = touches.iter().map(|touch| touch.corner.to_string()).collect();
+        let poses =
+            corners.iter().zip(touches).map(|(corner, t)| (&corner[..], &t.base_from_flange));
+        let table = Writing::of(&self.settings.notation).map(|writing| writing.table(poses));
+        table.map_or_else(|_| String::new(), |table| table.replacen("id,", "corner,", 1))
     }
 
     fn write_if_changed(&self, name: &str, text: &str) -> Result<(), Error> {

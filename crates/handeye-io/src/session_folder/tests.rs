@@ -30,6 +30,7 @@ fn settings(cell: &Cell) -> CellSettings {
         tolerance_mm: 1.0,
         notation: "ur".into(),
         guess: None,
+        tip_mm: None,
     }
 }
 

@@ -17,14 +17,23 @@ pub enum Step {
     Board,
     /// Captures are taken.
     Capture,
+    /// Corners are touched, for those who want that: a second instrument beside the camera.
+    Touch,
     /// The result is written.
     Result,
 }
 
 impl Step {
     /// All, in order.
-    pub const ALL: [Step; 6] =
-        [Step::Cell, Step::Camera, Step::Robot, Step::Board, Step::Capture, Step::Result];
+    pub const ALL: [Step; 7] = [
+        Step::Cell,
+        Step::Camera,
+        Step::Robot,
+        Step::Board,
+        Step::Capture,
+        Step::Touch,
+        Step::Result,
+    ];
 
     /// As the page and scripts call it.
     pub fn name(self) -> &'static str {
@@ -34,6 +43,7 @@ impl Step {
             Step::Robot => "robot",
             Step::Board => "board",
             Step::Capture => "capture",
+            Step::Touch => "touch",
             Step::Result => "result",
         }
     }
@@ -124,6 +134,22 @@ pub enum Command {
         #[serde(default)]
         why: String,
     },
+    /// Where the tip of the tool that touches corners is in the flange, mm.
+    Tip {
+        /// x, y and z.
+        in_flange_mm: [f64; 3],
+    },
+    /// The tip is at a corner of the board.
+    Touch {
+        /// Which; the proposed one unless said.
+        #[serde(default)]
+        corner: Option<u32>,
+    },
+    /// Take a touch out.
+    Untouch {
+        /// Its name.
+        id: String,
+    },
     /// The captures are enough: write the result.
     Finish,
     /// Virtual cell: drive the robot.
@@ -148,4 +174,6 @@ pub enum Command {
 pub enum Destination {
     /// The next view.
     Next,
+    /// The corner to touch.
+    Touch,
 }

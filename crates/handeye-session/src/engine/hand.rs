@@ -24,6 +24,16 @@ impl Used {
 }
 
 impl Engine {
+    /// Whether a pose that was typed then is used already.
+    pub(super) fn is_used(&self, time_s: f64) -> bool {
+        self.used.pose_s == Some(time_s)
+    }
+
+    /// A touch was made of the pose of then.
+    pub(super) fn note_touch(&mut self, time_s: f64) {
+        self.used.pose_s = Some(time_s);
+    }
+
     /// Whether one of the two does not stream.
     pub(super) fn is_by_hand(&self) -> bool {
         [self.sources.robot, self.sources.camera].contains(&Flow::Single)

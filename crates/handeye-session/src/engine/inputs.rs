@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use handeye::{Base, Flange, Pose};
-use handeye_io::{CellSettings, RefusedCapture, StoredCapture};
+use handeye_io::{CellSettings, RefusedCapture, StoredCapture, StoredTouch};
 
 use serde::Serialize;
 
@@ -28,6 +28,8 @@ pub enum Input {
     Folder(Box<FolderState>),
     /// A capture was stored under this name, or why it was not.
     Stored(Result<String, String>),
+    /// A touch was stored under this name, or why it was not.
+    Touched(Result<String, String>),
     /// A change of the folder could not be made.
     Failed(String),
     /// The captures were assessed.
@@ -102,6 +104,8 @@ pub struct FolderState {
     pub deleted: Vec<String>,
     /// Captures that were not taken.
     pub refused: Vec<RefusedCapture>,
+    /// Corners that were touched.
+    pub touches: Vec<StoredTouch>,
 }
 
 /// What a session wants to be done.
@@ -116,6 +120,15 @@ pub enum Effect {
         /// When the image was taken, s.
         image_time_s: f64,
     },
+    /// Store a touch of this corner.
+    StoreTouch {
+        /// Which.
+        corner: u32,
+        /// Where the robot stood.
+        robot: RobotSample,
+    },
+    /// Delete a touch.
+    Untouch(String),
     /// Remember a capture that was not taken.
     Refuse(RefusedCapture),
     /// Delete a capture.
@@ -139,6 +152,8 @@ pub enum Effect {
     Grab,
     /// Drive the robot of a virtual cell; no other robot can be moved.
     Drive(Pose<Base, Flange>),
+    /// Drive the tip of a virtual cell's robot to a corner of its board.
+    DriveTip(u32),
     /// Move the robot of a virtual cell a little, in the camera's axes (mm, degrees).
     Jog([f64; 3], [f64; 3]),
 }

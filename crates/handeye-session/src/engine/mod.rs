@@ -15,6 +15,7 @@ pub mod rest;
 mod say;
 pub mod shown;
 mod taking;
+mod touch;
 mod view;
 
 use std::{collections::VecDeque, sync::Arc};
@@ -60,6 +61,8 @@ pub struct Engine {
     written: Option<Written>,
     used: hand::Used,
     grabbing: bool,
+    /// The corner to which the tip of a virtual cell's tool was led.
+    tip_at: Option<u32>,
 }
 
 /// What can be undone.
@@ -68,6 +71,7 @@ enum Change {
     Taken(String),
     Deleted(String),
     Restored(String),
+    Touched(String),
 }
 
 impl Engine {
@@ -107,6 +111,7 @@ impl Engine {
             written: None,
             used: hand::Used::default(),
             grabbing: false,
+            tip_at: None,
         };
         let effects = engine.assess();
         (engine, effects)
@@ -142,6 +147,7 @@ impl Engine {
             Input::Command(command) => self.obey(command)?,
             Input::Folder(folder) => self.holds(*folder),
             Input::Stored(stored) => self.stored(stored),
+            Input::Touched(touched) => self.touched(touched),
             Input::Failed(why) => {
                 self.trouble("not-written", why);
                 vec![]

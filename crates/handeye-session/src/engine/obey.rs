@@ -60,6 +60,9 @@ impl Engine {
             Command::Retake { id } => self.retake(id),
             Command::Undo => self.undo(),
             Command::Skip { .. } => self.skip(),
+            Command::Tip { in_flange_mm } => self.tip(in_flange_mm),
+            Command::Touch { corner } => self.touch(corner),
+            Command::Untouch { id } => self.untouch(id),
             Command::Finish => self.finish(),
             Command::Drive { to } => self.drive(to),
             Command::Jog { move_mm, turn_deg } => match self.sources.is_virtual {
@@ -76,7 +79,9 @@ impl Engine {
     }
 
     fn go(&mut self, step: Step) -> Result<Vec<Effect>, Refusal> {
-        if step > self.farthest {
+        if step == Step::Touch {
+            self.may_touch()?;
+        } else if step > self.farthest {
             let step = step.name();
             return Err(later(format!("the step {step} is not open yet: confirm those before it")));
         }
@@ -126,7 +131,8 @@ impl Engine {
             return Err(later(proof.text));
         }
         match step.next() {
-            Some(Step::Result) => self.finish(),
+            // whoever wants touches goes there
+            Some(Step::Touch | Step::Result) => self.finish(),
             Some(next) => {
                 self.enter(next);
                 Ok(vec![])
@@ -135,7 +141,7 @@ impl Engine {
         }
     }
 
-    fn configure(&mut self, settings: CellSettings) -> Result<Vec<Effect>, Refusal> {
+    pub(super) fn configure(&mut self, settings: CellSettings) -> Result<Vec<Effect>, Refusal> {
         let is_other = !settings.is_of_same_cell(self.settings());
         if is_other && !(self.folder.captures.is_empty() && self.folder.deleted.is_empty()) {
             return Err(later(
@@ -192,21 +198,34 @@ impl Engine {
             None => Err(later("there is nothing to undo".into())),
             Some(Change::Taken(id) | Change::Restored(id)) => Ok(vec![Effect::Delete(id)]),
             Some(Change::Deleted(id)) => Ok(vec![Effect::Restore(id)]),
+            Some(Change::Touched(id)) => Ok(vec![Effect::Untouch(id)]),
         }
     }
 
     fn finish(&mut self) -> Result<Vec<Effect>, Refusal> {
-        match self.folder.captures.is_empty() {
-            true => Err(later("there are no captures yet".into())),
-            false => Ok(vec![Effect::Write]),
+        if self.folder.captures.is_empty() {
+            return Err(later("there are no captures yet".into()));
         }
+        // whether the camera still is where it was is then not known, and a result would not say so
+        if let Some(id) = self.newest_left_out() {
+            return Err(later(format!(
+                "the newest capture, {id}, does not fit to those before it: take another one, which tells whether camera or board were moved since, or delete it"
+            )));
+        }
+        Ok(vec![Effect::Write])
     }
 
     fn drive(&mut self, to: Destination) -> Result<Vec<Effect>, Refusal> {
         if !self.sources.is_virtual {
             return Err(only_virtual());
         }
-        let Destination::Next = to;
+        if to == Destination::Touch {
+            let none = || later("no corner is to be touched".into());
+            let corner = self.next_corner().ok_or_else(none)?;
+            self.tip_at = Some(corner);
+            return Ok(vec![Effect::DriveTip(corner)]);
+        }
+        self.tip_at = None;
         let next = self.next().ok_or_else(|| later("there is no next view yet".into()))?;
         Ok(vec![Effect::Drive(next.base_from_flange)])
     }

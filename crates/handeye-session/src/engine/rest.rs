@@ -319,6 +319,11 @@ fn image_since(shifts: &[(f64, Option<Shift>)]) -> Option<f64> {
     shifts.get(last + 1).map(|(time, _)| *time)
 }
 
+/// How far the target has moved in the image between two lists of its corners, px; `None` where they share too few.
+pub fn moved(before: &[ImageCorner], after: &[ImageCorner]) -> Option<f64> {
+    Shift::between(before, &Sorted::new(after)).map(|shift| shift.length)
+}
+
 /// Corners by their ids.
 struct Sorted(Vec<ImageCorner>);
 

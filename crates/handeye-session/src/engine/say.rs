@@ -10,7 +10,7 @@ use super::{
     rest::{Motion, RobotSample},
     taking::{ELSEWHERE, KNOWN},
 };
-use crate::assess::ProposedView;
+use crate::assess::{Assessment, ProposedView};
 
 /// What is known of a step's choice.
 pub(super) struct Proof {
@@ -20,7 +20,7 @@ pub(super) struct Proof {
     pub(super) proven: bool,
 }
 
-fn proof(proven: bool, text: impl Into<String>) -> Proof {
+pub(super) fn proof(proven: bool, text: impl Into<String>) -> Proof {
     Proof { text: text.into(), proven }
 }
 
@@ -32,6 +32,7 @@ impl Engine {
             Step::Robot => self.robot_proof(),
             Step::Board => self.board_proof(),
             Step::Capture => self.capture_proof(),
+            Step::Touch => self.touch_proof(),
             Step::Result => match &self.written {
                 Some(written) => proof(true, format!("written to {}", written.folder)),
                 None => proof(false, "no result is written yet"),
@@ -154,6 +155,7 @@ impl Engine {
             Step::Robot => "Move the robot by hand: do the numbers move with it? Then confirm it.".into(),
             Step::Board => "The board is found. Confirm that its size is measured, not read off a drawing.".into(),
             Step::Capture => self.say_capture(),
+            Step::Touch => self.say_touch(),
             Step::Result => self.say_result(),
         }
     }
@@ -177,6 +179,12 @@ impl Engine {
                 false => first_views(&self.folder.captures),
             };
         };
+        if let Some(why) = assessed.contradiction() {
+            return contradiction(why, self.folder.captures.len());
+        }
+        if let Some(id) = self.newest_left_out() {
+            return self.say_left_out(assessed, id);
+        }
         if assessed.enough {
             let mm = assessed.p95_mm().unwrap_or_default();
             let limit = self.folder.settings.tolerance_mm;
@@ -188,9 +196,6 @@ impl Engine {
                 None => format!("Enough: {stated}. Go on."),
             };
         }
-        if let Some(why) = assessed.contradiction() {
-            return contradiction(why, self.folder.captures.len());
-        }
         match (&assessed.next, &assessed.no_next) {
             (Some(next), _) if self.is_at(next) => {
                 "The robot is at the view: take the capture.".into()
@@ -200,6 +205,29 @@ impl Engine {
             (None, Some(why)) => format!("No next view is found: {why}."),
             (None, None) => "No next view is found.".into(),
         }
+    }
+
+    /// The newest capture, where it does not fit to those before it.
+    pub(super) fn newest_left_out(&self) -> Option<&str> {
+        let assessed = self.assessed.as_ref().filter(|_| !self.assessing)?;
+        let id = &self.folder.captures.last()?.id;
+        let captures = &assessed.calibration.captures;
+        let used = captures.iter().filter(|c| c.used).count();
+        let is_left_out = captures.iter().any(|c| c.id == *id && !c.used);
+        // few captures do not tell which of them is wrong
+        let is_known = captures.len() > KNOWN && 2 * used > captures.len();
+        (is_left_out && is_known).then_some(&id[..])
+    }
+
+    /// That is the moment to look around.
+    fn say_left_out(&self, assessed: &Assessment, id: &str) -> String {
+        let capture = assessed.calibration.captures.iter().find(|c| c.id == id);
+        let why =
+            capture.and_then(|c| c.reason.as_deref()).unwrap_or("it does not fit to the others");
+        format!(
+            "Capture {id} is left out: {}. Take another one: it tells whether camera or board were moved. If they were, begin anew from here; if not, delete this one.",
+            why.trim_end_matches('.')
+        )
     }
 
     /// Whether a robot whose poses stream stands at the view, so far as the planner tells views apart.
@@ -240,12 +268,15 @@ fn reasons(all: &[String]) -> String {
 
 /// What is wrong comes before where to drive next.
 fn contradiction(why: &str, captures: usize) -> String {
-    let why = why.trim_end_matches('.');
+    let why = match why.ends_with('?') {
+        true => why.to_owned(),
+        false => format!("{}.", why.trim_end_matches('.')),
+    };
     match captures < KNOWN {
         true => format!(
-            "These captures do not fit together: {why}. Take another one wherever the whole board is seen: from {KNOWN} on the cause can be told."
+            "These captures do not fit together: {why} Take another one wherever the whole board is seen: from {KNOWN} on the cause can be told."
         ),
-        false => format!("Something is wrong: {why}. Put it right before you go on."),
+        false => format!("Something is wrong: {why} Put it right before you go on."),
     }
 }
 

@@ -52,6 +52,8 @@ pub struct State {
     pub assessing: bool,
     /// Changes with every assessment: details of captures are to be asked for again.
     pub assessed: u64,
+    /// Corners to touch and those that were; `None` where none can be.
+    pub touch: Option<TouchView>,
     /// How far the captures go.
     pub progress: Option<Progress>,
     /// The result that was written.
@@ -180,6 +182,36 @@ pub struct Off {
     pub mm: f64,
     /// Rotations, degrees.
     pub deg: f64,
+}
+
+/// Corners that are touched.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TouchView {
+    /// Where the tip is in the flange, mm.
+    pub tip_mm: Option<[f64; 3]>,
+    /// The corner to touch next.
+    pub corner: u32,
+    /// Corners in a row of the board.
+    pub columns: u32,
+    /// Those that were touched.
+    pub touches: Vec<TouchShown>,
+    /// How far the tip was from where the answer puts the corners, mm.
+    pub rms_mm: Option<f64>,
+    /// Whether the tip of a virtual cell's tool was led to the corner.
+    pub at_corner: bool,
+}
+
+/// A corner that was touched.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TouchShown {
+    /// Its name.
+    pub id: String,
+    /// Which corner.
+    pub corner: u32,
+    /// How far the tip was from where the answer puts it, mm.
+    pub residual_mm: Option<f64>,
+    /// Whether the answer was made with it.
+    pub used: bool,
 }
 
 /// A capture that is waited for.

@@ -1,7 +1,7 @@
 //! Poses and images as they come, and the capture that is waited for.
 
 use handeye::{Base, Flange, Pose, model::residual::Residual};
-use handeye_io::RefusedCapture;
+use handeye_io::{RefusedCapture, StoredCapture};
 
 use super::{
     Effect, Engine, Problem, Step,
@@ -16,6 +16,10 @@ const PATIENCE_S: f64 = 15.0;
 const LOOKING_S: f64 = 2.5;
 /// A robot stands at another pose, rad and m.
 pub(super) const ELSEWHERE: Residual = Residual { angle: 0.03, distance: 0.01 };
+/// A robot that has moved is not within this of where it was, rad and m.
+const THE_SAME_POSE: Residual = Residual { angle: 2e-5, distance: 2e-5 };
+/// An image of the same pose is not this far from it, px.
+const ANOTHER_IMAGE_PX: f64 = 3.0;
 /// Approaches from which the delay of the images is known.
 const APPROACHES: usize = 5;
 /// Images may be so much later than the latest approach shows, s.
@@ -135,6 +139,9 @@ impl Engine {
                 else {
                     return vec![];
                 };
+                if let Some(why) = self.pose_of_another(&robot.base_from_flange, image) {
+                    return self.refuse(why, false);
+                }
                 let effect = Effect::Store {
                     frame,
                     robot: robot.clone(),
@@ -169,6 +176,23 @@ impl Engine {
         }
     }
 
+    /// Where the robot says that it is where a capture was taken, and the image shows something else: why that is no capture.
+    fn pose_of_another(&self, here: &Pose<Base, Flange>, image: &ImageSample) -> Option<String> {
+        let assessed = self.assessed.as_ref()?;
+        let same = |c: &&StoredCapture| {
+            Residual::between(&c.base_from_flange, here).is_within(THE_SAME_POSE)
+        };
+        let of = self.folder.captures.iter().find(same)?;
+        let before = assessed.measured.iter().find(|m| m.id == of.id)?;
+        let moved_px = rest::moved(&before.corners, image.corners.as_ref().ok()?)?;
+        (moved_px > ANOTHER_IMAGE_PX).then(|| {
+            format!(
+                "the robot's pose is that of capture {}, but the image has moved by {moved_px:.0} px since: the pose was not read anew, or camera or board were moved",
+                of.id
+            )
+        })
+    }
+
     /// Takes no capture; where the board was not found, nobody is sent there again.
     fn refuse(&mut self, why: String, is_unseen: bool) -> Vec<Effect> {
         self.wish = None;
@@ -181,7 +205,7 @@ impl Engine {
             advice: match (is_astray, is_unseen) {
                 (true, _) => "the board was expected at this view: drive by hand until it is seen and take it, several times; from the fourth capture on it can be told whether notation, unit or direction of the poses, the setup or the board are other than is said",
                 (_, true) => "go to another pose from where the whole board is seen, or skip this view",
-                _ => "wait until the robot stands, then take it again",
+                _ => "see that the robot stands and its pose is read anew, then take it again",
             }
             .into(),
         });

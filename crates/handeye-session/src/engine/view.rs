@@ -1,6 +1,6 @@
 //! From the engine's state to what is shown.
 
-use handeye::{Calibration, Verdict, model::residual::Residual};
+use handeye::{Calibration, Setup, Verdict, model::residual::Residual};
 use handeye_io::{StoredCapture, Writing};
 
 use super::{
@@ -25,7 +25,7 @@ impl Engine {
             folder: folder.into(),
             title: title.into(),
             step: self.step,
-            steps: Step::ALL.into_iter().map(|step| self.step_view(step)).collect(),
+            steps: self.steps(),
             say: self.say(),
             problem: self.problem.clone().or_else(|| self.late_images()),
             cell: CellView {
@@ -56,9 +56,11 @@ impl Engine {
                 Change::Taken(id) => format!("take {id}"),
                 Change::Deleted(id) => format!("delete {id}"),
                 Change::Restored(id) => format!("restore {id}"),
+                Change::Touched(id) => format!("touch {id}"),
             }),
             assessing: self.assessing,
             assessed: self.assessments,
+            touch: self.touch_view(),
             progress: self.assessed.as_ref().map(|a| self.progress(a)),
             result: self.result_view(),
             virtual_cell: self
@@ -78,11 +80,22 @@ impl Engine {
         })
     }
 
+    /// The steps of this cell: a robot that carries the board cannot touch it.
+    fn steps(&self) -> Vec<StepView> {
+        let can_touch = self.folder.settings.setup == Setup::EyeInHand;
+        let all = Step::ALL.into_iter().filter(|step| *step != Step::Touch || can_touch);
+        all.map(|step| self.step_view(step)).collect()
+    }
+
     fn step_view(&self, step: Step) -> StepView {
         let known = self.proof(step);
+        let is_locked = match step {
+            Step::Touch => self.may_touch().is_err(),
+            _ => step > self.farthest,
+        };
         let state = match step {
             _ if step == self.step => "now",
-            _ if step > self.farthest => "locked",
+            _ if is_locked => "locked",
             _ if known.proven => "done",
             _ => "open",
         };

@@ -62,6 +62,8 @@ const KEPT_LEGS: usize = 20;
 const ENCODERS: (f64, f64) = (2e-6, 2e-6);
 /// How far off the first guess is, m and rad, along and about each axis.
 const GUESS_OFF: (f64, f64) = (0.02, 0.05);
+/// How near to a corner the tip is led, along each axis, m.
+const TOUCH_M: f64 = 0.1e-3;
 /// The camera's image, px.
 const SIZE: (u32, u32) = (1280, 800);
 /// Its focal length, px.
@@ -116,6 +118,7 @@ impl VirtualCell {
             tolerance_mm: 0.5,
             notation: "ur".into(),
             guess: Some(self.guess),
+            tip_mm: Some((self.cell.tip_in_flange.vector() * 1e3).into()),
         };
         match &self.faults.mistake {
             Some(mistake) => mistake.believed(settings),
@@ -165,6 +168,22 @@ impl VirtualCell {
         if robot.legs.len() > KEPT_LEGS {
             robot.legs.remove(0);
         }
+    }
+
+    /// Somebody leads the tip of its tool to a corner of the board, by hand: to two tenths of a millimetre.
+    pub fn drive_tip(&self, corner: u32, now: f64) {
+        let places = self.truth();
+        let Some(there) = self.cell.target.corner(corner) else { return };
+        let base_from_target: Pose<Base, Target> = Pose::claim(*places.anchor_from_target.iso());
+        let by_hand = {
+            let mut robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
+            robot.random.normal3() * TOUCH_M
+        };
+        let at = (base_from_target * there).vector() + by_hand;
+        // the tool points into the board
+        let rotation = base_from_target.rotation();
+        let tip = rotation * self.cell.tip_in_flange.vector();
+        self.send(Pose::from_parts(&rotation, at - tip), now);
     }
 
     /// Somebody drives it to where the camera sees the board, whatever the session believes; `number` tells such poses apart.

@@ -21,7 +21,13 @@ impl Bench {
     fn new(takes_images: bool) -> Self {
         let cell = VirtualCell::new(Setup::EyeInHand, 1, Faults::default()).unwrap();
         let settings = CellSettings { notation: "kuka".into(), ..cell.settings() };
-        let folder = FolderState { settings, captures: vec![], deleted: vec![], refused: vec![] };
+        let folder = FolderState {
+            settings,
+            captures: vec![],
+            deleted: vec![],
+            refused: vec![],
+            touches: vec![],
+        };
         let by_hand =
             Sources { robot: Flow::Single, camera: Flow::Single, takes_images, is_virtual: false };
         let engine = Engine::new(folder, by_hand).0;

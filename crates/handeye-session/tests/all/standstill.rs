@@ -29,6 +29,7 @@ impl Trial {
             captures: vec![],
             deleted: vec![],
             refused: vec![],
+            touches: vec![],
         };
         let engine = Engine::new(folder, Sources::VIRTUAL).0;
         let mut trial = Self { cell, engine, random: Random::new(seed), now: 0.0, frame: 0 };

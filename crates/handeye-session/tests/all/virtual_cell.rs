@@ -139,3 +139,44 @@ fn where_the_board_is_not_seen_no_capture_is_taken() {
     drop(folder);
     fs::remove_dir_all(root).unwrap();
 }
+
+#[test]
+fn corners_are_touched_and_judge_the_answer() {
+    let root = new_folder();
+    let mut player = player(&root, Setup::EyeInHand, 9);
+    begin(&mut player);
+    let refused = player.command(Command::Touch { corner: None }).unwrap_err();
+    assert!(refused.contains("in the step `touch`"), "{refused}");
+    player.play(&script(UNTIL_ENOUGH)).unwrap();
+    player.command(Command::Go { step: Step::Touch }).unwrap();
+    let mut corners = vec![];
+    for _ in 0..6 {
+        corners.push(player.state().touch.unwrap().corner);
+        player.play(&script(r#"[{"do": "drive", "to": "touch"}, {"do": "touch"}]"#)).unwrap();
+    }
+    // the outermost first
+    corners[..4].sort_unstable();
+    assert_eq!(corners[..4], [0, 8, 45, 53]);
+    let touch = player.state().touch.unwrap();
+    println!("{} touches, {:?} mm from the answer", touch.touches.len(), touch.rms_mm);
+    assert!(touch.touches.len() == 6 && touch.rms_mm.unwrap() < 0.5, "{touch:?}");
+
+    // one of them is taken out, and a wrong one is named
+    player.command(Command::Undo).unwrap();
+    assert_eq!(player.state().touch.unwrap().touches.len(), 5);
+    player.command(Command::Untouch { id: "t02".into() }).unwrap();
+    let names = |player: &Player| -> Vec<String> {
+        player.state().touch.unwrap().touches.into_iter().map(|t| t.id).collect()
+    };
+    assert_eq!(names(&player), ["t01", "t03", "t04", "t05"]);
+    player.command(Command::Finish).unwrap();
+    let result = read_result(&root.join("result/calibration.json")).unwrap();
+    assert_eq!(result.touches.len(), 4);
+    assert_eq!(result.verdict, Verdict::Accepted, "{:?}", result.reasons);
+    // and an ordinary dataset it is
+    let dataset = Dataset::open(&root).unwrap();
+    let (again, _) = calibrate_dataset(&dataset, &Config::default(), &|_, _| {}).unwrap();
+    assert_eq!(again.run_id, result.run_id);
+    drop(player);
+    fs::remove_dir_all(root).unwrap();
+}

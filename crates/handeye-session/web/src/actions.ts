@@ -97,6 +97,23 @@ function inCapture(app: App, state: State): Action {
   return takeAction(app, state);
 }
 
+const DONE_TOUCHES = 6; // then finishing is the next thing
+
+function inTouch(app: App, state: State): Action {
+  const count = state.touch?.touches?.length ?? 0;
+  if (state.virtual_cell?.driving) return act(app, "driving", { do: "cancel" }, false);
+  if (state.assessing) return act(app, "assessing_now", { do: "cancel" }, false);
+  if (!state.touch?.tip_mm) return act(app, "touch_it", { do: "touch" }, false);
+  if (count >= DONE_TOUCHES) return act(app, "finish", { do: "finish" });
+  if (state.virtual_cell && state.touch.at_corner !== true) return act(app, "drive_tip", { do: "drive", to: "touch" });
+  return { label: "touch_it", enabled: true, run: () => void touch(app) };
+}
+
+/** Takes a touch, of the pose that was typed where poses are. */
+async function touch(app: App): Promise<void> {
+  if (await sendTyped(app)) await app.send({ do: "touch" });
+}
+
 /** What the space bar does now. */
 export function primary(app: App, state: State): Action {
   const action = primaryOf(app, state);
@@ -107,6 +124,8 @@ function primaryOf(app: App, state: State): Action {
   switch (state.step) {
     case "capture":
       return inCapture(app, state);
+    case "touch":
+      return inTouch(app, state);
     case "result":
       if (!state.result) return act(app, "back_to_captures", { do: "go", step: "capture" });
       return { label: "open_report", enabled: true, icon: "page", run: openReport };
@@ -134,6 +153,11 @@ export function secondary(app: App, state: State): Action[] {
         ...stop,
         ...(isTaking ? [] : [takeAction(app, state)]),
         { ...act(app, "automatic", { do: "automatic", on: !state.automatic }), on: state.automatic === true },
+      ];
+    case "touch":
+      return [
+        ...(primary(app, state).label === "finish" ? [] : [act(app, "finish", { do: "finish" })]),
+        act(app, "back_to_captures", { do: "go", step: "capture" }),
       ];
     case "result":
       return state.result ? [act(app, "back_to_captures", { do: "go", step: "capture" })] : [];

@@ -24,6 +24,7 @@ import { makeStepCamera } from "./step_camera";
 import { makeStepCell } from "./step_cell";
 import { makeStepResult } from "./step_result";
 import { makeStepRobot } from "./step_robot";
+import { makeStepTouch } from "./step_touch";
 import { named, speak } from "./words";
 
 const app = makeApp(redraw);
@@ -35,9 +36,9 @@ const picture = makePicture(app);
 const speakOf = makeSpeaker(place("spoken"));
 
 /** Each part, and the steps in which it is seen. */
-const ALL: StepName[] = ["cell", "camera", "robot", "board", "capture", "result"];
-const WORK: StepName[] = ["robot", "capture"];
-const ANSWER: StepName[] = ["capture", "result"];
+const ALL: StepName[] = ["cell", "camera", "robot", "board", "capture", "touch", "result"];
+const WORK: StepName[] = ["robot", "capture", "touch"];
+const ANSWER: StepName[] = ["capture", "touch", "result"];
 const onStage: [Part, StepName[]][] = [
   [picture, ALL],
   [makeCell(app), WORK],
@@ -49,6 +50,7 @@ const onSide: [Part, StepName[]][] = [
   [makeStepCamera(app), ["camera"]],
   [makeStepRobot(app), ["robot"]],
   [makeStepBoard(app), ["board"]],
+  [makeStepTouch(app), ["touch"]],
   [makeFindings(app, "rejects"), ANSWER],
   [makeAccuracy(app), ["capture", "result"]],
   [makeCaptures(app), ["capture", "result"]],

@@ -103,7 +103,7 @@ export function makePosePanel(app: App): Part {
       attribute(joints, "aria-pressed", String(app.choices.joints));
       show(other, Boolean(next));
       typing.update(state);
-      show(typing.element, state.robot?.typed === true && state.step === "capture");
+      show(typing.element, state.robot?.typed === true && (state.step === "capture" || state.step === "touch"));
     },
   };
 }

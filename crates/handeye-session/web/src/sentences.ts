@@ -8,6 +8,7 @@ export const SENTENCES = {
   step_robot: ["Robot", "Roboter"],
   step_board: ["Board", "Tafel"],
   step_capture: ["Captures", "Aufnahmen"],
+  step_touch: ["Touches", "Antasten"],
   step_result: ["Result", "Ergebnis"],
   state_done: ["(done)", "(erledigt)"],
   state_now: ["(now)", "(jetzt)"],
@@ -193,6 +194,26 @@ export const SENTENCES = {
   ],
   type_pose: ["Type a pose", "Pose eintippen"],
   use_pose: ["Use this pose", "Diese Pose verwenden"],
+  // step: touch
+  tip: ["Tip of the tool", "Werkzeugspitze"],
+  tip_hint: [
+    "Where the tip is in the flange, as the tool of the robot's controller has it.",
+    "Wo die Spitze im Flansch ist, wie das Werkzeug in der Robotersteuerung.",
+  ],
+  tip_x: ["x", "x"],
+  tip_y: ["y", "y"],
+  tip_z: ["z", "z"],
+  touch_next: ["Corner to touch", "Anzutastende Ecke"],
+  touch_why: [
+    "The corner is where four squares meet. Touches are a second instrument: they show errors that camera and arm share.",
+    "Die Ecke ist, wo vier Felder sich treffen. Das Antasten ist ein zweites Messmittel: Es zeigt Fehler, die Kamera und Arm gemeinsam haben.",
+  ],
+  touches: ["Touches", "Angetastet"],
+  corner_number: ["Corner {number}", "Ecke {number}"],
+  touch_it: ["The tip is at the corner", "Die Spitze ist an der Ecke"],
+  drive_tip: ["Bring the tip there", "Spitze hinführen"],
+  go_touch: ["Touch corners", "Ecken antasten"],
+
   typed_otherwise: ["Typed in another notation?", "In anderer Schreibweise getippt?"],
   typed_otherwise_hint: [
     "The numbers of all captures stay as they are, and are read as those of the other notation.",

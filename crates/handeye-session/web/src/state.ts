@@ -12,7 +12,7 @@ export interface Pose {
   rotation_xyzw: [number, number, number, number];
 }
 
-export const STEPS = ["cell", "camera", "robot", "board", "capture", "result"] as const;
+export const STEPS = ["cell", "camera", "robot", "board", "capture", "touch", "result"] as const;
 export type StepName = (typeof STEPS)[number];
 
 export interface Step {
@@ -161,6 +161,23 @@ export interface Result {
   headline?: string;
 }
 
+/** Corners that are touched. */
+export interface Touching {
+  tip_mm?: Maybe<[number, number, number]>;
+  corner: number; // to be touched next
+  columns?: number;
+  touches?: Touch[];
+  rms_mm?: Maybe<number>;
+  at_corner?: Maybe<boolean>; // whether a virtual robot's tip is there
+}
+
+export interface Touch {
+  id: string;
+  corner: number;
+  residual_mm?: Maybe<number>;
+  used?: boolean;
+}
+
 export interface State {
   version: number;
   folder?: string;
@@ -182,6 +199,7 @@ export interface State {
   assessing?: boolean;
   assessed?: number; // changes with every assessment
   progress?: Maybe<Progress>;
+  touch?: Maybe<Touching>;
   result?: Maybe<Result>;
   virtual_cell?: Maybe<{ truth_error_mm?: Maybe<number>; driving?: boolean }>;
 }

@@ -1,0 +1,167 @@
+//! Corners that the tip of a tool touches: a second instrument beside the camera, and what closes directions that a robot
+//! with few axes leaves open.
+
+use handeye::{Point, Setup, Target, nalgebra::Vector3};
+
+use super::{
+    Change, Effect, Engine, Flow, Refusal, Step,
+    obey::{later, wrong},
+    rest::Motion,
+    say::{Proof, proof},
+    shown::{TouchShown, TouchView},
+};
+
+/// No tip is farther from the flange, mm.
+const FARTHEST_TIP_MM: f64 = 2000.0;
+/// Fewer touches say nothing about one another.
+const FEWEST: usize = 3;
+
+impl Engine {
+    /// Whether corners can be touched.
+    pub(super) fn may_touch(&self) -> Result<(), Refusal> {
+        if self.settings().setup == Setup::EyeToHand {
+            return Err(wrong(
+                "the robot carries the board and cannot touch it: for touches with a camera beside the robot lay boards into its view, and calibrate the folder (the book has a chapter on touches)",
+            ));
+        }
+        if self.settings().target.corners().is_empty() {
+            return Err(wrong("this target has no corners that could be touched"));
+        }
+        match self.folder.captures.is_empty() {
+            true => Err(later("first captures are taken, then corners are touched".into())),
+            false => Ok(()),
+        }
+    }
+
+    pub(super) fn tip(&mut self, in_flange_mm: [f64; 3]) -> Result<Vec<Effect>, Refusal> {
+        let far = Vector3::from(in_flange_mm).norm();
+        if !(far > 0.0 && far < FARTHEST_TIP_MM) {
+            return Err(wrong(
+                "the tip is three numbers of millimetres in the flange, not zero and not more than 2 m away",
+            ));
+        }
+        self.configure(handeye_io::CellSettings {
+            tip_mm: Some(in_flange_mm),
+            ..self.settings().clone()
+        })
+    }
+
+    /// The corner to touch next: the one with the largest product of distances to those that were touched.
+    pub(super) fn next_corner(&self) -> Option<u32> {
+        self.may_touch().ok()?;
+        let corners = self.settings().target.corners();
+        let target = &self.settings().target;
+        let touched: Vec<Point<Target>> =
+            self.folder.touches.iter().filter_map(|t| target.corner(t.corner)).collect();
+        let middle = corners.iter().map(Point::vector).sum::<Vector3<f64>>() / corners.len() as f64;
+        let room = |p: &Point<Target>| {
+            let apart = touched.iter().map(|t| (t.vector() - p.vector()).norm());
+            // the first one is an outermost one
+            apart.reduce(|a, b| a * b).unwrap_or_else(|| (p.vector() - middle).norm())
+        };
+        let best = (0..corners.len())
+            .rev()
+            .max_by(|a, b| room(&corners[*a]).total_cmp(&room(&corners[*b])))?;
+        Some(best as u32)
+    }
+
+    pub(super) fn touch(&mut self, corner: Option<u32>) -> Result<Vec<Effect>, Refusal> {
+        self.may_touch()?;
+        if self.step != Step::Touch {
+            return Err(later("corners are touched in the step `touch`".into()));
+        }
+        if self.settings().tip_mm.is_none() {
+            return Err(later("first say where the tool's tip is in the flange".into()));
+        }
+        let corner = corner.or_else(|| self.next_corner()).ok_or_else(|| wrong("which corner?"))?;
+        if self.settings().target.corner(corner).is_none() {
+            return Err(wrong(format!("the board has no corner {corner}")));
+        }
+        if let (Flow::Stream, Motion::Moves(why)) = (self.sources.robot, &self.rest.robot) {
+            return Err(later(format!("no touch was taken: {why}")));
+        }
+        let typed = self.sources.robot == Flow::Single;
+        let robot = self.robot.back().cloned().filter(|s| !typed || !self.is_used(s.time_s));
+        let robot = robot.ok_or_else(|| {
+            later("type the pose that the pendant shows with the tip at the corner".into())
+        })?;
+        self.note_touch(robot.time_s);
+        self.tip_at = None;
+        self.problem = None;
+        Ok(vec![Effect::StoreTouch { corner, robot }])
+    }
+
+    pub(super) fn untouch(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
+        match self.folder.touches.iter().any(|touch| touch.id == id) {
+            true => Ok(vec![Effect::Untouch(id)]),
+            false => Err(wrong(format!("there is no touch {id}"))),
+        }
+    }
+
+    pub(super) fn touched(&mut self, touched: Result<String, String>) -> Vec<Effect> {
+        match touched {
+            Ok(id) => self.changes.push(Change::Touched(id)),
+            Err(why) => self.trouble("not-written", why),
+        }
+        vec![]
+    }
+
+    pub(super) fn touch_proof(&self) -> Proof {
+        let count = self.folder.touches.len();
+        match (self.touch_view(), count) {
+            (None, _) => proof(true, "corners are not touched in this cell"),
+            (Some(_), 0) => proof(true, "no corner was touched; this step can be left out"),
+            (Some(view), _) => match view.rms_mm {
+                Some(rms) => {
+                    proof(true, format!("{count} touches, {rms:.2} mm (RMS) from the answer"))
+                }
+                None => proof(true, format!("{count} touches")),
+            },
+        }
+    }
+
+    pub(super) fn say_touch(&self) -> String {
+        let Some(view) = self.touch_view() else {
+            return "Corners are not touched in this cell.".into();
+        };
+        if view.tip_mm.is_none() {
+            return "Where is the tip of the touching tool in the flange? Enter it in millimetres."
+                .into();
+        }
+        if let Some(why) =
+            self.assessed.as_ref().filter(|_| !self.assessing).and_then(|a| a.contradiction())
+        {
+            return format!("Something is wrong: {}.", why.trim_end_matches('.'));
+        }
+        let go_on = match view.touches.len() < FEWEST {
+            true => "",
+            false => " Or finish.",
+        };
+        format!("Bring the tip to corner {} of the board, and touch it.{go_on}", view.corner)
+    }
+
+    /// What is shown of touches; `None` where none can be made.
+    pub(super) fn touch_view(&self) -> Option<TouchView> {
+        let corner = self.next_corner()?;
+        let result = self.assessed.as_ref().filter(|_| !self.assessing).map(|a| &a.calibration);
+        // of a corner that was touched several times, in that order
+        let of = |k: usize, corner: u32| {
+            let before = self.folder.touches[..k].iter().filter(|t| t.corner == corner).count();
+            result?.touches.iter().filter(|found| found.corner == corner).nth(before)
+        };
+        let shown = self.folder.touches.iter().enumerate().map(|(k, t)| TouchShown {
+            id: t.id.clone(),
+            corner: t.corner,
+            residual_mm: of(k, t.corner).map(|found| found.residual_mm),
+            used: of(k, t.corner).is_some_and(|found| found.used),
+        });
+        let touches: Vec<TouchShown> = shown.collect();
+        let all: Option<Vec<f64>> = touches.iter().map(|t| t.residual_mm).collect();
+        let rms_mm = all
+            .filter(|all| !all.is_empty())
+            .map(|all| (all.iter().map(|mm| mm * mm).sum::<f64>() / all.len() as f64).sqrt());
+        let (columns, _) = self.settings().target.grid();
+        let (tip_mm, at_corner) = (self.settings().tip_mm, self.tip_at == Some(corner));
+        Some(TouchView { tip_mm, corner, columns, touches, rms_mm, at_corner })
+    }
+}
