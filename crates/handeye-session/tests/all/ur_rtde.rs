@@ -282,3 +282,19 @@ fn random_bytes_neither_break_nor_stop_it() {
     listener.pose(&arm);
     simulator.stop();
 }
+
+#[test]
+fn hosts_and_ports_are_read() {
+    for (text, host, port) in [
+        ("192.168.1.5", "192.168.1.5", 30004),
+        ("ur5:40004", "ur5", 40004),
+        ("::1", "::1", 30004),
+        ("[fe80::1]:4", "fe80::1", 4),
+        ("[::1]", "::1", 30004),
+    ] {
+        assert_eq!(text.parse(), Ok(UrRobot::new(host, port)), "{text}");
+    }
+    for text in ["", ":30004", "ur5:", "ur5:0", "ur5:65536", "ur5:x", "[::1", "[::1]x", "a b"] {
+        assert!(text.parse::<UrRobot>().is_err(), "{text}");
+    }
+}

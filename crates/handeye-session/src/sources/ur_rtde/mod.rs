@@ -201,24 +201,3 @@ fn agree(wire: &mut Wire, until: Instant) -> Result<Recipe, Outage> {
         _ => Err(Outage::Refused(wire.said().into())),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn hosts_and_ports_are_read() {
-        for (text, host, port) in [
-            ("192.168.1.5", "192.168.1.5", PORT),
-            ("ur5:40004", "ur5", 40004),
-            ("::1", "::1", PORT),
-            ("[fe80::1]:4", "fe80::1", 4),
-            ("[::1]", "::1", PORT),
-        ] {
-            assert_eq!(text.parse(), Ok(UrRobot::new(host, port)), "{text}");
-        }
-        for text in ["", ":30004", "ur5:", "ur5:0", "ur5:65536", "ur5:x", "[::1", "[::1]x", "a b"] {
-            assert!(text.parse::<UrRobot>().is_err(), "{text}");
-        }
-    }
-}
