@@ -18,7 +18,10 @@ use handeye_session::{
     live::{Camera, Cell, Live},
     script::{Action, Player},
     server::{Server, line},
-    sources::virtual_cell::{Faults, VirtualCell},
+    sources::{
+        ur_rtde::UrRobot,
+        virtual_cell::{Faults, VirtualCell},
+    },
 };
 
 use crate::{args::GlobalArgs, browser, failure::Failure, output};
@@ -29,6 +32,7 @@ use crate::{args::GlobalArgs, browser, failure::Failure, output};
 \x20 handeye session --virtual\n\
 \x20 handeye session cell/ --images-from /mnt/camera --notation kuka --target board.toml\n\
 \x20 handeye session cell/ --camera-command 'python grab.py {out}' --intrinsics camera.yaml\n\
+\x20 handeye session cell/ --ur 192.168.1.5 --images-from /mnt/camera --target board.toml\n\
 \x20 handeye session cell/ --virtual 7 --headless --script steps.json --json\n\
 \n\
 The folder is an ordinary dataset at any moment: `handeye calibrate FOLDER` gives the same result. Exit code of a script: \
@@ -39,10 +43,10 @@ pub struct SessionArgs {
     /// A virtual cell in place of camera and robot, with this seed.
     #[arg(long = "virtual", value_name = "SEED", num_args = 0..=1, default_missing_value = "1")]
     pub seed: Option<u64>,
-    /// Folder in which another program saves images; poses are typed on the page.
+    /// Folder in which another program saves images; poses are typed on the page, or come by --ur or --robot.
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["seed", "camera_command"])]
     pub images_from: Option<PathBuf>,
-    /// Command that takes an image and writes it to {out}; poses are typed on the page.
+    /// Command that takes an image and writes it to {out}; poses are typed on the page, or come by --ur or --robot.
     #[arg(long, value_name = "COMMAND", conflicts_with = "seed")]
     pub camera_command: Option<String>,
     /// Who carries the camera: eye-in-hand (the robot, by default) or eye-to-hand.
@@ -72,6 +76,10 @@ pub struct SessionArgs {
     /// Address on which other machines can open the page, such as 0.0.0.0.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
     pub listen: IpAddr,
+    /// Universal Robots arm whose poses are read by RTDE, such as 192.168.1.5 (port 30004 where none is said); it cannot be
+    /// moved by that.
+    #[arg(long, value_name = "HOST[:PORT]", conflicts_with_all = ["seed", "robot"])]
+    pub ur: Option<UrRobot>,
     /// Address and port at which the robot's own program asks, such as 0.0.0.0:7777; it sends lines like `pose 612.3 -4.1
     /// 233 10 20 -170`.
     #[arg(long, value_name = "ADDRESS:PORT", conflicts_with = "seed")]
@@ -100,7 +108,7 @@ pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let cell = cell(args)?;
     let usual = match &cell {
         Cell::Virtual(cell) => cell.settings(),
-        Cell::Hand(_) => usual(),
+        Cell::Hand(_) | Cell::Ur(..) => usual(),
     };
     let mut folder = SessionFolder::open(&path, Some(&with_options(usual.clone(), args)?))?;
     if matches!(cell, Cell::Virtual(_)) && !folder.settings().is_of_same_cell(&usual) {
@@ -130,12 +138,20 @@ fn cell(args: &SessionArgs) -> Result<Cell, Failure> {
         (None, Some(folder), _) if !folder.is_dir() => {
             Err(Failure::Usage(format!("{} is not a folder", folder.display())))
         }
-        (None, Some(folder), _) => Ok(Cell::Hand(Camera::Folder(folder.clone()))),
-        (None, None, Some(command)) => Ok(Cell::Hand(Camera::Command(command.clone()))),
+        (None, Some(folder), _) => Ok(real(args, Camera::Folder(folder.clone()))),
+        (None, None, Some(command)) => Ok(real(args, Camera::Command(command.clone()))),
         (None, None, None) => {
             let what = "where do images come from? --virtual (to try it), --images-from FOLDER, or --camera-command COMMAND";
             Err(Failure::Usage(what.into()))
         }
+    }
+}
+
+/// A cell with this camera, and the robot that is named or whose poses are typed.
+fn real(args: &SessionArgs, camera: Camera) -> Cell {
+    match &args.ur {
+        Some(robot) => Cell::Ur(robot.clone(), camera),
+        None => Cell::Hand(camera),
     }
 }
 

@@ -20,6 +20,7 @@ use crate::{
     sources::{
         command, folder,
         outlet::{CameraImage, Outlet, Wanted},
+        ur_rtde::{self, UrRobot},
         virtual_cell::{VirtualCamera, VirtualCell},
     },
 };
@@ -30,6 +31,8 @@ pub enum Cell {
     Virtual(Box<VirtualCell>),
     /// Poses are typed; images come from somewhere.
     Hand(Camera),
+    /// Poses stream from a robot of Universal Robots; images come from somewhere.
+    Ur(UrRobot, Camera),
 }
 
 /// Where images come from, one by one.
@@ -158,12 +161,6 @@ enum Equipment {
 
 /// Starts the threads of the sources.
 fn connect(cell: Cell, outlet: &Outlet) -> (Sources, Equipment) {
-    let by_hand = |takes_images| Sources {
-        robot: Flow::Single,
-        camera: Flow::Single,
-        takes_images,
-        is_virtual: false,
-    };
     match cell {
         Cell::Virtual(cell) => {
             let cell = Arc::new(*cell);
@@ -171,12 +168,25 @@ fn connect(cell: Cell, outlet: &Outlet) -> (Sources, Equipment) {
             virtual_camera(cell.clone(), outlet.clone());
             (Sources::VIRTUAL, Equipment::Virtual(cell))
         }
-        Cell::Hand(Camera::Folder(path)) => {
-            folder::watch(path, outlet.clone());
-            (by_hand(false), Equipment::Nothing)
+        Cell::Hand(camera) => connect_camera(camera, Flow::Single, outlet),
+        Cell::Ur(robot, camera) => {
+            ur_rtde::stream(robot, outlet.clone());
+            connect_camera(camera, Flow::Stream, outlet)
         }
-        Cell::Hand(Camera::Command(line)) => {
-            (by_hand(true), Equipment::Command(command::grabber(line, outlet.clone())))
+    }
+}
+
+/// Starts the thread of a camera whose images come one by one, beside a robot whose poses come like this.
+fn connect_camera(camera: Camera, robot: Flow, outlet: &Outlet) -> (Sources, Equipment) {
+    let sources =
+        |takes_images| Sources { robot, camera: Flow::Single, takes_images, is_virtual: false };
+    match camera {
+        Camera::Folder(path) => {
+            folder::watch(path, outlet.clone());
+            (sources(false), Equipment::Nothing)
+        }
+        Camera::Command(line) => {
+            (sources(true), Equipment::Command(command::grabber(line, outlet.clone())))
         }
     }
 }

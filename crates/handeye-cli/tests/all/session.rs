@@ -263,6 +263,9 @@ fn a_script_plays_a_session_and_the_folder_gives_the_same_bytes() {
         (&["session", "cell", "--virtual", "4", "--no-open"][..], "session of another cell"),
         (&["session", "new"], "where do images come from?"),
         (&["session", "new", "--images-from", "nowhere"], "is not a folder"),
+        (&["session", "new", "--ur", "ur5"], "where do images come from?"),
+        (&["session", "new", "--ur", "ur5:0"], "the port is a number"),
+        (&["session", "new", "--ur", "ur5", "--virtual"], "cannot be used with"),
         (
             &["session", "new", "--virtual", "--headless", "--script", "cell/robot.csv"],
             "is no script",

@@ -48,12 +48,19 @@ pub enum Input {
 /// What went wrong.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Problem {
-    /// A fixed name.
+    /// A fixed name; it begins with `robot-` where poses do not come.
     pub code: String,
     /// What.
     pub message: String,
     /// What to do.
     pub advice: String,
+}
+
+impl Problem {
+    /// Whether no poses came from the robot: it is over with the next one.
+    pub(super) fn is_of_robot(&self) -> bool {
+        self.code.starts_with("robot-")
+    }
 }
 
 /// How poses or images come.

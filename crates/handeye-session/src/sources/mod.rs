@@ -5,4 +5,5 @@ pub mod command;
 pub mod folder;
 pub mod mistakes;
 pub mod outlet;
+pub mod ur_rtde;
 pub mod virtual_cell;

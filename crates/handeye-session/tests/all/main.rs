@@ -8,6 +8,10 @@ mod gate;
 mod line;
 mod mistakes;
 mod standstill;
+mod ur_fields;
+mod ur_rtde;
+mod ur_rtde_live;
+mod ur_simulator;
 mod virtual_cell;
 
 use std::{
