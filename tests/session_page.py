@@ -28,12 +28,14 @@ AXE = ROOT / "crates/handeye-session/web/node_modules/axe-core/axe.min.js"
 NO_OTHER_HOST = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"
 CHOICES = ["cell", "camera", "robot", "board"]
 FORMAT = "quaternion-xyzw"
+TOUCHES = 6
 
 STEP = "document.body?.dataset.step"
 PRIMARY = "document.querySelector('button.primary')"
 # what the primary button does; empty while it cannot be pressed
 ACTION = f"({PRIMARY}.getAttribute('aria-disabled') ? '' : {PRIMARY}.querySelector('[data-say]').dataset.say)"
 STATE = f"JSON.stringify([{STEP}, {ACTION}])"
+TOUCH_STEP = "document.querySelector('[data-say=step_touch]').closest('button')"
 # what is the same in every tab
 SHOWN = f"""JSON.stringify([{STEP}, ...['h1', '.accuracy .number', 'ol.captures', '.banner']
     .map((part) => document.querySelector(part).textContent)])"""
@@ -114,8 +116,10 @@ def main():
         captures = with_mouse(page, folder, pictures)
         same_bytes(program, folder)
         assert page.clicks <= MOST_CLICKS, f"{page.clicks} clicks"
-        assert not list(page.wrong()), list(page.wrong())
         clicks = page.clicks
+        with_touches(page, folder, pictures)
+        same_bytes(program, folder)
+        assert not list(page.wrong()), list(page.wrong())
     with opened(program) as (page, folder):
         again = with_keys(page, folder)
         same_bytes(program, folder)
@@ -164,6 +168,24 @@ def with_mouse(page, folder, pictures):
     alike(page, tab)
     assert not list(tab.wrong()), list(tab.wrong())
     return count(page)
+
+
+def with_touches(page, folder, pictures):
+    """Corners are touched with the tip, and the result is one with touches."""
+    page.click(TOUCH_STEP)
+    page.wait(f"{STEP} == 'touch'", "the step touch")
+    touched = "document.querySelectorAll('ol.touches > li').length"
+    for number in range(1, TOUCHES + 1):
+        page.act(lambda: page.click(PRIMARY), "touch")  # the tip is brought there
+        page.act(lambda: page.click(PRIMARY), "touch")
+        page.wait(f"{touched} == {number}", f"{number} touches")
+        page.wait(ACTION, "the touches are assessed")
+        if number == TOUCHES // 2:
+            look(page, "touch", pictures)
+    page.act(lambda: page.click(PRIMARY), "touch")
+    page.wait(f"{STEP} == 'result'", "the result")
+    result = json.loads((folder / "result" / "calibration.json").read_text())
+    assert result["verdict"] == "accepted" and len(result["touches"]) == TOUCHES, result["verdict"]
 
 
 def with_keys(page, folder):

@@ -61,8 +61,8 @@ pub struct Engine {
     written: Option<Written>,
     used: hand::Used,
     grabbing: bool,
-    /// The corner to which the tip of a virtual cell's tool was led.
-    tip_at: Option<u32>,
+    /// The corner to which the tip of a virtual cell's tool is led, and since when, s.
+    tip_to: Option<(u32, f64)>,
 }
 
 /// What can be undone.
@@ -111,7 +111,7 @@ impl Engine {
             written: None,
             used: hand::Used::default(),
             grabbing: false,
-            tip_at: None,
+            tip_to: None,
         };
         let effects = engine.assess();
         (engine, effects)

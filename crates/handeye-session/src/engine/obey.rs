@@ -222,10 +222,10 @@ impl Engine {
         if to == Destination::Touch {
             let none = || later("no corner is to be touched".into());
             let corner = self.next_corner().ok_or_else(none)?;
-            self.tip_at = Some(corner);
+            self.tip_to = Some((corner, self.now));
             return Ok(vec![Effect::DriveTip(corner)]);
         }
-        self.tip_at = None;
+        self.tip_to = None;
         let next = self.next().ok_or_else(|| later("there is no next view yet".into()))?;
         Ok(vec![Effect::Drive(next.base_from_flange)])
     }

@@ -85,10 +85,22 @@ impl Engine {
         let robot = robot.ok_or_else(|| {
             later("type the pose that the pendant shows with the tip at the corner".into())
         })?;
+        if self.tip_to.is_some() && !self.is_tip_there(corner) {
+            return Err(later("no touch was taken: the robot is on its way to the corner".into()));
+        }
         self.note_touch(robot.time_s);
-        self.tip_at = None;
+        self.tip_to = None;
         self.problem = None;
         Ok(vec![Effect::StoreTouch { corner, robot }])
+    }
+
+    /// Whether the tip of a virtual cell's tool was led to a corner, and stands there.
+    fn is_tip_there(&self, corner: u32) -> bool {
+        let since = match self.rest.robot {
+            Motion::Stands(since) => since,
+            Motion::Moves(_) => return false,
+        };
+        self.tip_to.is_some_and(|(to, begun)| to == corner && since > begun)
     }
 
     pub(super) fn untouch(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
@@ -161,7 +173,7 @@ impl Engine {
             .filter(|all| !all.is_empty())
             .map(|all| (all.iter().map(|mm| mm * mm).sum::<f64>() / all.len() as f64).sqrt());
         let (columns, _) = self.settings().target.grid();
-        let (tip_mm, at_corner) = (self.settings().tip_mm, self.tip_at == Some(corner));
+        let (tip_mm, at_corner) = (self.settings().tip_mm, self.is_tip_there(corner));
         Some(TouchView { tip_mm, corner, columns, touches, rms_mm, at_corner })
     }
 }
