@@ -63,6 +63,7 @@ impl Host {
                 let made = made.as_ref().map(|png| ("png", &png[..]));
                 let stored = self.folder.take(&NewCapture {
                     base_from_flange: robot.base_from_flange,
+                    typed: &robot.typed,
                     joints: &robot.joints,
                     robot_time_s: Some(robot.time_s),
                     image_time_s: Some(image_time_s),
@@ -74,7 +75,8 @@ impl Host {
                 vec![Input::Folder(Box::new(self.state())), Input::Stored(stored)]
             }
             Effect::StoreTouch { corner, robot } => {
-                let stored = self.folder.touch(corner, robot.base_from_flange, robot.time_s);
+                let stored =
+                    self.folder.touch(corner, (robot.base_from_flange, &robot.typed), robot.time_s);
                 let stored = stored.map_err(|e| e.to_string());
                 vec![Input::Folder(Box::new(self.state())), Input::Touched(stored)]
             }

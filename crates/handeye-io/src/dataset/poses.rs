@@ -335,8 +335,28 @@ impl Writing {
     /// # Errors
     /// What was read instead.
     pub fn typed(&self, text: &str) -> Result<Pose<Base, Flange>, String> {
-        let values = self.notation.typed(text)?;
-        let written = self.notation.pose(&values, self.units)?;
+        self.pose(&self.typed_numbers(text)?)
+    }
+
+    /// The numbers of a pose that is typed, in order.
+    ///
+    /// # Errors
+    /// What was read instead.
+    pub fn typed_numbers(&self, text: &str) -> Result<Vec<f64>, String> {
+        self.notation.typed(text)
+    }
+
+    /// The pose of the flange that has these numbers.
+    ///
+    /// # Errors
+    /// Numbers of no pose.
+    pub fn pose(&self, values: &[f64]) -> Result<Pose<Base, Flange>, String> {
+        let count = self.notation.columns.len();
+        if values.len() != count {
+            let name = &self.notation.name;
+            return Err(format!("{name} has {count} numbers, these are {}", values.len()));
+        }
+        let written = self.notation.pose(values, self.units)?;
         if let Some(far) = farthest(written.translation.vector.as_slice()) {
             let unit = self.units.length.name();
             return Err(format!(

@@ -30,6 +30,9 @@ pub struct StoredCapture {
     pub scan: Option<String>,
     /// What the robot reported.
     pub base_from_flange: Pose<Base, Flange>,
+    /// The numbers from which that was read, where they were typed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub typed: Vec<f64>,
     /// Its joint values (rad, m), where it gave those.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<f64>,
@@ -62,6 +65,9 @@ pub struct StoredTouch {
     pub corner: u32,
     /// What the robot reported.
     pub base_from_flange: Pose<Base, Flange>,
+    /// The numbers from which that was read, where they were typed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub typed: Vec<f64>,
     /// When, s.
     pub time_s: f64,
 }
@@ -84,23 +90,8 @@ pub(super) enum Line {
     Touch(StoredTouch),
     /// A touch was deleted.
     Untouch(String),
-    /// The numbers of the poses up to here were typed in another notation than they were read in.
-    Reread {
-        /// As what they were read.
-        read: String,
-        /// What they are.
-        written: String,
-    },
-}
-
-/// The pose of which the numbers were typed that were read in one notation, and are written in another.
-pub(super) fn reread(
-    pose: &Pose<Base, Flange>,
-    read: &str,
-    written: &str,
-) -> Result<Pose<Base, Flange>, String> {
-    let numbers = Writing::of(read)?.numbers(pose).into_iter().map(|x| format!("{x:.9}"));
-    Writing::of(written)?.typed(&numbers.collect::<Vec<_>>().join(" "))
+    /// The poses up to here were typed in this notation, whatever was said before; it is that of the cell from now on.
+    Reread(String),
 }
 
 /// The journal's file, and what it says.
@@ -141,15 +132,22 @@ impl Journal {
 
     /// A line, and what it changes in those before it.
     fn add(&mut self, line: Line) {
-        if let Line::Reread { read, written } = &line {
+        if let Line::Reread(notation) = &line {
+            let reading = Writing::of(notation);
             for before in &mut self.lines {
-                let pose = match before {
-                    Line::Take(capture) => &mut capture.base_from_flange,
-                    Line::Touch(touch) => &mut touch.base_from_flange,
+                let (pose, typed) = match before {
+                    Line::Take(c) => (&mut c.base_from_flange, &c.typed),
+                    Line::Touch(t) => (&mut t.base_from_flange, &t.typed),
+                    Line::Cell(settings) => {
+                        settings.notation.clone_from(notation);
+                        continue;
+                    }
                     _ => continue,
                 };
                 // it was tried before the line was written
-                *pose = reread(pose, read, written).unwrap_or(*pose);
+                if let Some(again) = reading.as_ref().ok().and_then(|r| r.pose(typed).ok()) {
+                    *pose = again;
+                }
             }
         }
         self.lines.push(line);

@@ -50,6 +50,8 @@ pub struct SessionFolder {
 pub struct NewCapture<'a> {
     /// The flange's pose, as the robot reported it.
     pub base_from_flange: Pose<Base, Flange>,
+    /// The numbers from which that was read, where they were typed.
+    pub typed: &'a [f64],
     /// Joint values (rad, m), where the robot gave those.
     pub joints: &'a [f64],
     /// When the robot stood there, s.
@@ -157,27 +159,27 @@ impl SessionFolder {
     /// Reads the numbers of all poses again, as those of another notation: they were typed in it, and nobody had said so.
     ///
     /// # Errors
-    /// Poses that are none in the other notation; a folder that cannot be written.
+    /// Poses that were not typed, or are none in the other notation; a folder that cannot be written.
     pub fn reread(&mut self, notation: &str) -> Result<(), Error> {
-        let (read, written) = (self.settings.notation.clone(), notation.to_owned());
-        for touch in self.journal.touched() {
-            journal::reread(&touch.base_from_flange, &read, &written).map_err(|why| {
-                unusable(
-                    &self.root,
-                    format!("touch {} is not written as {written}: {why}", touch.id),
-                )
-            })?;
+        let reading = Writing::of(notation).map_err(|why| unusable(&self.root, why))?;
+        let captures = self.journal.taken().into_iter().map(|c| (&c.id, &c.typed));
+        let touches = self.journal.touched().into_iter().map(|t| (&t.id, &t.typed));
+        for (id, typed) in captures.chain(touches) {
+            let why = match typed.is_empty() {
+                true => "was not typed, the robot gave it".to_owned(),
+                false => match reading.pose(typed) {
+                    Ok(_) => continue,
+                    Err(why) => format!("is none of {notation}: {why}"),
+                },
+            };
+            return Err(unusable(
+                &self.root,
+                format!("the pose of {id} {why}; nothing is read again"),
+            ));
         }
-        for capture in self.journal.taken() {
-            journal::reread(&capture.base_from_flange, &read, &written).map_err(|why| {
-                unusable(
-                    &self.root,
-                    format!("capture {} is not written as {written}: {why}", capture.id),
-                )
-            })?;
-        }
-        self.journal.append(Line::Reread { read, written: written.clone() })?;
-        self.set(&CellSettings { notation: written, ..self.settings.clone() })
+        self.journal.append(Line::Reread(notation.into()))?;
+        self.settings.notation = notation.into();
+        self.settle()
     }
 
     /// Stores a capture; what it returns, its name, is never used for another.
@@ -208,6 +210,7 @@ impl SessionFolder {
                 image,
                 scan,
                 base_from_flange: capture.base_from_flange,
+                typed: capture.typed.to_vec(),
                 joints: capture.joints.to_vec(),
                 robot_time_s: capture.robot_time_s,
                 image_time_s: capture.image_time_s,
@@ -227,26 +230,24 @@ impl SessionFolder {
         self.journal.touches()
     }
 
-    /// Stores a touch of a corner with the flange there; returns its name.
+    /// Stores a touch of a corner with the flange there, a pose that was read from the `typed` numbers if there are any; returns
+    /// its name.
     ///
     /// # Errors
     /// A corner that the board has not; a folder that cannot be written.
     pub fn touch(
         &mut self,
         corner: u32,
-        base_from_flange: Pose<Base, Flange>,
+        (base_from_flange, typed): (Pose<Base, Flange>, &[f64]),
         time_s: f64,
     ) -> Result<String, Error> {
         if self.settings.target.corner(corner).is_none() {
             return Err(unusable(&self.root, format!("the board has no corner {corner}")));
         }
         let id = format!("t{:02}", self.journal.touched().len() + 1);
-        self.journal.append(Line::Touch(StoredTouch {
-            id: id.clone(),
-            corner,
-            base_from_flange,
-            time_s,
-        }))?;
+        let typed = typed.to_vec();
+        let touch = StoredTouch { id: id.clone(), corner, base_from_flange, typed, time_s };
+        self.journal.append(Line::Touch(touch))?;
         self.settle()?;
         Ok(id)
     }

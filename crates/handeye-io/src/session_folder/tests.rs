@@ -41,6 +41,7 @@ fn take(folder: &mut SessionFolder, recording: &Recording, which: &[usize]) -> V
         folder
             .take(&NewCapture {
                 base_from_flange: recording.base_from_flange[k],
+                typed: &[],
                 joints: &[],
                 robot_time_s: Some(k as f64),
                 image_time_s: None,
@@ -170,21 +171,19 @@ fn other_folders_and_damaged_journals_are_refused_with_what_to_do() {
 
 #[test]
 fn numbers_that_were_typed_in_another_notation_are_read_again() {
-    let (root, cell) = (new_folder(), cell());
-    let recording = cell.record(0).unwrap();
-    let read_as_fanuc = CellSettings { notation: "fanuc".into(), ..settings(&cell) };
-    let mut folder = SessionFolder::open(&root, Some(&read_as_fanuc)).unwrap();
-    // the pendant shows them as a KUKA does: the numbers are the same, their order of rotations is not
-    let kuka = Writing::of("kuka").unwrap();
-    let typed = |k: usize| {
-        let numbers = kuka.numbers(&recording.base_from_flange[k]);
-        let text: Vec<String> = numbers.iter().map(|x| format!("{x:.6}")).collect();
-        Writing::of("fanuc").unwrap().typed(&text.join(" ")).unwrap()
-    };
-    for k in 0..2 {
-        let base_from_flange = typed(k);
+    // what was read first, what the pendant shows, and numbers of it that no pose gives back in the first reading
+    for (first, really, numbers) in [
+        ("fanuc", "kuka", [612.3, -4.1, 233.0, 10.0, 20.0, -170.0]),
+        ("kuka", "doosan", [612.3, -4.1, 233.0, 45.0, 170.0, 45.0]),
+        ("ur", "ur-rpy", [0.6, -0.1, 0.4, 3.0, 0.1, 1.6]),
+    ] {
+        let (root, cell) = (new_folder(), cell());
+        let settings = CellSettings { notation: first.into(), ..settings(&cell) };
+        let mut folder = SessionFolder::open(&root, Some(&settings)).unwrap();
+        let read = |notation: &str| Writing::of(notation).unwrap().pose(&numbers).unwrap();
         let capture = NewCapture {
-            base_from_flange,
+            base_from_flange: read(first),
+            typed: &numbers,
             joints: &[],
             robot_time_s: None,
             image_time_s: None,
@@ -192,22 +191,37 @@ fn numbers_that_were_typed_in_another_notation_are_read_again() {
             scan: None,
         };
         folder.take(&capture).unwrap();
-    }
-    let off = |folder: &SessionFolder, k: usize| {
-        let pose = folder.captures()[k].base_from_flange;
-        let truth = recording.base_from_flange[k];
-        pose.distance_to(&truth) + pose.angle_to(&truth)
-    };
-    assert!(off(&folder, 0) > 0.1 && off(&folder, 1) > 0.1);
-    folder.reread("kuka").unwrap();
-    assert!(off(&folder, 0) < 1e-7 && off(&folder, 1) < 1e-7);
+        folder.touch(3, (read(first), &numbers), 1.0).unwrap();
+        // whether or not the notation was corrected before, and twice is as good as once
+        folder.set(&CellSettings { notation: really.into(), ..settings }).unwrap();
+        folder.reread(really).unwrap();
+        folder.reread(really).unwrap();
+        let off = |folder: &SessionFolder| {
+            let poses =
+                [folder.captures()[0].base_from_flange, folder.touches()[0].base_from_flange];
+            poses.map(|pose| pose.distance_to(&read(really)) + pose.angle_to(&read(really)))
+        };
+        assert!(off(&folder).iter().all(|off| *off < 1e-9), "{first} {:?}", off(&folder));
 
-    // and so they are when the folder is opened again, and in its table
+        // and so they are when the folder is opened again
+        drop(folder);
+        let folder = SessionFolder::open(&root, None).unwrap();
+        assert!(off(&folder).iter().all(|off| *off < 1e-9), "{first} {:?}", off(&folder));
+        assert_eq!(folder.settings().notation, really);
+        drop(folder);
+        fs::remove_dir_all(root).unwrap();
+    }
+}
+
+#[test]
+fn poses_that_nobody_typed_are_not_read_again() {
+    let (root, cell) = (new_folder(), cell());
+    let recording = cell.record(0).unwrap();
+    let mut folder = SessionFolder::open(&root, Some(&settings(&cell))).unwrap();
+    take(&mut folder, &recording, &[0]);
+    let why = folder.reread("kuka").unwrap_err().to_string();
+    assert!(why.contains("the robot gave it"), "{why}");
+    assert_eq!(folder.settings().notation, "ur");
     drop(folder);
-    let folder = SessionFolder::open(&root, None).unwrap();
-    assert!(off(&folder, 0) < 1e-7 && off(&folder, 1) < 1e-7);
-    assert_eq!(folder.settings().notation, "kuka");
-    let table = fs::read_to_string(root.join("robot.csv")).unwrap();
-    assert!(table.starts_with("id,x,y,z,A,B,C\n"), "{table}");
     fs::remove_dir_all(root).unwrap();
 }

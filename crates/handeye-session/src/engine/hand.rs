@@ -7,7 +7,7 @@ use handeye_io::Writing;
 use super::{
     Effect, Engine, Flow, Refusal,
     obey::{later, wrong},
-    rest::{Motion, RobotSample},
+    rest::{Motion, RobotSample, UNKNOWN_DELAY_S},
 };
 
 /// The last pose and image that a capture was made of.
@@ -64,7 +64,10 @@ impl Engine {
                 let newest = image
                     .filter(|p| Some(p.frame) != self.used.frame && is_own(p.time_s))
                     .ok_or("waiting for the image of this pose")?;
-                let is_old = self.sources.robot == Flow::Stream && newest.time_s < robot_since;
+                // of a file nobody knows how long it was on its way
+                let on_its_way = if self.sources.takes_images { 0.0 } else { UNKNOWN_DELAY_S };
+                let taken = newest.time_s - on_its_way;
+                let is_old = self.sources.robot == Flow::Stream && taken < robot_since;
                 match &newest.corners {
                     _ if is_old => {
                         Err("the image is of before the standstill: take another one".into())
@@ -116,16 +119,27 @@ impl Engine {
         vec![Effect::Grab]
     }
 
+    /// Until poses are read again, nobody knows how a new one would be.
+    pub(super) fn not_rereading(&self) -> Result<(), Refusal> {
+        match self.rereading {
+            true => Err(later("the poses are being read again: in a moment".into())),
+            false => Ok(()),
+        }
+    }
+
     /// A pose that was typed.
     pub(super) fn typed(&mut self, text: &str) -> Result<Vec<Effect>, Refusal> {
         if self.sources.robot == Flow::Stream {
             return Err(later("poses come from the robot in this session, none are typed".into()));
         }
         let writing = Writing::of(&self.folder.settings.notation).map_err(wrong)?;
+        self.not_rereading()?;
+        let typed = writing.typed_numbers(text).map_err(wrong)?;
+        // with all that is checked of a pose that is typed
         let base_from_flange = writing.typed(text).map_err(wrong)?;
         // each has a time of its own
         let last = self.robot.back().map_or(f64::NEG_INFINITY, |s| s.time_s);
         let time_s = self.now.max(last + 1e-6);
-        Ok(self.robot_at(RobotSample { time_s, base_from_flange, joints: vec![] }))
+        Ok(self.robot_at(RobotSample { time_s, base_from_flange, typed, joints: vec![] }))
     }
 }

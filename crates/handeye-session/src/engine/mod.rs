@@ -61,6 +61,8 @@ pub struct Engine {
     written: Option<Written>,
     used: hand::Used,
     grabbing: bool,
+    /// Poses are being read again.
+    rereading: bool,
     /// The corner to which the tip of a virtual cell's tool is led, and since when, s.
     tip_to: Option<(u32, f64)>,
 }
@@ -111,6 +113,7 @@ impl Engine {
             written: None,
             used: hand::Used::default(),
             grabbing: false,
+            rereading: false,
             tip_to: None,
         };
         let effects = engine.assess();
@@ -149,6 +152,7 @@ impl Engine {
             Input::Stored(stored) => self.stored(stored),
             Input::Touched(touched) => self.touched(touched),
             Input::Failed(why) => {
+                self.rereading = false;
                 self.trouble("not-written", why);
                 vec![]
             }
@@ -167,6 +171,7 @@ impl Engine {
     /// What the folder holds now; where that is something else, it is assessed anew.
     fn holds(&mut self, folder: FolderState) -> Vec<Effect> {
         let has_changed = folder != self.folder;
+        self.rereading = false;
         self.folder = folder;
         if has_changed { self.assess() } else { vec![] }
     }

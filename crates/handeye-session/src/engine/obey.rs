@@ -4,7 +4,8 @@ use handeye::Setup;
 use handeye_io::{CellSettings, Writing};
 
 use super::{
-    Change, Command, Destination, Effect, Engine, Flow, Step,
+    Change, Command, Destination, Effect, Engine, Flow, Problem, Step,
+    say::WHETHER_MOVED,
     taking::{Asked, Wish},
 };
 use crate::assess::ProposedView;
@@ -160,6 +161,7 @@ impl Engine {
             return Err(wrong("poses come from the robot itself in this session, none are typed"));
         }
         self.robot.clear();
+        self.rereading = true;
         Ok(vec![Effect::Reread(name)])
     }
 
@@ -167,14 +169,20 @@ impl Engine {
         if self.step != Step::Capture {
             return Err(later("captures are taken in the step `capture`".into()));
         }
+        self.not_rereading()?;
         if self.storing {
             return Err(later("a capture is being stored".into()));
         }
         if self.wish.is_none() {
             self.wish = Some(Wish::new(self.now, Asked::Person));
         }
-        self.problem = None;
+        self.forget_problem();
         Ok(self.wait())
+    }
+
+    /// What was wrong with the last capture or touch; what is wrong with the robot stays.
+    pub(super) fn forget_problem(&mut self) {
+        self.problem = self.problem.take().filter(Problem::is_of_robot);
     }
 
     fn delete(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
@@ -206,10 +214,14 @@ impl Engine {
         if self.folder.captures.is_empty() {
             return Err(later("there are no captures yet".into()));
         }
+        // a capture that says that something has moved would not be heard
+        if self.storing || self.assessing {
+            return Err(later("the captures are still being assessed: finish then".into()));
+        }
         // whether the camera still is where it was is then not known, and a result would not say so
         if let Some(id) = self.newest_left_out() {
             return Err(later(format!(
-                "the newest capture, {id}, does not fit to those before it: take another one, which tells whether camera or board were moved since, or delete it"
+                "the newest capture, {id}, does not fit to those before it. {WHETHER_MOVED}"
             )));
         }
         Ok(vec![Effect::Write])

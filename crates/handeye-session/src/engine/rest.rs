@@ -24,6 +24,8 @@ pub struct RobotSample {
     pub time_s: f64,
     /// Where the flange is.
     pub base_from_flange: Pose<Base, Flange>,
+    /// The numbers from which that was read, where they were typed.
+    pub typed: Vec<f64>,
     /// Its joint values (rad, m), where it gives those.
     pub joints: Vec<f64>,
 }
@@ -107,7 +109,7 @@ const ELSEWHERE: f64 = 6.0;
 /// Samples older than this are of no use: robot or camera have fallen silent, s.
 const SILENT_S: f64 = 2.0;
 /// While the delay of the images is not known, robot and image stand together for so long, s: no camera is later.
-const UNKNOWN_DELAY_S: f64 = 1.5;
+pub(super) const UNKNOWN_DELAY_S: f64 = 1.5;
 /// An image that stands since so much before the robot did may still be of the same approach, s.
 const BEFORE_S: f64 = 0.25;
 /// Motions of the robot that every image shows, m and rad.

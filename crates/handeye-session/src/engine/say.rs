@@ -24,6 +24,11 @@ pub(super) fn proof(proven: bool, text: impl Into<String>) -> Proof {
     Proof { text: text.into(), proven }
 }
 
+/// No flange is nearer to the origin of its base, m.
+const NEAREST_M: f64 = 0.005;
+/// None is farther, on tracks and gantries either, m.
+const FARTHEST_M: f64 = 20.0;
+
 impl Engine {
     pub(super) fn proof(&self, step: Step) -> Proof {
         match step {
@@ -92,22 +97,19 @@ impl Engine {
         }
         let at = last.base_from_flange.translation() * 1e3;
         let place = format!("the flange is at x {:.1}, y {:.1}, z {:.1} mm", at.x, at.y, at.z);
+        let far = at.norm() * 1e-3;
         let (least, most) = mistakes::REACH;
-        match at.norm() * 1e-3 {
-            far if far < least => proof(
-                false,
-                format!(
-                    "{place}, inside the robot's foot: are its lengths in another unit, or is this another notation?"
-                ),
-            ),
-            far if far > most => proof(
-                false,
-                format!(
-                    "{place}, farther than arms reach: are its lengths in another unit, or is this another notation?"
-                ),
-            ),
-            _ => proof(true, place),
+        if (least..most).contains(&far) {
+            return proof(true, place);
         }
+        let is_possible = (NEAREST_M..FARTHEST_M).contains(&far);
+        let asked = "are its lengths in another unit, or is this another notation?";
+        proof(
+            is_possible,
+            format!(
+                "{place}: {far:.3} m from the origin of the base, where arms are {least} to {most} m from it; {asked}"
+            ),
+        )
     }
 
     fn board_proof(&self) -> Proof {
@@ -213,7 +215,8 @@ impl Engine {
         let id = &self.folder.captures.last()?.id;
         let captures = &assessed.calibration.captures;
         let used = captures.iter().filter(|c| c.used).count();
-        let is_left_out = captures.iter().any(|c| c.id == *id && !c.used);
+        // one that repeats another, or shows no board, says nothing against the others
+        let is_left_out = assessed.calibration.rejected.contains(id);
         // few captures do not tell which of them is wrong
         let is_known = captures.len() > KNOWN && 2 * used > captures.len();
         (is_left_out && is_known).then_some(&id[..])
@@ -224,10 +227,7 @@ impl Engine {
         let capture = assessed.calibration.captures.iter().find(|c| c.id == id);
         let why =
             capture.and_then(|c| c.reason.as_deref()).unwrap_or("it does not fit to the others");
-        format!(
-            "Capture {id} is left out: {}. Take another one: it tells whether camera or board were moved. If they were, begin anew from here; if not, delete this one.",
-            why.trim_end_matches('.')
-        )
+        format!("Capture {id} is left out: {}. {WHETHER_MOVED}.", why.trim_end_matches('.'))
     }
 
     /// Whether a robot whose poses stream stands at the view, so far as the planner tells views apart.
@@ -267,7 +267,7 @@ fn reasons(all: &[String]) -> String {
 }
 
 /// What is wrong comes before where to drive next.
-fn contradiction(why: &str, captures: usize) -> String {
+pub(super) fn contradiction(why: &str, captures: usize) -> String {
     let why = match why.ends_with('?') {
         true => why.to_owned(),
         false => format!("{}.", why.trim_end_matches('.')),
@@ -280,6 +280,9 @@ fn contradiction(why: &str, captures: usize) -> String {
     }
 }
 
+/// What to do about a newest capture that does not fit.
+pub(super) const WHETHER_MOVED: &str = "Take another one: it tells whether camera or board were moved. If one was, begin a new session; if none was, delete this capture";
+
 /// Views before anything can be planned: they differ in what every cell needs.
 fn first_views(captures: &[StoredCapture]) -> String {
     let tilt = match captures.len() {
@@ -290,7 +293,7 @@ fn first_views(captures: &[StoredCapture]) -> String {
     format!("{tilt}, with the whole board in the image, and take a capture.")
 }
 
-fn capitalised(text: &str) -> String {
+pub(super) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

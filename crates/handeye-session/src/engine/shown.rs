@@ -195,7 +195,7 @@ pub struct TouchView {
     pub columns: u32,
     /// Those that were touched.
     pub touches: Vec<TouchShown>,
-    /// How far the tip was from where the answer puts the corners, mm.
+    /// How far the tip was from where the answer puts the corners, RMS over the touches that are used, mm.
     pub rms_mm: Option<f64>,
     /// Whether the tip of a virtual cell's tool was led to the corner.
     pub at_corner: bool,

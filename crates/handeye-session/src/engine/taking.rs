@@ -17,7 +17,7 @@ const LOOKING_S: f64 = 2.5;
 /// A robot stands at another pose, rad and m.
 pub(super) const ELSEWHERE: Residual = Residual { angle: 0.03, distance: 0.01 };
 /// A robot that has moved is not within this of where it was, rad and m.
-const THE_SAME_POSE: Residual = Residual { angle: 2e-5, distance: 2e-5 };
+pub(super) const THE_SAME_POSE: Residual = Residual { angle: 2e-5, distance: 2e-5 };
 /// An image of the same pose is not this far from it, px.
 const ANOTHER_IMAGE_PX: f64 = 3.0;
 /// Approaches from which the delay of the images is known.

@@ -1,14 +1,16 @@
 //! Corners that the tip of a tool touches: a second instrument beside the camera, and what closes directions that a robot
 //! with few axes leaves open.
 
-use handeye::{Point, Setup, Target, nalgebra::Vector3};
+use handeye::{Point, Setup, Target, model::residual::Residual, nalgebra::Vector3};
+use handeye_io::StoredTouch;
 
 use super::{
     Change, Effect, Engine, Flow, Refusal, Step,
     obey::{later, wrong},
     rest::Motion,
-    say::{Proof, proof},
+    say::{Proof, capitalised, contradiction, proof},
     shown::{TouchShown, TouchView},
+    taking::THE_SAME_POSE,
 };
 
 /// No tip is farther from the flange, mm.
@@ -77,6 +79,10 @@ impl Engine {
         if self.settings().target.corner(corner).is_none() {
             return Err(wrong(format!("the board has no corner {corner}")));
         }
+        self.not_rereading()?;
+        if self.storing || self.assessing {
+            return Err(later("what came before is still being assessed: touch then".into()));
+        }
         if let (Flow::Stream, Motion::Moves(why)) = (self.sources.robot, &self.rest.robot) {
             return Err(later(format!("no touch was taken: {why}")));
         }
@@ -85,12 +91,23 @@ impl Engine {
         let robot = robot.ok_or_else(|| {
             later("type the pose that the pendant shows with the tip at the corner".into())
         })?;
-        if self.tip_to.is_some() && !self.is_tip_there(corner) {
+        if self.tip_to.is_some_and(|(to, _)| !self.is_tip_there(to)) {
             return Err(later("no touch was taken: the robot is on its way to the corner".into()));
+        }
+        let here = &robot.base_from_flange;
+        let same = |t: &&StoredTouch| {
+            Residual::between(&t.base_from_flange, here).is_within(THE_SAME_POSE)
+        };
+        if let Some(before) = self.folder.touches.iter().find(same) {
+            return Err(later(format!(
+                "the tip is still where it touched corner {}: bring it to the next one",
+                before.corner
+            )));
         }
         self.note_touch(robot.time_s);
         self.tip_to = None;
-        self.problem = None;
+        self.storing = true;
+        self.forget_problem();
         Ok(vec![Effect::StoreTouch { corner, robot }])
     }
 
@@ -105,12 +122,16 @@ impl Engine {
 
     pub(super) fn untouch(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
         match self.folder.touches.iter().any(|touch| touch.id == id) {
-            true => Ok(vec![Effect::Untouch(id)]),
+            true => {
+                self.changes.retain(|change| *change != Change::Touched(id.clone()));
+                Ok(vec![Effect::Untouch(id)])
+            }
             false => Err(wrong(format!("there is no touch {id}"))),
         }
     }
 
     pub(super) fn touched(&mut self, touched: Result<String, String>) -> Vec<Effect> {
+        self.storing = false;
         match touched {
             Ok(id) => self.changes.push(Change::Touched(id)),
             Err(why) => self.trouble("not-written", why),
@@ -122,7 +143,7 @@ impl Engine {
         let count = self.folder.touches.len();
         match (self.touch_view(), count) {
             (None, _) => proof(true, "corners are not touched in this cell"),
-            (Some(_), 0) => proof(true, "no corner was touched; this step can be left out"),
+            (Some(_), 0) => proof(false, "no corner was touched; this step can be left out"),
             (Some(view), _) => match view.rms_mm {
                 Some(rms) => {
                     proof(true, format!("{count} touches, {rms:.2} mm (RMS) from the answer"))
@@ -133,17 +154,23 @@ impl Engine {
     }
 
     pub(super) fn say_touch(&self) -> String {
-        let Some(view) = self.touch_view() else {
-            return "Corners are not touched in this cell.".into();
-        };
+        if let Err(why) = self.may_touch() {
+            return format!("{}.", capitalised(&why.message));
+        }
+        let Some(view) = self.touch_view() else { return String::new() };
         if view.tip_mm.is_none() {
             return "Where is the tip of the touching tool in the flange? Enter it in millimetres."
                 .into();
         }
-        if let Some(why) =
-            self.assessed.as_ref().filter(|_| !self.assessing).and_then(|a| a.contradiction())
-        {
-            return format!("Something is wrong: {}.", why.trim_end_matches('.'));
+        let assessed = self.assessed.as_ref().filter(|_| !self.assessing);
+        if let Some(why) = assessed.and_then(|assessed| assessed.contradiction()) {
+            return contradiction(why, self.folder.captures.len());
+        }
+        let last = view.touches.last();
+        if let Some(TouchShown { corner, residual_mm: Some(mm), used: false, .. }) = last {
+            return format!(
+                "The touch of corner {corner} is left out: the tip was {mm:.1} mm from where the captures put it. Was it this corner, and did the tip slip? Delete it, and touch again."
+            );
         }
         let go_on = match view.touches.len() < FEWEST {
             true => "",
@@ -168,10 +195,10 @@ impl Engine {
             used: of(k, t.corner).is_some_and(|found| found.used),
         });
         let touches: Vec<TouchShown> = shown.collect();
-        let all: Option<Vec<f64>> = touches.iter().map(|t| t.residual_mm).collect();
-        let rms_mm = all
-            .filter(|all| !all.is_empty())
-            .map(|all| (all.iter().map(|mm| mm * mm).sum::<f64>() / all.len() as f64).sqrt());
+        let all: Vec<f64> =
+            touches.iter().filter(|t| t.used).filter_map(|t| t.residual_mm).collect();
+        let mean = all.iter().map(|mm| mm * mm).sum::<f64>() / all.len() as f64;
+        let rms_mm = (!all.is_empty()).then(|| mean.sqrt());
         let (columns, _) = self.settings().target.grid();
         let (tip_mm, at_corner) = (self.settings().tip_mm, self.is_tip_there(corner));
         Some(TouchView { tip_mm, corner, columns, touches, rms_mm, at_corner })

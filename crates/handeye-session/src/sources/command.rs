@@ -27,8 +27,10 @@ pub fn grabber(command: String, outlet: Outlet) -> Sender<()> {
         while asked.recv().is_ok() {
             // several askings at once are one
             while asked.try_recv().is_ok() {}
+            // an image is not older than the command that took it
+            let begin = outlet.now();
             let alive = match grab(&command, PATIENCE) {
-                Ok(image) => outlet.image(image, outlet.now()),
+                Ok(image) => outlet.image(image, begin),
                 Err(why) => outlet.trouble(
                     "no-image",
                     why,

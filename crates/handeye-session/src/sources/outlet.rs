@@ -154,6 +154,11 @@ impl Outlet {
         self.input(Input::Trouble(Problem { code: code.into(), message, advice: advice.into() }))
     }
 
+    /// Whether anybody still listens.
+    pub fn is_heard(&self) -> bool {
+        self.input(Input::Clock(self.now()))
+    }
+
     fn input(&self, input: Input) -> bool {
         self.to.send(input).is_ok()
     }

@@ -218,7 +218,7 @@ impl VirtualCell {
         let noisy = reported * noise;
         let base_from_flange =
             self.faults.mistake.as_ref().map_or(noisy, |mistake| mistake.told(&noisy));
-        RobotSample { time_s: now, base_from_flange, joints: vec![] }
+        RobotSample { time_s: now, base_from_flange, typed: vec![], joints: vec![] }
     }
 
     /// Where the robot stood before it came here.

@@ -141,3 +141,53 @@ fn poses_that_are_none_are_refused_with_what_is_wrong() {
         assert!(why.contains(said), "{why}");
     }
 }
+
+#[test]
+fn nothing_is_finished_while_a_capture_may_still_say_that_something_moved() {
+    let mut bench = Bench::new(false);
+    bench.begin();
+    bench.image(true);
+    bench.pose();
+    assert!(is_store(&bench.ask(Command::Take)));
+    let finish = || Input::Command(Command::Finish);
+    assert!(bench.engine.step(finish()).is_err());
+    // it lies in the folder, and is being assessed
+    let stored = handeye_io::StoredCapture {
+        id: "001".into(),
+        image: None,
+        scan: None,
+        base_from_flange: bench.cell.standing(0.0),
+        typed: vec![],
+        joints: vec![],
+        robot_time_s: None,
+        image_time_s: None,
+    };
+    let folder = FolderState {
+        settings: bench.engine.settings().clone(),
+        captures: vec![stored],
+        deleted: vec![],
+        refused: vec![],
+        touches: vec![],
+    };
+    let effects = bench.engine.step(Input::Folder(Box::new(folder))).unwrap();
+    bench.stored();
+    let why = bench.engine.step(finish()).unwrap_err().to_string();
+    assert!(why.contains("still being assessed"), "{why}");
+    let [Effect::Assess { generation, .. }] = effects[..] else { panic!("{effects:?}") };
+    let nothing = Input::Assessed { generation, assessment: Err("too few".into()) };
+    bench.engine.step(nothing).unwrap();
+    assert_eq!(bench.engine.step(finish()).unwrap(), [Effect::Write]);
+}
+
+#[test]
+fn poses_wait_until_those_before_them_are_read_again() {
+    let mut bench = Bench::new(false);
+    bench.begin();
+    let effects = bench.ask(Command::Notation { name: "fanuc".into(), reread: true });
+    assert_eq!(effects, [Effect::Reread("fanuc".into())]);
+    let pose = Input::Command(Command::Pose { text: "400 0 300 0 0 180".into() });
+    let why = bench.engine.step(pose.clone()).unwrap_err().to_string();
+    assert!(why.contains("being read again"), "{why}");
+    bench.engine.step(Input::Failed("the disk is full".into())).unwrap();
+    assert!(bench.engine.step(pose).is_ok());
+}

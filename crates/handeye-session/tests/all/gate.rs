@@ -40,7 +40,7 @@ impl Stream {
         let x = if time_s < 0.0 { 0.2 * time_s } else { self.creep_m_s * time_s };
         let base_from_flange: Pose<Base, Flange> =
             Pose::from_parts(&Matrix3::identity(), Vector3::new(x, 0.0, 0.5));
-        RobotSample { time_s, base_from_flange, joints: vec![] }
+        RobotSample { time_s, base_from_flange, typed: vec![], joints: vec![] }
     }
 
     fn image(&self, tick: i32) -> ImageSample {

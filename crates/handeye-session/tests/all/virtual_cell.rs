@@ -161,7 +161,11 @@ fn corners_are_touched_and_judge_the_answer() {
     println!("{} touches, {:?} mm from the answer", touch.touches.len(), touch.rms_mm);
     assert!(touch.touches.len() == 6 && touch.rms_mm.unwrap() < 0.5, "{touch:?}");
 
-    // one of them is taken out, and a wrong one is named
+    // without moving the tip there is no further one
+    let still = player.command(Command::Touch { corner: Some(20) }).unwrap_err();
+    assert!(still.contains("the tip is still where it touched corner"), "{still}");
+
+    // some are taken out
     player.command(Command::Undo).unwrap();
     assert_eq!(player.state().touch.unwrap().touches.len(), 5);
     player.command(Command::Untouch { id: "t02".into() }).unwrap();
@@ -177,6 +181,33 @@ fn corners_are_touched_and_judge_the_answer() {
     let dataset = Dataset::open(&root).unwrap();
     let (again, _) = calibrate_dataset(&dataset, &Config::default(), &|_, _| {}).unwrap();
     assert_eq!(again.run_id, result.run_id);
+
+    // a corner that is not the one that was touched is named
+    player.command(Command::Go { step: Step::Touch }).unwrap();
+    player.play(&script(r#"[{"do": "drive", "to": "touch"}]"#)).unwrap();
+    let there = player.state().touch.unwrap().corner;
+    player.command(Command::Touch { corner: Some((there + 9) % 54) }).unwrap();
+    let state = player.state();
+    assert!(state.say.contains("is left out: the tip was"), "{}", state.say);
+    player.command(Command::Finish).unwrap();
+    let headline = player.state().result.unwrap().headline;
+    let said = "Accepted, but: the touch of corner";
+    assert!(headline.starts_with(said), "{headline}");
+    drop(player);
+    fs::remove_dir_all(root).unwrap();
+}
+
+#[test]
+fn a_capture_that_repeats_another_keeps_nobody_from_finishing() {
+    let root = new_folder();
+    let mut player = player(&root, Setup::EyeInHand, 6);
+    begin(&mut player);
+    player.play(&script(UNTIL_ENOUGH)).unwrap();
+    let count = player.state().captures.len();
+    player.command(Command::Take).unwrap();
+    assert_eq!(player.state().captures.len(), count + 1);
+    player.command(Command::Finish).unwrap();
+    assert!(player.state().say.starts_with("Accepted"), "{}", player.state().say);
     drop(player);
     fs::remove_dir_all(root).unwrap();
 }

@@ -152,6 +152,7 @@ export function secondary(app: App, state: State): Action[] {
       return [
         ...stop,
         ...(isTaking ? [] : [takeAction(app, state)]),
+        ...(isEnough(state) && state.touch ? [act(app, "go_touch", { do: "go", step: "touch" })] : []),
         { ...act(app, "automatic", { do: "automatic", on: !state.automatic }), on: state.automatic === true },
       ];
     case "touch":

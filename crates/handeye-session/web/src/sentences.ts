@@ -205,8 +205,8 @@ export const SENTENCES = {
   tip_z: ["z", "z"],
   touch_next: ["Corner to touch", "Anzutastende Ecke"],
   touch_why: [
-    "The corner is where four squares meet. Touches are a second instrument: they show errors that camera and arm share.",
-    "Die Ecke ist, wo vier Felder sich treffen. Das Antasten ist ein zweites Messmittel: Es zeigt Fehler, die Kamera und Arm gemeinsam haben.",
+    "The corner is where squares meet; of circles, a centre. Touches are a second instrument: they show errors that camera and arm share.",
+    "Die Ecke ist, wo Felder sich treffen; bei Kreisen eine Mitte. Das Antasten ist ein zweites Messmittel: Es zeigt Fehler, die Kamera und Arm gemeinsam haben.",
   ],
   touches: ["Touches", "Angetastet"],
   corner_number: ["Corner {number}", "Ecke {number}"],
@@ -216,8 +216,8 @@ export const SENTENCES = {
 
   typed_otherwise: ["Typed in another notation?", "In anderer Schreibweise getippt?"],
   typed_otherwise_hint: [
-    "The numbers of all captures stay as they are, and are read as those of the other notation.",
-    "Die Zahlen aller Aufnahmen bleiben, wie sie sind, und werden in der anderen Schreibweise gelesen.",
+    "The numbers that were typed stay as they are, and are read as those of the other notation.",
+    "Die getippten Zahlen bleiben, wie sie sind, und werden in der anderen Schreibweise gelesen.",
   ],
   typed_in: ["They were typed in", "Getippt wurden sie in"],
   reread: ["Read them again", "Neu lesen"],

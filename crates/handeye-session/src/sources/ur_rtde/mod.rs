@@ -152,14 +152,20 @@ impl Follower {
         self.outlet.robot(RobotSample {
             time_s: self.outlet.now(),
             base_from_flange: state.base_from_flange(),
+            typed: vec![],
             joints: state.joints.to_vec(),
         })
     }
 
     /// Says what is wrong, once for each outage; whether anybody still listens.
     fn tell(&mut self, outage: &Outage) -> bool {
-        if self.told.contains(&outage.code()) {
-            return true;
+        // an arm that is still off is told again after other trouble, for that was mended
+        let is_told = match outage {
+            Outage::Off => self.told.last() == Some(&outage.code()),
+            _ => self.told.contains(&outage.code()),
+        };
+        if is_told {
+            return self.outlet.is_heard();
         }
         self.told.push(outage.code());
         self.outlet.trouble(outage.code(), outage.message(&self.robot.name()), outage.advice())
