@@ -1,11 +1,15 @@
 //! Poses typed from a pendant, images one by one.
 
-use handeye::{Setup, math::random::Random};
+use handeye::{
+    Flange, Pose, Setup,
+    math::random::Random,
+    nalgebra::{Matrix3, Vector3},
+};
 use handeye_io::{CellSettings, Writing};
 use handeye_session::{
     engine::{
         Command, Effect, Engine, Flow, FolderState, Input, Problem, Sources, Step,
-        rest::ImageSample,
+        rest::{ImageSample, RobotSample},
     },
     sources::virtual_cell::{Faults, VirtualCell},
 };
@@ -190,4 +194,116 @@ fn poses_wait_until_those_before_them_are_read_again() {
     assert!(why.contains("being read again"), "{why}");
     bench.engine.step(Input::Failed("the disk is full".into())).unwrap();
     assert!(bench.engine.step(pose).is_ok());
+}
+
+/// A robot that streams, and images one by one.
+struct Streaming {
+    bench: Bench,
+    /// Where it stands, and what it did before: times and how far it had moved, m.
+    moved_m: f64,
+}
+
+impl Streaming {
+    fn new(takes_images: bool) -> Self {
+        let mut bench = Bench::new(takes_images);
+        let folder = FolderState {
+            settings: bench.cell.settings(),
+            captures: vec![],
+            deleted: vec![],
+            refused: vec![],
+            touches: vec![],
+        };
+        let sources =
+            Sources { robot: Flow::Stream, camera: Flow::Single, takes_images, is_virtual: false };
+        bench.engine = Engine::new(folder, sources).0;
+        let mut streaming = Self { bench, moved_m: 0.0 };
+        streaming.pass(4.0);
+        streaming.image(streaming.bench.now);
+        for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
+            streaming.bench.ask(Command::Confirm { step });
+        }
+        streaming.nudge(); // that image is of another pose
+        streaming
+    }
+
+    /// Time goes by, with a pose of the robot every 40 ms; returns what is to be done.
+    fn pass(&mut self, seconds: f64) -> Vec<Effect> {
+        let end = self.bench.now + seconds;
+        let mut effects = vec![];
+        while self.bench.now < end {
+            self.bench.now += 0.04;
+            let at = self.bench.cell.standing(0.0);
+            let step: Pose<Flange, Flange> =
+                Pose::from_parts(&Matrix3::identity(), Vector3::new(self.moved_m, 0.0, 0.0));
+            let sample = RobotSample {
+                time_s: self.bench.now,
+                base_from_flange: at * step,
+                typed: vec![],
+                joints: vec![],
+            };
+            effects.extend(self.bench.engine.step(Input::Robot(sample)).unwrap());
+            effects.extend(self.bench.engine.step(Input::Clock(self.bench.now)).unwrap());
+        }
+        effects
+    }
+
+    /// An image that says that it is of this time.
+    fn image(&mut self, time_s: f64) -> Vec<Effect> {
+        self.bench.frame += 1;
+        let corners = Ok(self.bench.cell.corners(0.0, &mut Random::new(self.bench.frame)));
+        let frame = self.bench.frame;
+        let image = ImageSample { frame, time_s, size: (1280, 800), corners };
+        self.bench.engine.step(Input::Image(image)).unwrap()
+    }
+
+    /// Somebody nudges it by two millimetres; it stands again.
+    fn nudge(&mut self) -> Vec<Effect> {
+        let mut effects = vec![];
+        for _ in 0..10 {
+            self.moved_m += 0.2e-3;
+            effects.extend(self.pass(0.04));
+        }
+        effects.extend(self.pass(2.0));
+        effects
+    }
+}
+
+fn stores(effects: &[Effect]) -> bool {
+    effects.iter().any(|effect| matches!(effect, Effect::Store { .. }))
+}
+
+#[test]
+fn an_image_that_was_taken_before_the_robot_moved_is_not_of_where_it_is() {
+    // a command that takes three seconds
+    let mut streaming = Streaming::new(true);
+    let begun = streaming.bench.now;
+    assert_eq!(streaming.bench.ask(Command::Take), [Effect::Grab]);
+    let moved = streaming.nudge();
+    assert!(!stores(&moved), "{moved:?}");
+    let late = streaming.image(begun);
+    assert!(!stores(&late), "{late:?}");
+    // it is taken once more, and that one is of now
+    let again = streaming.pass(0.2);
+    assert!(late.contains(&Effect::Grab) || again.contains(&Effect::Grab), "{late:?} {again:?}");
+    let now = streaming.image(streaming.bench.now);
+    assert!(stores(&now), "{now:?}");
+}
+
+#[test]
+fn a_file_that_came_right_after_the_standstill_may_be_of_before_it() {
+    let mut streaming = Streaming::new(false);
+    streaming.bench.ask(Command::Take);
+    // no file comes for a moment, and the robot is nudged: it stands since one second when the file comes
+    for _ in 0..5 {
+        streaming.moved_m += 0.2e-3;
+        streaming.pass(0.04);
+    }
+    streaming.pass(1.0);
+    let early = streaming.image(streaming.bench.now);
+    assert!(!stores(&early), "{early:?}");
+    let why = streaming.bench.engine.view("", "").taking.unwrap().why;
+    assert!(why.contains("before the standstill"), "{why}");
+    streaming.pass(1.0);
+    let sure = streaming.image(streaming.bench.now);
+    assert!(stores(&sure), "{sure:?}");
 }
