@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     Camera, Mount, Pose, Setup,
-    calibrate::result::{Answer, Calibration, Determined},
+    calibrate::result::{Answer, Calibration, Determined, findings::TOO_IMPRECISE},
     estimate::{evaluate::RmsResidual, predict::PredictedTre},
     mistakes,
     model::verdict::Verdict,
@@ -140,9 +140,6 @@ pub(crate) fn is_believable(residual: &RmsResidual) -> bool {
     let within = |value: Option<f64>, most: f64| value.is_none_or(|value| value <= most);
     within(deg, BELIEVABLE.degrees()) && within(mm, BELIEVABLE.millimetres())
 }
-
-/// How a reason begins that speaks of nothing but the precision.
-pub(crate) const TOO_IMPRECISE: &str = "the predicted error (95 %)";
 
 /// Why the answer is not certain enough.
 fn imprecision(config: &Config, found: &Evidence) -> Vec<String> {

@@ -5,13 +5,15 @@ use std::collections::BTreeMap;
 use super::{Calibration, JudgedFinding};
 use crate::{
     Warning,
-    calibrate::flow::verdict::TOO_IMPRECISE,
     findings::{
         frames::{PARTS_OF_DISAGREE, PICTURE_AND_SCAN_DISAGREE},
         severity::{Severity, row},
     },
     model::verdict::Verdict,
 };
+
+/// How a reason begins that speaks of nothing but the precision.
+pub(crate) const TOO_IMPRECISE: &str = "the predicted error (95 %)";
 
 /// What a code does to an answer of this verdict: in one that is accepted, nothing rejects; in one that is not,
 /// nothing changes it.

@@ -16,7 +16,7 @@ use crate::{
     Calibration, Config, Error, HandEye, Observation, PosePair, Session, Verdict, Warning,
     calibrate::{
         flow::{unknown::Task, verdict},
-        result::{Answer, Candidate, CaptureResult, PoseCovariance, rows},
+        result::{Answer, Candidate, CaptureResult, PoseCovariance, findings::TOO_IMPRECISE, rows},
     },
     detect::sight::{CLOCK, TARGET_SCALE},
     estimate::{
@@ -377,9 +377,7 @@ fn judged(
             reasons.push(format!(
                 "{} in {} is {:.2} mm, more than {limit} mm: the errors \
                  drift, so add captures with more tilt, or find out what moves",
-                verdict::TOO_IMPRECISE,
-                tre.r#where,
-                tre.p95
+                TOO_IMPRECISE, tre.r#where, tre.p95
             ));
             return (Verdict::Rejected, reasons);
         }
