@@ -5,7 +5,7 @@
 #[path = "../section.rs"]
 mod section;
 
-use std::{env, fs, time::Instant};
+use std::{env, fs, path::PathBuf, time::Instant};
 
 use handeye::{Camera, Point, Pose, Setup, Target};
 use handeye_io::{SessionFolder, measure::Measurements};
@@ -27,8 +27,8 @@ struct Ended {
     true_mm: f64,
 }
 
-/// Plays a session until it is enough; `None` where it never is.
-fn play(setup: Setup, seed: u64) -> Option<Ended> {
+/// A session in a folder of its own, with its first capture.
+fn begun(setup: Setup, seed: u64) -> (PathBuf, Player) {
     let root = env::temp_dir().join(format!("handeye-bench-session-{}", std::process::id()));
     fs::remove_dir_all(&root).ok();
     let cell = VirtualCell::new(setup, seed, Faults::default()).expect("a cell");
@@ -38,6 +38,12 @@ fn play(setup: Setup, seed: u64) -> Option<Ended> {
         player.command(Command::Confirm { step }).expect("a step that is proven");
     }
     player.command(Command::Take).expect("a first capture");
+    (root, player)
+}
+
+/// Plays a session until it is enough; `None` where it never is.
+fn play(setup: Setup, seed: u64) -> Option<Ended> {
+    let (root, mut player) = begun(setup, seed);
     let is_enough = |player: &Player| player.state().progress.is_some_and(|p| p.enough);
     while !is_enough(&player) && player.state().captures.len() < MOST {
         let driven = player.command(Command::Drive { to: Destination::Next });
@@ -55,15 +61,7 @@ const TIMED: usize = 20;
 
 /// Seconds until a session with so many captures has assessed the newest one; the median of five.
 fn assessment_s(setup: Setup, seed: u64) -> f64 {
-    let root = env::temp_dir().join(format!("handeye-bench-assess-{}", std::process::id()));
-    fs::remove_dir_all(&root).ok();
-    let cell = VirtualCell::new(setup, seed, Faults::default()).expect("a cell");
-    let folder = SessionFolder::open(&root, Some(&cell.settings())).expect("a folder");
-    let mut player = Player::new(Host::new(folder), cell);
-    for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
-        player.command(Command::Confirm { step }).expect("a step that is proven");
-    }
-    player.command(Command::Take).expect("a first capture");
+    let (root, mut player) = begun(setup, seed);
     while player.state().captures.len() < TIMED {
         let taken = player.state().captures.len();
         if player.command(Command::Drive { to: Destination::Next }).is_err() {

@@ -13,7 +13,7 @@ use handeye_io::{
 
 use crate::{
     assess::assess,
-    engine::{Effect, FolderState, Input, Written},
+    engine::{Effect, FolderState, Input, Written, rest::RobotSample},
     sources::{outlet::CameraImage, virtual_cell::VirtualCell},
 };
 
@@ -52,28 +52,7 @@ impl Host {
     /// Does it; returns what it led to. Effects for sources are not for it.
     pub fn perform(&mut self, effect: Effect, image: Option<CameraImage>) -> Vec<Input> {
         match effect {
-            Effect::Store { robot, image_time_s, .. } => {
-                let Some(image) = image else {
-                    return vec![Input::Stored(Err(
-                        "the image is gone: take the capture again".into()
-                    ))];
-                };
-                let own = image.file.as_ref().map(|(ending, bytes)| (&ending[..], &bytes[..]));
-                let made = own.is_none().then(|| simulated::picture(&image.grey));
-                let made = made.as_ref().map(|png| ("png", &png[..]));
-                let stored = self.folder.take(&NewCapture {
-                    base_from_flange: robot.base_from_flange,
-                    typed: &robot.typed,
-                    joints: &robot.joints,
-                    robot_time_s: Some(robot.time_s),
-                    image_time_s: Some(image_time_s),
-                    image: own.or(made),
-                    scan: None,
-                });
-                let stored = stored.map_err(|e| e.to_string());
-                // first what lies in the folder: until then it is being stored
-                vec![Input::Folder(Box::new(self.state())), Input::Stored(stored)]
-            }
+            Effect::Store { robot, image_time_s, .. } => self.store(&robot, image_time_s, image),
             Effect::StoreTouch { corner, robot } => {
                 let stored =
                     self.folder.touch(corner, (robot.base_from_flange, &robot.typed), robot.time_s);
@@ -112,6 +91,32 @@ impl Host {
             Effect::Write => vec![Input::Written(self.write().map_err(|e| e.to_string()))],
             Effect::Drive(_) | Effect::DriveTip(_) | Effect::Jog(..) | Effect::Grab => vec![],
         }
+    }
+
+    fn store(
+        &mut self,
+        robot: &RobotSample,
+        image_time_s: f64,
+        image: Option<CameraImage>,
+    ) -> Vec<Input> {
+        let Some(image) = image else {
+            return vec![Input::Stored(Err("the image is gone: take the capture again".into()))];
+        };
+        let own = image.file.as_ref().map(|(ending, bytes)| (&ending[..], &bytes[..]));
+        let made = own.is_none().then(|| simulated::picture(&image.grey));
+        let made = made.as_ref().map(|png| ("png", &png[..]));
+        let stored = self.folder.take(&NewCapture {
+            base_from_flange: robot.base_from_flange,
+            typed: &robot.typed,
+            joints: &robot.joints,
+            robot_time_s: Some(robot.time_s),
+            image_time_s: Some(image_time_s),
+            image: own.or(made),
+            scan: None,
+        });
+        let stored = stored.map_err(|e| e.to_string());
+        // first what lies in the folder: until then it is being stored
+        vec![Input::Folder(Box::new(self.state())), Input::Stored(stored)]
     }
 
     fn changed(&self, done: Result<(), Error>) -> Vec<Input> {

@@ -103,7 +103,7 @@ impl Player {
         &self.cell
     }
 
-    /// Somebody drives the robot by hand to where the camera sees the board, whatever the session believes.
+    /// Somebody drives the robot by hand to where the camera sees the board, whatever the session expects.
     ///
     /// # Errors
     /// A cell that shows nothing of its board.

@@ -320,8 +320,9 @@ impl SessionFolder {
             .for_each(|name| _ = fs::remove_dir(self.root.join(name)));
         self.write_if_changed("robot.csv", &self.table())?;
         let touches = self.touches();
-        if !touches.is_empty() {
-            self.write_if_changed(TOUCHES, &self.table_of(&touches))?;
+        match touches.is_empty() {
+            true => _ = fs::remove_file(self.root.join(TOUCHES)),
+            false => self.write_if_changed(TOUCHES, &self.table_of(&touches))?,
         }
         let held = manifest::Held {
             has_scans: self.captures().iter().any(|c| c.scan.is_some()),

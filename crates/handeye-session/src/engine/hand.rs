@@ -135,8 +135,7 @@ impl Engine {
         let writing = Writing::of(&self.folder.settings.notation).map_err(wrong)?;
         self.not_rereading()?;
         let typed = writing.typed_numbers(text).map_err(wrong)?;
-        // with all that is checked of a pose that is typed
-        let base_from_flange = writing.typed(text).map_err(wrong)?;
+        let base_from_flange = writing.pose(&typed).map_err(wrong)?;
         // each has a time of its own
         let last = self.robot.back().map_or(f64::NEG_INFINITY, |s| s.time_s);
         let time_s = self.now.max(last + 1e-6);

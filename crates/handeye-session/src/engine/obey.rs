@@ -219,7 +219,7 @@ impl Engine {
             return Err(later("the captures are still being assessed: finish then".into()));
         }
         // whether the camera still is where it was is then not known, and a result would not say so
-        if let Some(id) = self.newest_left_out() {
+        if let Some(id) = self.newest_outlier() {
             return Err(later(format!(
                 "the newest capture, {id}, does not fit to those before it. {WHETHER_MOVED}"
             )));

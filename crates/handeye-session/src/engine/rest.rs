@@ -200,7 +200,7 @@ fn robot_motion(samples: &[RobotSample], memory: &mut Memory, now: f64) -> Motio
     let first = offsets[0].0;
     Memory::renew(&mut memory.robot_far, since(&offsets, FAR), first);
     let limits = [(SLOW_M_S, LEAST_M), (SLOW_RAD_S, LEAST_RAD)];
-    // the shortest window that proves a motion tells how fast it is now
+    // how fast it is now: by the shortest window that proves a motion
     let mut moves = None;
     for window in ROBOT_WINDOWS {
         let from = offsets.partition_point(|(t, _)| *t < last.time_s - window);

@@ -184,8 +184,8 @@ impl Engine {
         if let Some(why) = assessed.contradiction() {
             return contradiction(why, self.folder.captures.len());
         }
-        if let Some(id) = self.newest_left_out() {
-            return self.say_left_out(assessed, id);
+        if let Some(id) = self.newest_outlier() {
+            return self.say_outlier(assessed, id);
         }
         if assessed.enough {
             let mm = assessed.p95_mm().unwrap_or_default();
@@ -210,24 +210,27 @@ impl Engine {
     }
 
     /// The newest capture, where it does not fit to those before it.
-    pub(super) fn newest_left_out(&self) -> Option<&str> {
+    pub(super) fn newest_outlier(&self) -> Option<&str> {
         let assessed = self.assessed.as_ref().filter(|_| !self.assessing)?;
         let id = &self.folder.captures.last()?.id;
         let captures = &assessed.calibration.captures;
         let used = captures.iter().filter(|c| c.used).count();
         // one that repeats another, or shows no board, says nothing against the others
-        let is_left_out = assessed.calibration.rejected.contains(id);
+        let is_outlier = assessed.calibration.rejected.contains(id);
         // few captures do not tell which of them is wrong
         let is_known = captures.len() > KNOWN && 2 * used > captures.len();
-        (is_left_out && is_known).then_some(&id[..])
+        (is_outlier && is_known).then_some(&id[..])
     }
 
     /// That is the moment to look around.
-    fn say_left_out(&self, assessed: &Assessment, id: &str) -> String {
+    fn say_outlier(&self, assessed: &Assessment, id: &str) -> String {
         let capture = assessed.calibration.captures.iter().find(|c| c.id == id);
         let why =
             capture.and_then(|c| c.reason.as_deref()).unwrap_or("it does not fit to the others");
-        format!("Capture {id} is left out: {}. {WHETHER_MOVED}.", why.trim_end_matches('.'))
+        format!(
+            "Capture {id} is rejected as an outlier: {}. {WHETHER_MOVED}.",
+            why.trim_end_matches('.')
+        )
     }
 
     /// Whether a robot whose poses stream stands at the view, so far as the planner tells views apart.
@@ -274,14 +277,14 @@ pub(super) fn contradiction(why: &str, captures: usize) -> String {
     };
     match captures < KNOWN {
         true => format!(
-            "These captures do not fit together: {why} Take another one wherever the whole board is seen: from {KNOWN} on the cause can be told."
+            "These captures do not fit together: {why} Take another one wherever the whole board is seen: from {KNOWN} on the cause can be found."
         ),
         false => format!("Something is wrong: {why} Put it right before you go on."),
     }
 }
 
 /// What to do about a newest capture that does not fit.
-pub(super) const WHETHER_MOVED: &str = "Take another one: it tells whether camera or board were moved. If one was, begin a new session; if none was, delete this capture";
+pub(super) const WHETHER_MOVED: &str = "Take another one: it shows whether camera or board were moved. If one was, begin a new session; if none was, delete this capture";
 
 /// Views before anything can be planned: they differ in what every cell needs.
 fn first_views(captures: &[StoredCapture]) -> String {

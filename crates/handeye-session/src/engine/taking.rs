@@ -24,7 +24,7 @@ const ANOTHER_IMAGE_PX: f64 = 3.0;
 const APPROACHES: usize = 5;
 /// Images may be so much later than the latest approach shows, s.
 const DELAY_MARGIN_S: f64 = 0.05;
-/// Fewer captures do not tell where robot and camera sit.
+/// Fewer captures do not determine where robot and camera sit.
 pub(super) const KNOWN: usize = 4;
 /// Images that come later than this are worth a word, s.
 pub(super) const LATE_S: f64 = 0.3;
@@ -204,7 +204,7 @@ impl Engine {
             code: if is_astray { "board-not-where-expected" } else { "not-taken" }.into(),
             message: format!("no capture was taken: {why}"),
             advice: match (is_astray, is_unseen) {
-                (true, _) => "the board was expected at this view: drive by hand until it is seen and take it, several times; from the fourth capture on it can be told whether notation, unit or direction of the poses, the setup or the board are other than is said",
+                (true, _) => "the board was expected at this view: drive by hand until it is seen and take it, several times; from the fourth capture on it is found whether notation, unit or direction of the poses, the setup or the board are other than declared",
                 (_, true) => "go to another pose from where the whole board is seen, or skip this view",
                 _ => "see that the robot stands and its pose is read anew, then take it again",
             }

@@ -1,7 +1,9 @@
 //! Corners that the tip of a tool touches: a second instrument beside the camera, and what closes directions that a robot
 //! with few axes leaves open.
 
-use handeye::{Point, Setup, Target, model::residual::Residual, nalgebra::Vector3};
+use std::collections::BTreeSet;
+
+use handeye::{Setup, model::residual::Residual, nalgebra::Vector3, tools::plan::spread_corners};
 use handeye_io::StoredTouch;
 
 use super::{
@@ -48,23 +50,13 @@ impl Engine {
         })
     }
 
-    /// The corner to touch next: the one with the largest product of distances to those that were touched.
+    /// The corner to touch next: the first of corners far from each other that was not touched.
     pub(super) fn next_corner(&self) -> Option<u32> {
         self.may_touch().ok()?;
-        let corners = self.settings().target.corners();
-        let target = &self.settings().target;
-        let touched: Vec<Point<Target>> =
-            self.folder.touches.iter().filter_map(|t| target.corner(t.corner)).collect();
-        let middle = corners.iter().map(Point::vector).sum::<Vector3<f64>>() / corners.len() as f64;
-        let room = |p: &Point<Target>| {
-            let apart = touched.iter().map(|t| (t.vector() - p.vector()).norm());
-            // the first one is an outermost one
-            apart.reduce(|a, b| a * b).unwrap_or_else(|| (p.vector() - middle).norm())
-        };
-        let best = (0..corners.len())
-            .rev()
-            .max_by(|a, b| room(&corners[*a]).total_cmp(&room(&corners[*b])))?;
-        Some(best as u32)
+        let touched: BTreeSet<u32> = self.folder.touches.iter().map(|t| t.corner).collect();
+        let spread = spread_corners(&self.settings().target, touched.len() + 1);
+        // once all were touched, from the first one again
+        spread.iter().find(|corner| !touched.contains(corner)).or(spread.first()).copied()
     }
 
     pub(super) fn touch(&mut self, corner: Option<u32>) -> Result<Vec<Effect>, Refusal> {
@@ -143,7 +135,7 @@ impl Engine {
         let count = self.folder.touches.len();
         match (self.touch_view(), count) {
             (None, _) => proof(true, "corners are not touched in this cell"),
-            (Some(_), 0) => proof(false, "no corner was touched; this step can be left out"),
+            (Some(_), 0) => proof(false, "no corner was touched; this step is optional"),
             (Some(view), _) => match view.rms_mm {
                 Some(rms) => {
                     proof(true, format!("{count} touches, {rms:.2} mm (RMS) from the answer"))
@@ -169,7 +161,7 @@ impl Engine {
         let last = view.touches.last();
         if let Some(TouchShown { corner, residual_mm: Some(mm), used: false, .. }) = last {
             return format!(
-                "The touch of corner {corner} is left out: the tip was {mm:.1} mm from where the captures put it. Was it this corner, and did the tip slip? Delete it, and touch again."
+                "The touch of corner {corner} is rejected as an outlier: the tip was {mm:.1} mm from where the captures put it. Was it this corner, and did the tip slip? Delete it, and touch again."
             );
         }
         let go_on = match view.touches.len() < FEWEST {

@@ -3,7 +3,7 @@
 use handeye::{Base, Camera, Flange, HandEye, Pose, Setup, Target, TargetModel};
 use handeye_io::{CellSettings, Writing};
 
-/// What is not as the session is told.
+/// What is not as it is declared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Mistake {
     /// Poses are written in one notation and read in another.
@@ -36,8 +36,8 @@ pub enum Mistake {
 }
 
 impl Mistake {
-    /// What is believed of a cell that is really so.
-    pub fn believed(&self, real: CellSettings) -> CellSettings {
+    /// What is declared of a cell that is really so.
+    pub fn declared(&self, real: CellSettings) -> CellSettings {
         match (self, &real.target) {
             (Mistake::Square(factor), &TargetModel::Checkerboard { columns, rows, square_mm }) => {
                 let square_mm = square_mm / factor;
@@ -74,8 +74,8 @@ impl Mistake {
         }
     }
 
-    /// What the session is told of a pose.
-    pub fn told(&self, real: &Pose<Base, Flange>) -> Pose<Base, Flange> {
+    /// What the robot reports of a pose, as the session reads it.
+    pub fn reported(&self, real: &Pose<Base, Flange>) -> Pose<Base, Flange> {
         match self {
             Mistake::Notation { written, read } => read_as(real, written, read),
             Mistake::Lengths(factor) => scaled(real, *factor),
@@ -84,13 +84,13 @@ impl Mistake {
         }
     }
 
-    /// Where the robot goes that is sent there.
-    pub fn meant(&self, told: &Pose<Base, Flange>) -> Pose<Base, Flange> {
+    /// Where the robot goes that is sent to a pose as the session has it.
+    pub fn commanded(&self, pose: &Pose<Base, Flange>) -> Pose<Base, Flange> {
         match self {
-            Mistake::Notation { written, read } => read_as(told, read, written),
-            Mistake::Lengths(factor) => scaled(told, 1.0 / factor),
-            Mistake::Inverted => Pose::claim(told.iso().inverse()),
-            _ => *told,
+            Mistake::Notation { written, read } => read_as(pose, read, written),
+            Mistake::Lengths(factor) => scaled(pose, 1.0 / factor),
+            Mistake::Inverted => Pose::claim(pose.iso().inverse()),
+            _ => *pose,
         }
     }
 }

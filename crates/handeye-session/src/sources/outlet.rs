@@ -94,7 +94,7 @@ pub struct Outlet {
 }
 
 impl Outlet {
-    /// Inputs go to `to`; `shown` is told the number of each image.
+    /// Inputs go to `to`; `shown` gets the number of each image.
     pub fn new(to: Sender<Input>, wanted: Wanted, shown: watch::Sender<u64>) -> Self {
         Self {
             to,

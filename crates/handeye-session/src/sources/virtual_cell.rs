@@ -109,7 +109,7 @@ impl VirtualCell {
         Ok(Self { cell, faults, guess, robot, places, start })
     }
 
-    /// What a person would know of it, or believe.
+    /// What a person would know of it, or declare of it.
     pub fn settings(&self) -> CellSettings {
         let settings = CellSettings {
             setup: self.cell.setup,
@@ -121,7 +121,7 @@ impl VirtualCell {
             tip_mm: Some((self.cell.tip_in_flange.vector() * 1e3).into()),
         };
         match &self.faults.mistake {
-            Some(mistake) => mistake.believed(settings),
+            Some(mistake) => mistake.declared(settings),
             None => settings,
         }
     }
@@ -139,8 +139,8 @@ impl VirtualCell {
 
     /// Drives the robot to where it is to report that it is.
     pub fn drive(&self, to: Pose<Base, Flange>, now: f64) {
-        let meant = self.faults.mistake.as_ref().map_or(to, |mistake| mistake.meant(&to));
-        self.send(meant, now);
+        let commanded = self.faults.mistake.as_ref().map_or(to, |mistake| mistake.commanded(&to));
+        self.send(commanded, now);
     }
 
     fn send(&self, to: Pose<Base, Flange>, now: f64) {
@@ -186,7 +186,7 @@ impl VirtualCell {
         self.send(Pose::from_parts(&rotation, at - tip), now);
     }
 
-    /// Somebody drives it to where the camera sees the board, whatever the session believes; `number` tells such poses apart.
+    /// Somebody drives it to where the camera sees the board, whatever the session expects; each `number` has a pose of its own.
     ///
     /// # Errors
     /// A cell that shows nothing of its board.
@@ -217,7 +217,7 @@ impl VirtualCell {
             error(&(robot.random.normal3() * ENCODERS.1), &(robot.random.normal3() * ENCODERS.0));
         let noisy = reported * noise;
         let base_from_flange =
-            self.faults.mistake.as_ref().map_or(noisy, |mistake| mistake.told(&noisy));
+            self.faults.mistake.as_ref().map_or(noisy, |mistake| mistake.reported(&noisy));
         RobotSample { time_s: now, base_from_flange, typed: vec![], joints: vec![] }
     }
 

@@ -218,9 +218,9 @@ fn what_moves_in_the_middle_is_named() {
         Vector3::new(0.008, 0.0, 0.0),
     ));
     all_are_named(&[
-        Case::event(HAND, 9, knocked, &["Capture 009 is left out"]),
-        Case::event(BASE, 9, knocked, &["Capture 009 is left out"]),
-        Case::event(HAND, 6, shifted, &["Capture 006 is left out"]),
-        Case::event(HAND, 6, turned, &["Capture 006 is left out"]),
+        Case::event(HAND, 9, knocked, &["Capture 009 is rejected as an outlier"]),
+        Case::event(BASE, 9, knocked, &["Capture 009 is rejected as an outlier"]),
+        Case::event(HAND, 6, shifted, &["Capture 006 is rejected as an outlier"]),
+        Case::event(HAND, 6, turned, &["Capture 006 is rejected as an outlier"]),
     ]);
 }

@@ -188,7 +188,7 @@ fn corners_are_touched_and_judge_the_answer() {
     let there = player.state().touch.unwrap().corner;
     player.command(Command::Touch { corner: Some((there + 9) % 54) }).unwrap();
     let state = player.state();
-    assert!(state.say.contains("is left out: the tip was"), "{}", state.say);
+    assert!(state.say.contains("is rejected as an outlier: the tip was"), "{}", state.say);
     player.command(Command::Finish).unwrap();
     let headline = player.state().result.unwrap().headline;
     let said = "Accepted, but: the touch of corner";

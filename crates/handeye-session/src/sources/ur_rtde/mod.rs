@@ -91,7 +91,7 @@ impl FromStr for UrRobot {
 /// Hands over the robot's poses from now on, 25 a second.
 pub fn stream(robot: UrRobot, outlet: Outlet) {
     thread::spawn(move || {
-        let mut follower = Follower { robot, outlet, told: vec![] };
+        let mut follower = Follower { robot, outlet, reported: vec![] };
         while let Err(outage) = follower.follow() {
             if !follower.tell(&outage) {
                 return;
@@ -106,7 +106,7 @@ struct Follower {
     robot: UrRobot,
     outlet: Outlet,
     /// What was said of this outage already.
-    told: Vec<&'static str>,
+    reported: Vec<&'static str>,
 }
 
 impl Follower {
@@ -148,7 +148,7 @@ impl Follower {
         if !state.knows_joints() {
             return self.tell(&Outage::Off);
         }
-        self.told.clear();
+        self.reported.clear();
         self.outlet.robot(RobotSample {
             time_s: self.outlet.now(),
             base_from_flange: state.base_from_flange(),
@@ -159,15 +159,15 @@ impl Follower {
 
     /// Says what is wrong, once for each outage; whether anybody still listens.
     fn tell(&mut self, outage: &Outage) -> bool {
-        // an arm that is still off is told again after other trouble, for that was mended
-        let is_told = match outage {
-            Outage::Off => self.told.last() == Some(&outage.code()),
-            _ => self.told.contains(&outage.code()),
+        // an arm that is still off is reported again after other trouble, for that was mended
+        let is_reported = match outage {
+            Outage::Off => self.reported.last() == Some(&outage.code()),
+            _ => self.reported.contains(&outage.code()),
         };
-        if is_told {
+        if is_reported {
             return self.outlet.is_heard();
         }
-        self.told.push(outage.code());
+        self.reported.push(outage.code());
         self.outlet.trouble(outage.code(), outage.message(&self.robot.name()), outage.advice())
     }
 }

@@ -237,8 +237,7 @@ fn of_mount(h: &Matrix12) -> Option<Matrix6<f64>> {
 pub use planner::{ENOUGH, FEWEST_ENOUGH, NextView, Planner, Route, Stop, USUAL_CANDIDATES};
 pub use reach::{ArmReach, NearReach, Reach, Station, USUALLY_NEAR, Unreached};
 pub use solids::{Capsule, Cuboid};
-pub(crate) use touches::spread_corners;
-pub use touches::{PlannedTouch, TouchNoise};
+pub use touches::{PlannedTouch, TouchNoise, spread_corners};
 
 #[cfg(test)]
 mod tests;

@@ -115,7 +115,7 @@ impl Unknowns {
 
 /// Corners far from each other: each next one has the largest product of distances to those before
 /// it (F. Leja's points), the first one is corner 0.
-pub(crate) fn spread_corners(target: &TargetModel, count: usize) -> Vec<u32> {
+pub fn spread_corners(target: &TargetModel, count: usize) -> Vec<u32> {
     let at: Vec<Vector3<f64>> = target.corners().iter().map(Point::vector).collect();
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < count.min(at.len()) {
