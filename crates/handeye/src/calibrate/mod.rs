@@ -110,7 +110,8 @@ fn of_captures(mut session: Session, task: &Task) -> Result<Calibration, Error> 
         true => sequence::with_drift(&session, task, &plain, |steady| of_distinct(steady, task))?,
         false => None,
     };
-    Ok(repeated.put_back(with_drift.unwrap_or(plain)))
+    let result = moved::unconfirmed_at_end(&session, with_drift.unwrap_or(plain), task.config);
+    Ok(repeated.put_back(result))
 }
 
 /// The same of captures in the order of their names, each of which counts.

@@ -65,6 +65,15 @@ pub enum MovementFinding {
     },
     /// The camera moved, and the captures since then do not determine an answer.
     TooFewSince(Movement, Setup),
+    /// The last capture does not agree with those before it: nothing says whether the camera was moved before it.
+    UnconfirmedEnd {
+        /// The capture.
+        capture: String,
+        /// How far it is from the others, where the camera saw the target (mm).
+        displacement_mm: f64,
+        /// By which angle.
+        rotation_deg: f64,
+    },
     /// During a run of captures the target, or the camera, was somewhere else.
     Elsewhere {
         /// The target, or else the camera.
@@ -96,6 +105,11 @@ impl MovementFinding {
             Self::TooFewSince(movement, setup) => format!(
                 "{}, and these do not determine an answer alone: take more captures with the camera at its current pose",
                 in_words(movement, *setup, false)
+            ),
+            Self::UnconfirmedEnd { capture, displacement_mm, rotation_deg } => format!(
+                "the last capture, {capture}, is {displacement_mm:.2} mm and {rotation_deg:.3} degrees away from the \
+                 others, and whether the camera was moved before it is unknown: take another capture, which shows it, \
+                 or leave {capture} out if nothing was moved"
             ),
             Self::Elsewhere { is_target: true, first, last, .. } => format!(
                 "the target lay elsewhere during captures {first} to {last}: it was moved in the session; leave them \
@@ -131,10 +145,20 @@ const CAMERA_MOVED: Row = Row::changes(
     "fasten the camera and the target, and take the captures again",
 );
 const TARGET_MOVED: Row = Row::info("target-moved");
+const LAST_CAPTURE_DISPLACED: Row = Row::changes(
+    "last-capture-displaced",
+    "the last capture does not agree with the others, and the stated error covers that the camera was moved before it",
+    "take another capture: it shows whether the camera was moved",
+);
 
 /// All codes of this subject.
-pub(super) const ROWS: &[&Row] =
-    &[&CAPTURES_DISPLACED, &MOVED_DURING_SESSION, &CAMERA_MOVED, &TARGET_MOVED];
+pub(super) const ROWS: &[&Row] = &[
+    &CAPTURES_DISPLACED,
+    &MOVED_DURING_SESSION,
+    &CAMERA_MOVED,
+    &TARGET_MOVED,
+    &LAST_CAPTURE_DISPLACED,
+];
 
 impl Found for MovementFinding {
     fn row(&self) -> &'static Row {
@@ -142,6 +166,7 @@ impl Found for MovementFinding {
             Self::Displaced(..) => &CAPTURES_DISPLACED,
             Self::Covered(..) => &MOVED_DURING_SESSION,
             Self::AnswerOfTheEnd { .. } | Self::TooFewSince(..) => &CAMERA_MOVED,
+            Self::UnconfirmedEnd { .. } => &LAST_CAPTURE_DISPLACED,
             Self::Elsewhere { is_target, .. } => {
                 if *is_target {
                     &TARGET_MOVED
@@ -166,11 +191,18 @@ impl Found for MovementFinding {
                 "the camera moved by {:.2} mm during the session, and the result is its pose since then",
                 movement.displacement_mm
             )),
+            Self::UnconfirmedEnd { capture, displacement_mm, .. } => Some(format!(
+                "the last capture, {capture}, is {displacement_mm:.2} mm away from the others, and the stated error \
+                 covers that the camera was moved before it"
+            )),
             _ => None,
         }
     }
 
     fn data(&self) -> Vec<(&'static str, f64)> {
+        if let Self::UnconfirmedEnd { displacement_mm, rotation_deg, .. } = self {
+            return vec![("displacement_mm", *displacement_mm), ("rotation_deg", *rotation_deg)];
+        }
         let (Self::Displaced(m, _)
         | Self::Covered(m, _)
         | Self::AnswerOfTheEnd { movement: m, .. }

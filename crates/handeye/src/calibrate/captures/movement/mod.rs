@@ -57,10 +57,10 @@ const SHORTLY: usize = 12;
 const IN_ORDER: f64 = 0.5;
 
 /// A movement that captures agree on is at most about as large, per axis: rad and m alike.
-const MOST: f64 = 0.1;
+pub(super) const MOST: f64 = 0.1;
 
 /// The 95 % point over its root mean square, of how far an answer is off that was moved by a twist.
-const WIDE: f64 = 1.6;
+pub(super) const WIDE: f64 = 1.6;
 
 /// The captures of a session in their order, as one answer sees them.
 pub(crate) struct Recorded<'a> {
@@ -176,7 +176,7 @@ fn block(recorded: &Recorded) -> Option<(Movement, Matrix6<f64>)> {
     let name = |i: usize| recorded.names[i].to_owned();
     let distance = match side {
         Side::Camera => {
-            root_mean(rows.iter().map(|row| moved(&delta, &row.seen).powi(2))).unwrap_or(0.0)
+            root_mean(rows.iter().map(|row| displaced(&delta, &row.seen).powi(2))).unwrap_or(0.0)
         }
         Side::Target => lie::nu(&delta).norm(),
     };
@@ -260,7 +260,7 @@ fn nearest(poses: &[Pose<Anchor, Mount>], i: usize, seen: &[usize]) -> Option<us
 }
 
 /// How far a displacement of the camera moves where it saw the target, m.
-fn moved(delta: &Vector6<f64>, seen: &Vector3<f64>) -> f64 {
+pub(super) fn displaced(delta: &Vector6<f64>, seen: &Vector3<f64>) -> f64 {
     (lie::omega(delta).cross(seen) + lie::nu(delta)).norm()
 }
 
@@ -290,9 +290,8 @@ fn gradual(recorded: &Recorded) -> Option<(Movement, Matrix6<f64>)> {
     let (_, best, of_best) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
     let delta = Vector6::from_fn(|k, _| of_best.solution[12 + k]);
     let distance = match best.side {
-        Side::Camera => {
-            root_mean(rows.iter().map(|(_, row)| moved(&delta, &row.seen).powi(2))).unwrap_or(0.0)
-        }
+        Side::Camera => root_mean(rows.iter().map(|(_, row)| displaced(&delta, &row.seen).powi(2)))
+            .unwrap_or(0.0),
         Side::Target => lie::nu(&delta).norm(),
     };
     let name = |k: usize| recorded.names[rows[k].0].to_owned();
