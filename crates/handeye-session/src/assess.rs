@@ -3,7 +3,11 @@
 
 use handeye::{
     Base, Calibration, Camera, Config, Flange, ImageCorner, Pose, Session, Target, Verdict,
-    nalgebra::Vector2, tools::plan::NextView,
+    nalgebra::Vector2,
+    tools::{
+        held_out::{self, HeldOutTest},
+        plan::NextView,
+    },
 };
 use handeye_io::{
     Error, SessionFolder,
@@ -25,6 +29,18 @@ pub struct Assessment {
     pub no_next: Option<String>,
     /// Whether the captures are enough for the tolerance.
     pub enough: bool,
+    /// What the verification views say of it; `None` without any, or without a transform.
+    pub verification: Option<HeldOutTest>,
+}
+
+/// The code of a last capture that does not agree with the others.
+const LAST_CAPTURE_DISPLACED: &str = "last-capture-displaced";
+
+/// What was measured in the files of a folder.
+#[derive(Default)]
+pub struct Measured {
+    captures: Measurements,
+    verification: Measurements,
 }
 
 /// What was measured in a capture.
@@ -57,33 +73,52 @@ pub struct ProposedView {
     pub after_mm: Option<f64>,
 }
 
-/// Assesses a folder with captures; `not_near` are poses that nobody goes to (again).
+/// Assesses a folder with captures; `not_near` are poses that nobody goes to (again). Where another view is wanted although
+/// the captures are enough, as one that verifies them, `goes_on` is set.
 ///
 /// # Errors
 /// A folder that cannot be read.
 pub fn assess(
     folder: &SessionFolder,
-    before: &mut Measurements,
-    not_near: &[Pose<Base, Flange>],
+    before: &mut Measured,
+    (not_near, goes_on): (&[Pose<Base, Flange>], bool),
 ) -> Result<Assessment, Error> {
     let dataset = folder.dataset()?;
-    let measured = measure::measure_again(&dataset, before, &|_, _| {})?;
+    let measured = measure::measure_again(&dataset, &mut before.captures, &|_, _| {})?;
     let calibration = calibrate_measured(&dataset, &measured, &Config::default())?;
     let session = &measured.session;
-    let options = PlanOptions {
-        count: 1,
-        tolerance_mm: Some(folder.settings().tolerance_mm),
-        failed: not_near.to_vec(),
-        ..PlanOptions::default()
+    let plan = |tolerance_mm| {
+        let failed = not_near.to_vec();
+        let options = PlanOptions { count: 1, tolerance_mm, failed, ..PlanOptions::default() };
+        match plan::plan_after(&dataset, calibration.clone(), session, &options) {
+            Ok(plan) => (plan.route.views.into_iter().next(), plan.route.stopped, plan.enough),
+            Err(error) => (None, Some(error.without_place()), false),
+        }
     };
-    let planned = plan::plan_after(&dataset, calibration.clone(), session, &options);
-    let (next, no_next, enough) = match planned {
-        Ok(plan) => (plan.route.views.into_iter().next(), plan.route.stopped, plan.enough),
-        Err(error) => (None, Some(error.without_place()), false),
-    };
+    let (mut next, mut no_next, enough) = plan(Some(folder.settings().tolerance_mm));
+    if goes_on && next.is_none() {
+        (next, no_next, _) = plan(None);
+    }
+    let verification = verification(folder, &calibration, session, &mut before.verification)?;
     let next = next.map(|view| ProposedView::planned(&view, session));
     let measured = measured_captures(session, &calibration);
-    Ok(Assessment { calibration, measured, next, no_next, enough })
+    Ok(Assessment { calibration, measured, next, no_next, enough, verification })
+}
+
+/// What the verification views say of the captures' calibration.
+fn verification(
+    folder: &SessionFolder,
+    calibration: &Calibration,
+    session: &Session,
+    before: &mut Measurements,
+) -> Result<Option<HeldOutTest>, Error> {
+    if folder.verification().is_empty() {
+        return Ok(None);
+    }
+    let camera = calibration.camera.as_ref().map(|c| c.intrinsics).or(session.camera);
+    let dataset = folder.verification_dataset(camera)?;
+    let views = measure::measure_again(&dataset, before, &|_, _| {})?.session.observations;
+    Ok(held_out::test(calibration, session.target.as_ref(), &views))
 }
 
 impl Assessment {
@@ -115,6 +150,11 @@ impl Assessment {
         let result = &self.calibration;
         let is_wrong = result.verdict == Verdict::Rejected && !result.is_only_imprecise();
         result.reasons.first().filter(|_| is_wrong).map(String::as_str)
+    }
+
+    /// Whether it is only the last capture that speaks against the others: something may have been moved before it.
+    pub fn is_open_at_end(&self) -> bool {
+        self.calibration.findings.iter().any(|finding| finding.code == LAST_CAPTURE_DISPLACED)
     }
 }
 

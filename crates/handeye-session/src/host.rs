@@ -6,13 +6,12 @@ use handeye::Config;
 use handeye_io::{
     Error, NewCapture, ResultFolder, SessionFolder,
     calibrate::{calibrate_dataset, write_run},
-    measure::Measurements,
     report::dataset_html,
     simulated,
 };
 
 use crate::{
-    assess::assess,
+    assess::{Measured, assess},
     engine::{Effect, FolderState, Input, Written, rest::RobotSample},
     sources::{outlet::CameraImage, virtual_cell::VirtualCell},
 };
@@ -20,7 +19,7 @@ use crate::{
 /// The folder, and what was measured in it.
 pub struct Host {
     folder: SessionFolder,
-    measurements: Measurements,
+    measured: Measured,
 }
 
 /// The folder of the result in a session's folder.
@@ -29,7 +28,7 @@ pub const RESULT: &str = "result";
 impl Host {
     /// Of a folder that is open.
     pub fn new(folder: SessionFolder) -> Self {
-        Self { folder, measurements: Measurements::default() }
+        Self { folder, measured: Measured::default() }
     }
 
     /// The folder.
@@ -43,6 +42,7 @@ impl Host {
         FolderState {
             settings: self.folder.settings().clone(),
             captures: owned(self.folder.captures()),
+            verification: owned(self.folder.verification()),
             deleted: self.folder.deleted().iter().map(|c| c.id.clone()).collect(),
             refused: self.folder.refused().into_iter().cloned().collect(),
             touches: self.folder.touches().into_iter().cloned().collect(),
@@ -52,7 +52,9 @@ impl Host {
     /// Does it; returns what it led to. Effects for sources are not for it.
     pub fn perform(&mut self, effect: Effect, image: Option<CameraImage>) -> Vec<Input> {
         match effect {
-            Effect::Store { robot, image_time_s, .. } => self.store(&robot, image_time_s, image),
+            Effect::Store { verifies, robot, image_time_s, .. } => {
+                self.store(verifies, (&robot, image_time_s), image)
+            }
             Effect::StoreTouch { corner, robot } => {
                 let stored =
                     self.folder.touch(corner, (robot.base_from_flange, &robot.typed), robot.time_s);
@@ -83,8 +85,8 @@ impl Host {
                 let done = self.folder.reread(&notation);
                 self.changed(done)
             }
-            Effect::Assess { generation, not_near } => {
-                let assessment = assess(&self.folder, &mut self.measurements, &not_near);
+            Effect::Assess { generation, not_near, goes_on } => {
+                let assessment = assess(&self.folder, &mut self.measured, (&not_near, goes_on));
                 let assessment = assessment.map(Arc::new).map_err(|e| e.to_string());
                 vec![Input::Assessed { generation, assessment }]
             }
@@ -95,8 +97,8 @@ impl Host {
 
     fn store(
         &mut self,
-        robot: &RobotSample,
-        image_time_s: f64,
+        verifies: bool,
+        (robot, image_time_s): (&RobotSample, f64),
         image: Option<CameraImage>,
     ) -> Vec<Input> {
         let Some(image) = image else {
@@ -105,7 +107,7 @@ impl Host {
         let own = image.file.as_ref().map(|(ending, bytes)| (&ending[..], &bytes[..]));
         let made = own.is_none().then(|| simulated::picture(&image.grey));
         let made = made.as_ref().map(|png| ("png", &png[..]));
-        let stored = self.folder.take(&NewCapture {
+        let capture = NewCapture {
             base_from_flange: robot.base_from_flange,
             typed: &robot.typed,
             joints: &robot.joints,
@@ -113,7 +115,11 @@ impl Host {
             image_time_s: Some(image_time_s),
             image: own.or(made),
             scan: None,
-        });
+        };
+        let stored = match verifies {
+            true => self.folder.verify(&capture),
+            false => self.folder.take(&capture),
+        };
         let stored = stored.map_err(|e| e.to_string());
         // first what lies in the folder: until then it is being stored
         vec![Input::Folder(Box::new(self.state())), Input::Stored(stored)]

@@ -80,7 +80,9 @@ pub(super) enum Line {
     Cell(Box<CellSettings>),
     /// A capture was taken.
     Take(StoredCapture),
-    /// One was not.
+    /// A view was taken that verifies the answer, and is none of the captures that it is made with.
+    Verify(StoredCapture),
+    /// A capture was not taken.
     Refuse(RefusedCapture),
     /// A capture was deleted.
     Delete(String),
@@ -136,7 +138,7 @@ impl Journal {
             let reading = Writing::of(notation);
             for before in &mut self.lines {
                 let (pose, typed) = match before {
-                    Line::Take(c) => (&mut c.base_from_flange, &c.typed),
+                    Line::Take(c) | Line::Verify(c) => (&mut c.base_from_flange, &c.typed),
                     Line::Touch(t) => (&mut t.base_from_flange, &t.typed),
                     Line::Cell(settings) => {
                         settings.notation.clone_from(notation);
@@ -189,6 +191,22 @@ impl Journal {
         all
     }
 
+    /// All views that were ever taken to verify the answer.
+    pub(super) fn verifying(&self) -> Vec<&StoredCapture> {
+        let mut all = vec![];
+        for line in &self.lines {
+            if let Line::Verify(view) = line {
+                all.push(view);
+            }
+        }
+        all
+    }
+
+    /// Both.
+    pub(super) fn stored(&self) -> Vec<&StoredCapture> {
+        self.taken().into_iter().chain(self.verifying()).collect()
+    }
+
     /// The names of those that are deleted.
     fn gone(&self) -> BTreeSet<&str> {
         let mut gone = BTreeSet::new();
@@ -206,14 +224,15 @@ impl Journal {
         !self.gone().contains(id)
     }
 
-    pub(super) fn standing(&self) -> Vec<&StoredCapture> {
+    /// Of captures or views, those that were not deleted.
+    pub(super) fn standing<'a>(&self, all: Vec<&'a StoredCapture>) -> Vec<&'a StoredCapture> {
         let gone = self.gone();
-        self.taken().into_iter().filter(|c| !gone.contains(&c.id[..])).collect()
+        all.into_iter().filter(|c| !gone.contains(&c.id[..])).collect()
     }
 
     pub(super) fn deleted(&self) -> Vec<&StoredCapture> {
         let gone = self.gone();
-        self.taken().into_iter().filter(|c| gone.contains(&c.id[..])).collect()
+        self.stored().into_iter().filter(|c| gone.contains(&c.id[..])).collect()
     }
 
     /// All touches that were ever made.

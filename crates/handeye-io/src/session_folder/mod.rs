@@ -5,6 +5,7 @@
 //! robot.csv           the flange's pose in each capture, in the robot's notation
 //! touches.csv         the same for each corner that was touched
 //! images/001.png      scans/001.ply
+//! verification/v01.png    views that verify the answer, which is not made with them
 //! journal.jsonl       what was done, a line each: the truth, from which the rest follows
 //! deleted/            images and scans of captures that were deleted, for those who want them back
 //! ```
@@ -21,9 +22,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use handeye::{Base, Flange, Pose};
+use handeye::{Base, Flange, Intrinsics, Pose};
 
-use crate::{Dataset, Error, MANIFEST, Writing, error::unusable, files::write_atomically};
+use crate::{
+    CaptureSource, Dataset, Error, MANIFEST, Writing, error::unusable, files::write_atomically,
+};
 use journal::{Journal, Line};
 pub use journal::{RefusedCapture, StoredCapture, StoredTouch};
 pub use manifest::{CameraGuess, CellSettings};
@@ -34,6 +37,10 @@ const JOURNAL: &str = "journal.jsonl";
 const TOUCHES: &str = "touches.csv";
 /// Where files of deleted captures are kept.
 const DELETED: &str = "deleted";
+/// The folder of verification views.
+const VERIFICATION: &str = "verification";
+/// No session has more of those.
+const MOST_VIEWS: u32 = 99;
 /// No session has more captures.
 const MOST_CAPTURES: u32 = 9999;
 
@@ -116,10 +123,15 @@ impl SessionFolder {
 
     /// The captures that stand, in the order in which they were taken.
     pub fn captures(&self) -> Vec<&StoredCapture> {
-        self.journal.standing()
+        self.journal.standing(self.journal.taken())
     }
 
-    /// Captures that were deleted.
+    /// Views that verify the answer, in the order in which they were taken: no captures, the answer is not made with them.
+    pub fn verification(&self) -> Vec<&StoredCapture> {
+        self.journal.standing(self.journal.verifying())
+    }
+
+    /// Captures that were deleted, and views.
     pub fn deleted(&self) -> Vec<&StoredCapture> {
         self.journal.deleted()
     }
@@ -138,6 +150,29 @@ impl SessionFolder {
             true => Dataset::without_captures(&self.root.join(MANIFEST)),
             false => Dataset::open(&self.root),
         }
+    }
+
+    /// The views that verify the answer, as a dataset of the camera as the answer has it.
+    ///
+    /// # Errors
+    /// As [`Dataset::open`].
+    pub fn verification_dataset(&self, camera: Option<Intrinsics>) -> Result<Dataset, Error> {
+        let source = |view: &&StoredCapture| CaptureSource {
+            id: view.id.clone(),
+            base_from_flange: view.base_from_flange,
+            joints: view.joints.clone(),
+            time_s: None,
+            image: view.image.as_ref().map(|name| self.root.join(name)),
+            scan: view.scan.as_ref().map(|name| self.root.join(name)),
+            corners: None,
+            camera_from_target: None,
+            robot_record: 0,
+        };
+        let captures = self.verification().iter().map(source).collect();
+        let mut cell = Dataset::without_captures(&self.root.join(MANIFEST))?;
+        cell.intrinsics = camera.or(cell.intrinsics);
+        (cell.captures, cell.touches) = (captures, vec![]);
+        Ok(cell)
     }
 
     /// Other settings; with captures, of the same cell.
@@ -162,7 +197,7 @@ impl SessionFolder {
     /// Poses that were not typed, or are none in the other notation; a folder that cannot be written.
     pub fn reread(&mut self, notation: &str) -> Result<(), Error> {
         let reading = Writing::of(notation).map_err(|why| unusable(&self.root, why))?;
-        let captures = self.journal.taken().into_iter().map(|c| (&c.id, &c.typed));
+        let captures = self.journal.stored().into_iter().map(|c| (&c.id, &c.typed));
         let touches = self.journal.touched().into_iter().map(|t| (&t.id, &t.typed));
         for (id, typed) in captures.chain(touches) {
             let why = match typed.is_empty() {
@@ -191,7 +226,31 @@ impl SessionFolder {
         if number > MOST_CAPTURES {
             return Err(unusable(&self.root, format!("has {MOST_CAPTURES} captures already")));
         }
-        let id = format!("{number:03}");
+        self.store(capture, format!("{number:03}"), ("images", "scans"), Line::Take)
+    }
+
+    /// Stores a view that verifies the answer likewise.
+    ///
+    /// # Errors
+    /// As [`SessionFolder::take`].
+    pub fn verify(&mut self, view: &NewCapture) -> Result<String, Error> {
+        let number = self.journal.verifying().len() as u32 + 1;
+        if number > MOST_VIEWS {
+            return Err(unusable(
+                &self.root,
+                format!("has {MOST_VIEWS} verification views already"),
+            ));
+        }
+        self.store(view, format!("v{number:02}"), (VERIFICATION, VERIFICATION), Line::Verify)
+    }
+
+    fn store(
+        &mut self,
+        capture: &NewCapture,
+        id: String,
+        (images, scans): (&str, &str),
+        line: fn(StoredCapture) -> Line,
+    ) -> Result<String, Error> {
         let mut aside = vec![];
         let mut place = |folder: &str, file: Option<(&str, &[u8])>| -> Result<_, Error> {
             let Some((ending, bytes)) = file else { return Ok(None) };
@@ -202,10 +261,10 @@ impl SessionFolder {
             write_atomically(&path, bytes)?;
             Ok(Some(name))
         };
-        let files = place("images", capture.image)
-            .and_then(|image| Ok((image, place("scans", capture.scan)?)));
+        let files =
+            place(images, capture.image).and_then(|image| Ok((image, place(scans, capture.scan)?)));
         let written = files.and_then(|(image, scan)| {
-            let line = Line::Take(StoredCapture {
+            let line = line(StoredCapture {
                 id: id.clone(),
                 image,
                 scan,
@@ -272,12 +331,12 @@ impl SessionFolder {
         self.journal.append(Line::Refuse(refused))
     }
 
-    /// Takes a capture out; its files are kept aside.
+    /// Takes a capture out, or a verification view; its files are kept aside.
     ///
     /// # Errors
     /// No such capture; a folder that cannot be written.
     pub fn delete(&mut self, id: &str) -> Result<(), Error> {
-        if !self.captures().iter().any(|c| c.id == id) {
+        if !self.captures().iter().chain(&self.verification()).any(|c| c.id == id) {
             return Err(unusable(&self.root, format!("has no capture {id}")));
         }
         self.journal.append(Line::Delete(id.into()))?;
@@ -303,7 +362,7 @@ impl SessionFolder {
 
     /// Makes files agree with the journal: what stands lies in its place, what was deleted aside; then table and manifest.
     fn settle(&self) -> Result<(), Error> {
-        for capture in self.journal.taken() {
+        for capture in self.journal.stored() {
             let stands = self.journal.stands(&capture.id);
             for name in [&capture.image, &capture.scan].into_iter().flatten() {
                 let (aside, there) = (self.aside(name), self.root.join(name));
@@ -315,7 +374,7 @@ impl SessionFolder {
             }
         }
         // only those that are empty go
-        ["deleted/images", "deleted/scans", DELETED]
+        ["deleted/images", "deleted/scans", "deleted/verification", DELETED, VERIFICATION]
             .iter()
             .for_each(|name| _ = fs::remove_dir(self.root.join(name)));
         self.write_if_changed("robot.csv", &self.table())?;

@@ -19,19 +19,22 @@ pub enum Step {
     Capture,
     /// Corners are touched, for those who want that: a second instrument beside the camera.
     Touch,
+    /// Views are taken that verify the captures, for those who want that.
+    Verify,
     /// The result is written.
     Result,
 }
 
 impl Step {
     /// All, in order.
-    pub const ALL: [Step; 7] = [
+    pub const ALL: [Step; 8] = [
         Step::Cell,
         Step::Camera,
         Step::Robot,
         Step::Board,
         Step::Capture,
         Step::Touch,
+        Step::Verify,
         Step::Result,
     ];
 
@@ -44,6 +47,7 @@ impl Step {
             Step::Board => "board",
             Step::Capture => "capture",
             Step::Touch => "touch",
+            Step::Verify => "verify",
             Step::Result => "result",
         }
     }
@@ -95,7 +99,7 @@ pub enum Command {
         #[serde(default)]
         reread: bool,
     },
-    /// Take a capture as soon as robot and image stand.
+    /// Take a capture as soon as robot and image stand; in the step `verify` a view that verifies the others.
     Take,
     /// Take captures without being asked, once at each pose.
     Automatic {
@@ -111,7 +115,7 @@ pub enum Command {
         /// Its numbers, in the notation.
         text: String,
     },
-    /// Take a capture out.
+    /// Take a capture or a verification view out.
     Delete {
         /// Its name.
         id: String,

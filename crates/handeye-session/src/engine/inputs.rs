@@ -107,7 +107,9 @@ pub struct FolderState {
     pub settings: CellSettings,
     /// The captures that stand.
     pub captures: Vec<StoredCapture>,
-    /// Names of deleted captures.
+    /// The views that verify what is made of them.
+    pub verification: Vec<StoredCapture>,
+    /// Names of deleted captures and views.
     pub deleted: Vec<String>,
     /// Captures that were not taken.
     pub refused: Vec<RefusedCapture>,
@@ -120,6 +122,8 @@ pub struct FolderState {
 pub enum Effect {
     /// Store a capture of this image.
     Store {
+        /// Whether it is a view that verifies the others.
+        verifies: bool,
         /// The image's number.
         frame: u64,
         /// Where the robot stood.
@@ -152,6 +156,8 @@ pub enum Effect {
         generation: u64,
         /// Poses that nobody goes to (again).
         not_near: Vec<Pose<Base, Flange>>,
+        /// Whether a next view is wanted even where the captures are enough.
+        goes_on: bool,
     },
     /// Write the result.
     Write,

@@ -16,6 +16,7 @@ mod say;
 pub mod shown;
 mod taking;
 mod touch;
+mod verify;
 mod view;
 
 use std::{collections::VecDeque, sync::Arc};
@@ -204,8 +205,10 @@ impl Engine {
         }
         self.assessing = true;
         let refused = self.folder.refused.iter().filter_map(|r| r.base_from_flange);
-        let not_near = self.skipped.iter().copied().chain(refused).collect();
-        vec![Effect::Assess { generation: self.generation, not_near }]
+        let seen = self.folder.verification.iter().map(|view| view.base_from_flange);
+        let not_near = self.skipped.iter().copied().chain(refused).chain(seen).collect();
+        let goes_on = self.step == Step::Verify;
+        vec![Effect::Assess { generation: self.generation, not_near, goes_on }]
     }
 
     fn assessed(
@@ -247,7 +250,7 @@ impl Engine {
     fn enter(&mut self, step: Step) {
         self.step = step;
         self.farthest = self.farthest.max(step);
-        if step != Step::Capture {
+        if !self.takes_captures() {
             self.wish = None;
         }
     }

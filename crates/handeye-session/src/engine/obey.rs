@@ -82,12 +82,16 @@ impl Engine {
     fn go(&mut self, step: Step) -> Result<Vec<Effect>, Refusal> {
         if step == Step::Touch {
             self.may_touch()?;
+        } else if step == Step::Verify {
+            self.may_verify()?;
         } else if step > self.farthest {
             let step = step.name();
             return Err(later(format!("the step {step} is not open yet: confirm those before it")));
         }
+        let is_another_plan = (self.step == Step::Verify) != (step == Step::Verify);
         self.enter(step);
-        Ok(vec![])
+        // where to drive next is another question then
+        Ok(if is_another_plan { self.assess() } else { vec![] })
     }
 
     fn change_cell(
@@ -133,7 +137,7 @@ impl Engine {
         }
         match step.next() {
             // whoever wants touches goes there
-            Some(Step::Touch | Step::Result) => self.finish(),
+            Some(Step::Touch | Step::Verify | Step::Result) => self.finish(),
             Some(next) => {
                 self.enter(next);
                 Ok(vec![])
@@ -166,8 +170,8 @@ impl Engine {
     }
 
     fn want(&mut self) -> Result<Vec<Effect>, Refusal> {
-        if self.step != Step::Capture {
-            return Err(later("captures are taken in the step `capture`".into()));
+        if !self.takes_captures() {
+            return Err(later("captures are taken in the steps `capture` and `verify`".into()));
         }
         self.not_rereading()?;
         if self.storing {
@@ -186,7 +190,7 @@ impl Engine {
     }
 
     fn delete(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
-        if !self.folder.captures.iter().any(|c| c.id == id) {
+        if !self.folder.captures.iter().chain(&self.folder.verification).any(|c| c.id == id) {
             return Err(wrong(format!("there is no capture {id}")));
         }
         self.changes.push(Change::Deleted(id.clone()));
@@ -224,6 +228,7 @@ impl Engine {
                 "the newest capture, {id}, does not fit to those before it. {WHETHER_MOVED}"
             )));
         }
+        self.not_contradicted()?;
         Ok(vec![Effect::Write])
     }
 

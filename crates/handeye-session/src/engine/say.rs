@@ -38,6 +38,7 @@ impl Engine {
             Step::Board => self.board_proof(),
             Step::Capture => self.capture_proof(),
             Step::Touch => self.touch_proof(),
+            Step::Verify => self.verify_proof(),
             Step::Result => match &self.written {
                 Some(written) => proof(true, format!("written to {}", written.folder)),
                 None => proof(false, "no result is written yet"),
@@ -158,22 +159,26 @@ impl Engine {
             Step::Board => "The board is found. Confirm that its size is measured, not read off a drawing.".into(),
             Step::Capture => self.say_capture(),
             Step::Touch => self.say_touch(),
+            Step::Verify => self.say_verify(),
             Step::Result => self.say_result(),
         }
     }
 
-    fn say_capture(&self) -> String {
+    /// What is being done.
+    pub(super) fn say_busy(&self) -> Option<String> {
         if self.storing {
-            return "The capture is being stored.".into();
+            return Some("The capture is being stored.".into());
         }
         if let Some(wish) = &self.wish {
-            return format!(
-                "Hold still: {}.",
-                if wish.why.is_empty() { "waiting for a standstill" } else { &wish.why }
-            );
+            let why = if wish.why.is_empty() { "waiting for a standstill" } else { &wish.why };
+            return Some(format!("Hold still: {why}."));
         }
-        if self.assessing {
-            return "The captures are being assessed.".into();
+        self.assessing.then(|| "The captures are being assessed.".into())
+    }
+
+    fn say_capture(&self) -> String {
+        if let Some(busy) = self.say_busy() {
+            return busy;
         }
         let Some(assessed) = &self.assessed else {
             return match self.folder.captures.is_empty() {
@@ -181,10 +186,13 @@ impl Engine {
                 false => first_views(&self.folder.captures),
             };
         };
-        if let Some(why) = assessed.contradiction() {
+        let outlier = self.newest_outlier();
+        if let Some(why) = assessed.contradiction()
+            && !(outlier.is_some() && assessed.is_open_at_end())
+        {
             return contradiction(why, self.folder.captures.len());
         }
-        if let Some(id) = self.newest_outlier() {
+        if let Some(id) = outlier {
             return self.say_outlier(assessed, id);
         }
         if assessed.enough {
@@ -234,7 +242,7 @@ impl Engine {
     }
 
     /// Whether a robot whose poses stream stands at the view, so far as the planner tells views apart.
-    fn is_at(&self, next: &ProposedView) -> bool {
+    pub(super) fn is_at(&self, next: &ProposedView) -> bool {
         self.sources.robot == Flow::Stream && self.was_at(next)
     }
 
@@ -252,7 +260,10 @@ impl Engine {
         match (result.verdict, assessed.p95_mm()) {
             (Verdict::Accepted, Some(mm)) => {
                 let what = reservation(result).unwrap_or_else(|| "Accepted".into());
-                format!("{what}: {mm:.2} mm (95 %). Copy the transform, or open the report.")
+                let verified = self.verified();
+                format!(
+                    "{what}: {mm:.2} mm (95 %){verified}. Copy the transform, or open the report."
+                )
             }
             (Verdict::Rejected, _) => {
                 format!("Rejected: {}. Do not use this transform.", reasons(&result.reasons))

@@ -54,6 +54,8 @@ pub struct State {
     pub assessed: u64,
     /// Corners to touch and those that were; `None` where none can be.
     pub touch: Option<TouchView>,
+    /// Views that verify the captures; `None` as long as none can be taken.
+    pub verify: Option<VerifyView>,
     /// How far the captures go.
     pub progress: Option<Progress>,
     /// The result that was written.
@@ -212,6 +214,30 @@ pub struct TouchShown {
     pub residual_mm: Option<f64>,
     /// Whether the answer was made with it.
     pub used: bool,
+}
+
+/// Views that verify what was made of the captures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VerifyView {
+    /// Those that were taken.
+    pub views: Vec<VerifyShown>,
+    /// How far they are from where they were predicted, RMS, mm.
+    pub rms_mm: Option<f64>,
+    /// What was expected of it, mm.
+    pub expected_mm: Option<f64>,
+    /// Whether they agree with the calibration.
+    pub agrees: Option<bool>,
+}
+
+/// A view that verifies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VerifyShown {
+    /// Its name.
+    pub id: String,
+    /// How far the board is from where it was predicted, mm.
+    pub distance_mm: Option<f64>,
+    /// And rotated against it, degrees.
+    pub angle_deg: Option<f64>,
 }
 
 /// A capture that is waited for.

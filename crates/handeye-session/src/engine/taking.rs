@@ -144,6 +144,7 @@ impl Engine {
                     return self.refuse(why, false);
                 }
                 let effect = Effect::Store {
+                    verifies: self.step == Step::Verify,
                     frame,
                     robot: robot.clone(),
                     image_time_s: image.time_s - self.delay().unwrap_or(0.0),

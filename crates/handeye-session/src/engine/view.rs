@@ -61,6 +61,7 @@ impl Engine {
             assessing: self.assessing,
             assessed: self.assessments,
             touch: self.touch_view(),
+            verify: self.verify_view(),
             progress: self.assessed.as_ref().map(|a| self.progress(a)),
             result: self.result_view(),
             virtual_cell: self
@@ -91,6 +92,7 @@ impl Engine {
         let known = self.proof(step);
         let is_locked = match step {
             Step::Touch => self.may_touch().is_err(),
+            Step::Verify => self.may_verify().is_err(),
             _ => step > self.farthest,
         };
         let state = match step {

@@ -186,14 +186,18 @@ async fn capture(State(app): State<App>, Path(name): Path<String>) -> Response {
 
 /// A capture's image, whether it stands or was deleted.
 fn capture_image(folder: &std::path::Path, id: &str) -> Option<handeye::GrayImage> {
-    let places = [folder.join("images"), folder.join("deleted/images")];
-    let mut files =
-        places.iter().filter_map(|place| std::fs::read_dir(place).ok()).flatten().flatten();
+    let places = ["images", "verification", "deleted/images", "deleted/verification"];
+    let mut files = places
+        .iter()
+        .filter_map(|name| std::fs::read_dir(folder.join(name)).ok())
+        .flatten()
+        .flatten();
     let is_own = |file: &std::fs::DirEntry| file.path().file_stem().is_some_and(|stem| stem == id);
     read_image(&files.find(is_own)?.path(), None).ok()
 }
 
 fn is_id(id: &str) -> bool {
+    let id = id.strip_prefix('v').unwrap_or(id);
     (1..=4).contains(&id.len()) && id.bytes().all(|byte| byte.is_ascii_digit())
 }
 

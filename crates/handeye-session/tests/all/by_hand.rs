@@ -28,6 +28,7 @@ impl Bench {
         let folder = FolderState {
             settings,
             captures: vec![],
+            verification: vec![],
             deleted: vec![],
             refused: vec![],
             touches: vec![],
@@ -169,6 +170,7 @@ fn nothing_is_finished_while_a_capture_may_still_say_that_something_moved() {
     let folder = FolderState {
         settings: bench.engine.settings().clone(),
         captures: vec![stored],
+        verification: vec![],
         deleted: vec![],
         refused: vec![],
         touches: vec![],
@@ -209,6 +211,7 @@ impl Streaming {
         let folder = FolderState {
             settings: bench.cell.settings(),
             captures: vec![],
+            verification: vec![],
             deleted: vec![],
             refused: vec![],
             touches: vec![],

@@ -12,6 +12,7 @@ mod ur_fields;
 mod ur_rtde;
 mod ur_rtde_live;
 mod ur_simulator;
+mod verify;
 mod virtual_cell;
 
 use std::{

@@ -27,6 +27,7 @@ impl Trial {
         let folder = FolderState {
             settings: cell.settings(),
             captures: vec![],
+            verification: vec![],
             deleted: vec![],
             refused: vec![],
             touches: vec![],

@@ -2,7 +2,7 @@
 
 import { selectedCapture, type App } from "./app";
 import type { Icon } from "./icons";
-import { isOutlier, type State, type StepName } from "./state";
+import { isOutlier, takesCaptures, type State, type StepName } from "./state";
 import type { Key } from "./words";
 
 export interface Action {
@@ -42,7 +42,7 @@ let asked: { outcomes: number; problem: string; at: number } | null = null;
 const ASKED_FOR = 20_000; // ms after which this is over in any case
 
 const outcomes = (state: State): number =>
-  (state.captures?.length ?? 0) + (state.deleted?.length ?? 0) + (state.refused?.length ?? 0);
+  (state.captures?.length ?? 0) + (state.deleted?.length ?? 0) + (state.refused?.length ?? 0) + (state.verify?.views?.length ?? 0);
 
 const problemOf = ({ problem }: State): string => (problem && problem.code !== "image-late" ? problem.message : "");
 
@@ -84,7 +84,7 @@ export function cancel(app: App): void {
 
 function takeAction(app: App, state: State): Action {
   const byHand = state.robot?.typed || state.camera?.single;
-  const label = !state.taking ? "take" : byHand ? "waiting_for_both" : "waiting_for_rest";
+  const label = !state.taking ? (state.step === "verify" ? "take_view" : "take") : byHand ? "waiting_for_both" : "waiting_for_rest";
   return { label, enabled: canTake(state), run: () => void take(app) };
 }
 
@@ -93,6 +93,18 @@ function inCapture(app: App, state: State): Action {
   if (state.taking) return takeAction(app, state);
   if (state.assessing || isStoring(state)) return act(app, "assessing_now", { do: "cancel" }, false);
   if (isEnough(state)) return act(app, "finish", { do: "finish" });
+  if (state.virtual_cell && isAtNext(state) === false) return act(app, "drive", { do: "drive", to: "next" });
+  return takeAction(app, state);
+}
+
+const DONE_VIEWS = 3; // then finishing is the next thing
+
+function inVerify(app: App, state: State): Action {
+  const count = state.verify?.views?.length ?? 0;
+  if (state.virtual_cell?.driving) return act(app, "driving", { do: "cancel" }, false);
+  if (state.taking) return takeAction(app, state);
+  if (state.assessing || isStoring(state)) return act(app, "assessing_now", { do: "cancel" }, false);
+  if (count >= DONE_VIEWS && state.verify?.agrees === true) return act(app, "finish", { do: "finish" });
   if (state.virtual_cell && isAtNext(state) === false) return act(app, "drive", { do: "drive", to: "next" });
   return takeAction(app, state);
 }
@@ -126,6 +138,8 @@ function primaryOf(app: App, state: State): Action {
       return inCapture(app, state);
     case "touch":
       return inTouch(app, state);
+    case "verify":
+      return inVerify(app, state);
     case "result":
       if (!state.result) return act(app, "back_to_captures", { do: "go", step: "capture" });
       return { label: "open_report", enabled: true, icon: "page", run: openReport };
@@ -146,17 +160,25 @@ async function confirmRobot(app: App): Promise<void> {
 /** The actions beside the primary one. */
 export function secondary(app: App, state: State): Action[] {
   const stop = state.taking ? [{ label: "cancel" as const, enabled: true, run: () => cancel(app) }] : [];
-  const isTaking = primary(app, state).label === "take" || state.taking;
+  const isTaking = takesCaptures(state) && (["take", "take_view"].includes(primary(app, state).label) || state.taking);
   switch (state.step) {
     case "capture":
       return [
         ...stop,
         ...(isTaking ? [] : [takeAction(app, state)]),
         ...(isEnough(state) && state.touch ? [act(app, "go_touch", { do: "go", step: "touch" })] : []),
+        ...(isEnough(state) && state.verify ? [act(app, "go_verify", { do: "go", step: "verify" })] : []),
         { ...act(app, "automatic", { do: "automatic", on: !state.automatic }), on: state.automatic === true },
       ];
     case "touch":
       return [
+        ...(primary(app, state).label === "finish" ? [] : [act(app, "finish", { do: "finish" })]),
+        act(app, "back_to_captures", { do: "go", step: "capture" }),
+      ];
+    case "verify":
+      return [
+        ...stop,
+        ...(isTaking ? [] : [takeAction(app, state)]),
         ...(primary(app, state).label === "finish" ? [] : [act(app, "finish", { do: "finish" })]),
         act(app, "back_to_captures", { do: "go", step: "capture" }),
       ];

@@ -22,7 +22,7 @@ import { button } from "./controls";
 import { h, show } from "./dom";
 import { Orbit } from "./orbit";
 import { axes, boardShape, cameraShape, edgesAt, elbow, halfView, lines, matrix, pyramid, rim, span, tripod } from "./shapes";
-import type { Maybe, Pose, State } from "./state";
+import { takesCaptures, type Maybe, type Pose, type State } from "./state";
 import { extent } from "./targets";
 import { named, said } from "./words";
 
@@ -139,7 +139,7 @@ class Drawing {
 
   update(state: State, selected: string | null): void {
     const here = placesAt(state, state.robot?.base_from_flange);
-    const there = state.step === "capture" ? placesAt(state, state.next?.base_from_flange) : { camera: null, target: null };
+    const there = takesCaptures(state) ? placesAt(state, state.next?.base_from_flange) : { camera: null, target: null };
     this.floor();
     this.arm(state.robot?.base_from_flange);
     this.board(state, here.target);
@@ -197,7 +197,7 @@ class Drawing {
 
   private next(state: State, { camera, target }: { camera: Matrix4 | null; target: Matrix4 | null }): void {
     const isBoard = state.cell?.setup === "eye-to-hand";
-    const flange = state.step === "capture" ? state.next?.base_from_flange : null;
+    const flange = takesCaptures(state) ? state.next?.base_from_flange : null;
     const moving = isBoard ? target : camera;
     const half = this.view(state);
     this.pieces.next.set(`${moving !== null} ${isBoard} ${half} ${JSON.stringify(state.cell?.target ?? null)}`, () => {

@@ -2,6 +2,7 @@
 
 import { cancel, canTake, deleteSelected, goTo, nextView, primary, selectBy, take } from "./actions";
 import type { App } from "./app";
+import { takesCaptures } from "./state";
 
 const AGAIN = 350; // ms in which a second press of the same key counts as a slip
 
@@ -28,7 +29,7 @@ function escape(app: App): void {
 /** What a key does; null for those that do nothing. */
 function effect(app: App, key: string, help: HTMLDialogElement): (() => void) | null {
   const state = app.state;
-  const isTaking = state?.step === "capture";
+  const isTaking = state !== null && takesCaptures(state);
   const step = state?.steps?.[Number(key) - 1];
   if (step) return () => goTo(app, step.name);
   switch (key.toLowerCase()) {

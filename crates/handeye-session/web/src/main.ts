@@ -25,6 +25,7 @@ import { makeStepCell } from "./step_cell";
 import { makeStepResult } from "./step_result";
 import { makeStepRobot } from "./step_robot";
 import { makeStepTouch } from "./step_touch";
+import { makeStepVerify } from "./step_verify";
 import { named, speak } from "./words";
 
 const app = makeApp(redraw);
@@ -36,9 +37,9 @@ const picture = makePicture(app);
 const speakOf = makeSpeaker(place("spoken"));
 
 /** Each part, and the steps in which it is seen. */
-const ALL: StepName[] = ["cell", "camera", "robot", "board", "capture", "touch", "result"];
-const WORK: StepName[] = ["robot", "capture", "touch"];
-const ANSWER: StepName[] = ["capture", "touch", "result"];
+const ALL: StepName[] = ["cell", "camera", "robot", "board", "capture", "touch", "verify", "result"];
+const WORK: StepName[] = ["robot", "capture", "touch", "verify"];
+const ANSWER: StepName[] = ["capture", "touch", "verify", "result"];
 const onStage: [Part, StepName[]][] = [
   [picture, ALL],
   [makeCell(app), WORK],
@@ -51,11 +52,12 @@ const onSide: [Part, StepName[]][] = [
   [makeStepRobot(app), ["robot"]],
   [makeStepBoard(app), ["board"]],
   [makeStepTouch(app), ["touch"]],
+  [makeStepVerify(app), ["verify"]],
   [makeFindings(app, "rejects"), ANSWER],
   [makeAccuracy(app), ["capture", "result"]],
   [makeCaptures(app), ["capture", "result"]],
   [makeFindings(app, "changes-answer"), ANSWER],
-  [makeRefused(app), ["capture"]],
+  [makeRefused(app), ["capture", "verify"]],
   [makeFindings(app, "info"), ANSWER],
 ];
 const always: Part[] = [makeNotices(app, place("notices")), makeRail(app, place("rail"), () => help.showModal()), makeHead(app, place("head"))];

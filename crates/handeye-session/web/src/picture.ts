@@ -8,7 +8,7 @@ import { h, kind, show, text } from "./dom";
 import { frameFor } from "./live";
 import { mm } from "./numbers";
 import { drawEarlier, drawFound, drawGhost, drawResiduals, drawWay, type Colours, type Fit } from "./overlay";
-import { isOutlier, type Capture, type State } from "./state";
+import { isOutlier, takesCaptures, type Capture, type State } from "./state";
 import { named, sentence, t } from "./words";
 
 const COLOURS: Colours = {
@@ -115,7 +115,7 @@ export function makePicture(app: App): Part & { draw(): void } {
       drawGhost(draw, fit, state, COLOURS);
     }
     if (state.camera?.corners?.length) drawFound(draw, fit, state.camera.corners, COLOURS);
-    if (state.step === "capture") drawWay(draw, fit, state, COLOURS);
+    if (takesCaptures(state)) drawWay(draw, fit, state, COLOURS);
   }
 
   return {

@@ -7,7 +7,7 @@ import { button } from "./controls";
 import { attribute, h, kind, list, show, text } from "./dom";
 import { makeTyping } from "./typing";
 import { columns, mm, small, type Column } from "./numbers";
-import type { Next, State } from "./state";
+import { takesCaptures, type Next, type State } from "./state";
 import { said, t } from "./words";
 
 interface Digit extends Column {
@@ -51,7 +51,7 @@ function digitRow() {
 /** The numbers to show: those of the pose, or of the joints. */
 function digits(state: State, joints: boolean): Digit[] {
   const { robot, next, cell } = state;
-  const wanted = state.step === "capture" ? next : null;
+  const wanted = takesCaptures(state) ? next : null;
   const shown: Next = wanted ?? robot ?? {};
   const values = (joints ? shown.joints_deg : shown.numbers) ?? [];
   const now = wanted && !robot?.typed ? (joints ? robot?.joints_deg : robot?.numbers) : null;
@@ -75,7 +75,7 @@ export function makePosePanel(app: App): Part {
   const joints = h("button", { type: "button" }, said(h("span"), "joints"));
   joints.addEventListener("click", () => app.choose({ joints: !app.choices.joints }));
   const other = button("other_view", () => skip(app), { icon: "skip" });
-  const typing = makeTyping(app, () => void (app.state?.step === "capture" && canTake(app.state) ? take(app) : sendTyped(app)));
+  const typing = makeTyping(app, () => void (app.state && takesCaptures(app.state) && canTake(app.state) ? take(app) : sendTyped(app)));
   const element = h(
     "section",
     { class: "pose" },
@@ -87,7 +87,7 @@ export function makePosePanel(app: App): Part {
   return {
     element,
     update(state) {
-      const next = state.step === "capture" ? state.next : null;
+      const next = takesCaptures(state) ? state.next : null;
       text(title, next ? t("next_view", { number: next.number ?? "" }) : t("robot_now"));
       const there = next ? isAtNext(state) : null;
       text(off, next ? offText(state) : state.step === "robot" ? "" : (state.robot?.why ?? ""));
@@ -103,7 +103,7 @@ export function makePosePanel(app: App): Part {
       attribute(joints, "aria-pressed", String(app.choices.joints));
       show(other, Boolean(next));
       typing.update(state);
-      show(typing.element, state.robot?.typed === true && (state.step === "capture" || state.step === "touch"));
+      show(typing.element, state.robot?.typed === true && (takesCaptures(state) || state.step === "touch"));
     },
   };
 }

@@ -9,6 +9,7 @@ export const SENTENCES = {
   step_board: ["Board", "Tafel"],
   step_capture: ["Captures", "Aufnahmen"],
   step_touch: ["Touches", "Antasten"],
+  step_verify: ["Verification", "Prüfung"],
   step_result: ["Result", "Ergebnis"],
   state_done: ["(done)", "(erledigt)"],
   state_now: ["(now)", "(jetzt)"],
@@ -213,6 +214,21 @@ export const SENTENCES = {
   touch_it: ["The tip is at the corner", "Die Spitze ist an der Ecke"],
   drive_tip: ["Bring the tip there", "Spitze hinführen"],
   go_touch: ["Touch corners", "Ecken antasten"],
+
+  // step: verify
+  verification: ["Verification views", "Prüfansichten"],
+  verification_why: [
+    "Views that the calibration is not made with. It should predict them as well as its own captures, and best where the robot will work.",
+    "Ansichten, aus denen die Kalibrierung nicht entsteht. Sie soll sie so gut vorhersagen wie ihre eigenen Aufnahmen, vor allem dort, wo der Roboter arbeiten wird.",
+  ],
+  verified_yes: ["They agree with the calibration.", "Sie passen zur Kalibrierung."],
+  verified_no: ["They contradict the calibration.", "Sie widersprechen der Kalibrierung."],
+  verified_by: [
+    "{rms} mm (RMS) from the predictions; {expected} mm are expected.",
+    "{rms} mm (RMS) von den Vorhersagen; {expected} mm sind zu erwarten.",
+  ],
+  take_view: ["Take the view", "Ansicht aufnehmen"],
+  go_verify: ["Verify with other views", "Mit anderen Ansichten prüfen"],
 
   typed_otherwise: ["Typed in another notation?", "In anderer Schreibweise getippt?"],
   typed_otherwise_hint: [

@@ -12,7 +12,10 @@ export interface Pose {
   rotation_xyzw: [number, number, number, number];
 }
 
-export const STEPS = ["cell", "camera", "robot", "board", "capture", "touch", "result"] as const;
+export const STEPS = ["cell", "camera", "robot", "board", "capture", "touch", "verify", "result"] as const;
+
+/** Steps in which images are taken. */
+export const takesCaptures = ({ step }: State): boolean => step === "capture" || step === "verify";
 export type StepName = (typeof STEPS)[number];
 
 export interface Step {
@@ -178,6 +181,20 @@ export interface Touch {
   used?: boolean;
 }
 
+/** Views that verify the captures. */
+export interface Verifying {
+  views?: Verified[];
+  rms_mm?: Maybe<number>;
+  expected_mm?: Maybe<number>;
+  agrees?: Maybe<boolean>;
+}
+
+export interface Verified {
+  id: string;
+  distance_mm?: Maybe<number>;
+  angle_deg?: Maybe<number>;
+}
+
 export interface State {
   version: number;
   folder?: string;
@@ -200,6 +217,7 @@ export interface State {
   assessed?: number; // changes with every assessment
   progress?: Maybe<Progress>;
   touch?: Maybe<Touching>;
+  verify?: Maybe<Verifying>;
   result?: Maybe<Result>;
   virtual_cell?: Maybe<{ truth_error_mm?: Maybe<number>; driving?: boolean }>;
 }

@@ -1,0 +1,138 @@
+//! Views that verify the captures: the answer is not made with them, and should predict them as well as its own.
+
+use handeye::tools::held_out::HeldOutTest;
+
+use super::{
+    Engine, Refusal, Step,
+    obey::later,
+    say::{Proof, capitalised, contradiction, proof},
+    shown::{VerifyShown, VerifyView},
+    taking::KNOWN,
+};
+
+impl Engine {
+    /// Whether images are taken in this step.
+    pub(super) fn takes_captures(&self) -> bool {
+        matches!(self.step, Step::Capture | Step::Verify)
+    }
+
+    /// Whether there is something to verify.
+    pub(super) fn may_verify(&self) -> Result<(), Refusal> {
+        let known = self.assessed.as_ref().is_some_and(|assessed| {
+            let result = &assessed.calibration;
+            result.hand_eye.mount_from_camera.is_some()
+                && result.captures.iter().filter(|c| c.used).count() >= KNOWN
+        });
+        match known || !self.folder.verification.is_empty() {
+            true => Ok(()),
+            false => {
+                Err(later("first captures are taken until they determine the transform".into()))
+            }
+        }
+    }
+
+    /// What the views say, where they were assessed.
+    fn verification(&self) -> Option<&HeldOutTest> {
+        self.assessed.as_ref().filter(|_| !self.assessing)?.verification.as_ref()
+    }
+
+    /// A result that views contradict is not written.
+    pub(super) fn not_contradicted(&self) -> Result<(), Refusal> {
+        match self.verification().filter(|test| !test.agrees()) {
+            Some(test) => Err(later(against(test))),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn verify_proof(&self) -> Proof {
+        if self.folder.verification.is_empty() {
+            return proof(false, "no view has been taken that verifies the captures");
+        }
+        match self.verification() {
+            Some(test) if test.agrees() => proof(true, agreement(test)),
+            Some(test) => proof(false, against(test)),
+            None => proof(false, "the views are being assessed"),
+        }
+    }
+
+    pub(super) fn say_verify(&self) -> String {
+        if let Err(why) = self.may_verify() {
+            return format!("{}.", capitalised(&why.message));
+        }
+        if let Some(busy) = self.say_busy() {
+            return busy;
+        }
+        let Some(assessed) = &self.assessed else {
+            return "The captures cannot be assessed.".into();
+        };
+        if let Some(test) = &assessed.verification
+            && !test.agrees()
+        {
+            return format!("{}.", capitalised(&against(test)));
+        }
+        if let Some(why) = assessed.contradiction() {
+            return contradiction(why, self.folder.captures.len());
+        }
+        let before = assessed
+            .verification
+            .as_ref()
+            .map_or(String::new(), |test| format!("{}. ", capitalised(&agreement(test))));
+        let go_on = if before.is_empty() { "" } else { " Or finish." };
+        match &assessed.next {
+            Some(next) if self.is_at(next) => {
+                format!("{before}The robot is at the view: take it.{go_on}")
+            }
+            Some(_) => format!(
+                "{before}Drive to the view that is shown, or to where the robot will work, and take it: the calibration is not made with it.{go_on}"
+            ),
+            None => format!(
+                "{before}Drive to where the robot will work, with the whole board in the image, and take the view.{go_on}"
+            ),
+        }
+    }
+
+    /// What is added to the sentence on the result.
+    pub(super) fn verified(&self) -> String {
+        self.verification()
+            .filter(|test| test.agrees())
+            .map_or(String::new(), |test| format!("; {}", agreement(test)))
+    }
+
+    /// What is shown of the views; `None` where none can be taken.
+    pub(super) fn verify_view(&self) -> Option<VerifyView> {
+        self.may_verify().ok()?;
+        let test = self.verification();
+        let of = |id: &str| test?.views.iter().find(|view| view.id == id);
+        let shown = self.folder.verification.iter().map(|view| VerifyShown {
+            id: view.id.clone(),
+            distance_mm: of(&view.id).map(|found| found.distance_mm),
+            angle_deg: of(&view.id).map(|found| found.angle_deg),
+        });
+        Some(VerifyView {
+            views: shown.collect(),
+            rms_mm: test.map(|test| test.rms_mm),
+            expected_mm: test.map(|test| test.expected_mm),
+            agrees: test.map(HeldOutTest::agrees),
+        })
+    }
+}
+
+fn agreement(test: &HeldOutTest) -> String {
+    let HeldOutTest { rms_mm, expected_mm, .. } = test;
+    match test.views.len() {
+        1 => format!(
+            "verified by a view: {rms_mm:.2} mm from its prediction, {expected_mm:.2} mm are expected"
+        ),
+        count => format!(
+            "verified by {count} views: {rms_mm:.2} mm (RMS) from their predictions, {expected_mm:.2} mm are expected"
+        ),
+    }
+}
+
+fn against(test: &HeldOutTest) -> String {
+    let (id, mm) = test.worst().map_or(("", 0.0), |view| (&view.id[..], view.distance_mm));
+    format!(
+        "not verified: in view {id} the board is {mm:.2} mm from where the calibration predicts it, and {:.2} mm (RMS) are expected: camera or board were moved since the captures, or the robot errs there. If something was moved, begin a new session; if not, take captures there, and delete the view if it is wrong itself",
+        test.expected_mm
+    )
+}

@@ -1,0 +1,121 @@
+//! Views that verify the captures: they say whether the answer still holds, and are no part of it.
+
+use std::{fs, path::Path};
+
+use handeye::{
+    Config, Pose, Setup,
+    nalgebra::{Isometry3, Vector3},
+};
+use handeye_io::{Dataset, SessionFolder, calibrate::calibrate_dataset, read_result};
+use handeye_session::{
+    engine::{Command, Destination, Step},
+    host::Host,
+    script::Player,
+    sources::{
+        mistakes::Event,
+        virtual_cell::{Faults, VirtualCell},
+    },
+};
+
+use crate::new_folder;
+
+fn player(root: &Path, setup: Setup) -> Player {
+    let cell = VirtualCell::new(setup, 7, Faults::default()).unwrap();
+    let folder = SessionFolder::open(root, Some(&cell.settings())).unwrap();
+    Player::new(Host::new(folder), cell)
+}
+
+/// A session whose captures are enough, at the step `verify`.
+fn calibrated(root: &Path, setup: Setup) -> Player {
+    let mut player = player(root, setup);
+    let early = player.command(Command::Go { step: Step::Verify }).unwrap_err();
+    assert!(early.contains("first captures are taken"), "{early}");
+    for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
+        player.command(Command::Confirm { step }).unwrap();
+    }
+    player.command(Command::Take).unwrap();
+    while !player.state().progress.is_some_and(|p| p.enough) {
+        player.command(Command::Drive { to: Destination::Next }).unwrap();
+        player.command(Command::Take).unwrap();
+        assert!(player.state().captures.len() < 30);
+    }
+    assert!(player.state().next.is_none(), "enough is enough");
+    player.command(Command::Go { step: Step::Verify }).unwrap();
+    player
+}
+
+fn view(player: &mut Player) {
+    player.command(Command::Drive { to: Destination::Next }).unwrap();
+    player.command(Command::Take).unwrap();
+}
+
+#[test]
+fn views_that_agree_verify_the_result_and_are_no_part_of_it() {
+    for setup in [Setup::EyeInHand, Setup::EyeToHand] {
+        let root = new_folder();
+        let mut player = calibrated(&root, setup);
+        let captures = player.state().captures.len();
+        assert!(player.state().say.contains("not made with it"), "{}", player.state().say);
+        let refused = player.command(Command::Confirm { step: Step::Verify }).unwrap_err();
+        assert!(refused.contains("no view has been taken"), "{refused}");
+        (0..3).for_each(|_| view(&mut player));
+        let state = player.state();
+        let verified = state.verify.unwrap();
+        assert_eq!(verified.agrees, Some(true), "{verified:?}");
+        let names: Vec<&str> = verified.views.iter().map(|v| &v.id[..]).collect();
+        assert_eq!(names, ["v01", "v02", "v03"]);
+        assert!(verified.views.iter().all(|v| v.distance_mm.is_some_and(|mm| mm < 2.0)));
+        assert_eq!(state.captures.len(), captures);
+        assert!(state.say.starts_with("Verified by 3 views"), "{}", state.say);
+
+        player.command(Command::Confirm { step: Step::Verify }).unwrap();
+        let said = player.state().say;
+        assert!(said.starts_with("Accepted") && said.contains("verified by 3 views"), "{said}");
+        let result = read_result(&root.join("result/calibration.json")).unwrap();
+        assert_eq!(result.captures.len(), captures);
+        let (again, _) =
+            calibrate_dataset(&Dataset::open(&root).unwrap(), &Config::default(), &|_, _| {})
+                .unwrap();
+        assert_eq!(again.run_id, result.run_id);
+        drop(player);
+
+        // they are there when the session goes on
+        let folder = SessionFolder::open(&root, None).unwrap();
+        let kept: Vec<_> = folder.verification().iter().map(|v| v.image.clone().unwrap()).collect();
+        assert_eq!(kept, ["verification/v01.png", "verification/v02.png", "verification/v03.png"]);
+        assert!(kept.iter().all(|name| root.join(name).is_file()));
+        fs::remove_dir_all(root).unwrap();
+    }
+}
+
+#[test]
+fn after_a_knock_a_view_contradicts_and_no_result_is_written() {
+    for setup in [Setup::EyeInHand, Setup::EyeToHand] {
+        let root = new_folder();
+        let mut player = calibrated(&root, setup);
+        view(&mut player);
+        assert_eq!(player.state().verify.unwrap().agrees, Some(true));
+        let knock = Isometry3::new(Vector3::new(3e-3, -2e-3, 1e-3), Vector3::new(0.0, 4e-3, 0.0));
+        player.cell().happens(&Event::CameraMoved(Pose::claim(knock)));
+        view(&mut player);
+        let state = player.state();
+        assert_eq!(state.verify.unwrap().agrees, Some(false));
+        assert!(state.say.starts_with("Not verified: in view v02"), "{}", state.say);
+        let refused = player.command(Command::Finish).unwrap_err();
+        assert!(refused.contains("not verified"), "{refused}");
+        assert!(!root.join("result").exists());
+
+        // a view that was wrong itself is deleted, restored and undone as captures are
+        player.command(Command::Delete { id: "v02".into() }).unwrap();
+        assert_eq!(player.state().verify.unwrap().agrees, Some(true));
+        assert!(root.join("deleted/verification/v02.png").is_file());
+        player.command(Command::Undo).unwrap();
+        assert_eq!(player.state().verify.unwrap().agrees, Some(false));
+        player.command(Command::Undo).unwrap();
+        assert_eq!(player.state().verify.unwrap().views.len(), 1);
+        player.command(Command::Finish).unwrap();
+        assert!(player.state().say.starts_with("Accepted"), "{}", player.state().say);
+        drop(player);
+        fs::remove_dir_all(root).unwrap();
+    }
+}
