@@ -5,7 +5,10 @@ use std::{
     fs,
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
-    sync::mpsc::{self, Sender},
+    sync::{
+        atomic::{AtomicUsize, Ordering},
+        mpsc::{self, Sender},
+    },
     thread,
     time::{Duration, Instant},
 };
@@ -19,6 +22,9 @@ use super::{
 const PATIENCE: Duration = Duration::from_secs(60);
 /// Of what it prints, so much is shown.
 const SHOWN_CHARS: usize = 300;
+
+/// Images that this process has asked for: several sessions in it do not share a file.
+static GRABS: AtomicUsize = AtomicUsize::new(0);
 
 /// Waits to be asked for images, and takes them by the command; the answer is the sender to ask by.
 pub fn grabber(command: String, outlet: Outlet) -> Sender<()> {
@@ -47,8 +53,9 @@ pub fn grabber(command: String, outlet: Outlet) -> Sender<()> {
 
 /// Takes one image.
 fn grab(command: &str, patience: Duration) -> Result<CameraImage, String> {
-    let folder =
-        handeye_io::temporary_folder().join(format!("handeye-grab-{}", handeye_io::process()));
+    let number = GRABS.fetch_add(1, Ordering::Relaxed);
+    let name = format!("handeye-grab-{}-{number}", handeye_io::process());
+    let folder = handeye_io::temporary_folder().join(name);
     fs::remove_dir_all(&folder).ok();
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let taken = grab_in(&folder, command, patience);
