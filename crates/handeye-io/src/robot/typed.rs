@@ -74,13 +74,20 @@ fn numbers(text: &str, decimal_commas: bool) -> Option<Vec<Named>> {
     let mut found = vec![];
     let mut name = String::new();
     let mut rest = text;
+    let mut after_number = false;
     while let Some(first) = rest.chars().next() {
         if is_number(first) && (first != ',' || rest[1..].starts_with(|c: char| c.is_ascii_digit()))
         {
+            // 1.2.3 is no two numbers
+            if after_number && matches!(first, '.' | ',') {
+                return None;
+            }
             let end = number_end(rest, decimal_commas);
             let value: f64 = rest[..end].replace(',', ".").parse().ok()?;
             found.push(Named { name: std::mem::take(&mut name), value });
             rest = &rest[end..];
+            after_number = true;
+            continue;
         } else if first.is_alphabetic() {
             let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
             // a number may follow its name at once: X612.3
@@ -95,6 +102,7 @@ fn numbers(text: &str, decimal_commas: bool) -> Option<Vec<Named>> {
         } else {
             return None;
         }
+        after_number = false;
     }
     (!found.is_empty()).then_some(found)
 }
@@ -162,6 +170,9 @@ mod tests {
             ("X 1 Y 2 Z 3 W 4 P 5 R 6", "are not those of kuka"),
             ("X 1 X 2 Z 3 A 4 B 5 C 6", "are not those of kuka"),
             ("1 2 3 4 5 6 7", "7 numbers"),
+            ("1,2,3,4,5,6,7", "7 numbers"),
+            ("1 -231.777723.728 4 5 6", "something else"),
+            ("1,5 -231,777723,728 4 5 6", "numbers"),
             ("", "numbers"),
             ("1 2 3 4 5 $", "something else"),
             ("- - - - - -", "something else"),

@@ -3,8 +3,10 @@
 use std::{
     fs,
     io::{BufRead, BufReader, Write},
-    net::{TcpListener, TcpStream},
+    net::{SocketAddr, TcpListener, TcpStream},
     path::PathBuf,
+    thread,
+    time::{Duration, Instant},
 };
 
 use handeye::Setup;
@@ -19,21 +21,28 @@ use handeye_session::{
 
 use crate::new_folder;
 
+/// Longer than any image takes.
+const PATIENCE: Duration = Duration::from_secs(120);
+
 /// A cell whose images a command takes, and whose robot speaks.
-struct Bench {
-    cell: VirtualCell,
+pub struct Bench {
+    pub cell: VirtualCell,
     live: Live,
-    root: PathBuf,
-    address: std::net::SocketAddr,
+    pub root: PathBuf,
+    pub address: SocketAddr,
     now: f64,
 }
 
 impl Bench {
     fn new() -> Self {
+        Self::of("kuka")
+    }
+
+    pub fn of(notation: &str) -> Self {
         let root = new_folder();
         fs::create_dir_all(&root).unwrap();
         let cell = VirtualCell::new(Setup::EyeInHand, 2, Faults::default()).unwrap();
-        let settings = CellSettings { notation: "kuka".into(), ..cell.settings() };
+        let settings = CellSettings { notation: notation.into(), ..cell.settings() };
         let folder = SessionFolder::open(&root.join("cell"), Some(&settings)).unwrap();
         let command = format!("cp {} {{out}}", root.join("now.png").display());
         let live = Live::begin(Host::new(folder), Cell::Hand(Camera::Command(command)));
@@ -44,9 +53,26 @@ impl Bench {
     }
 
     /// The image that the camera would take now.
-    fn expose(&self) {
+    pub fn expose(&self) {
         let png = simulated::picture(&self.cell.image(self.now, 1));
         fs::write(self.root.join("now.png"), png).unwrap();
+    }
+
+    /// Confirms all steps before the captures.
+    pub fn confirm(&self) {
+        for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
+            // the image was not taken yet: that is what the steps wait for
+            if step == Step::Camera {
+                self.live.command_blocking(Command::Grab).unwrap();
+                let seen = |json: &str| json.contains("\"found\":\"54 of 54 corners\"");
+                let begin = Instant::now();
+                while !seen(&self.live.shown().borrow().json) {
+                    assert!(begin.elapsed() < PATIENCE, "no image comes");
+                    thread::sleep(Duration::from_millis(20));
+                }
+            }
+            self.live.command_blocking(Command::Confirm { step }).unwrap();
+        }
     }
 
     fn drive(&mut self, numbers: &[f64]) {
@@ -101,17 +127,7 @@ fn a_robots_program_is_led_to_the_end() {
     let mut robot = Robot::connect(&bench);
     assert_eq!(robot.says("hello"), "ok handeye kuka");
     assert!(robot.says(&bench.pose()).contains("step `capture`"));
-    for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
-        // the image was not taken yet: that is what the steps wait for
-        if step == Step::Camera {
-            bench.live.command_blocking(Command::Grab).unwrap();
-            let seen = |json: &str| json.contains("\"found\":\"54 of 54 corners\"");
-            while !seen(&bench.live.shown().borrow().json) {
-                std::thread::sleep(std::time::Duration::from_millis(20));
-            }
-        }
-        bench.live.command_blocking(Command::Confirm { step }).unwrap();
-    }
+    bench.confirm();
     let mut said = robot.says(&bench.pose());
     for _ in 0..30 {
         if said.starts_with("enough") {
@@ -155,7 +171,7 @@ fn garbage_half_lines_and_second_robots_get_an_answer_or_nothing() {
         stream.write_all(b"pose 1 2").unwrap();
     }
     let again = (0..200).any(|_| {
-        std::thread::sleep(std::time::Duration::from_millis(20));
+        thread::sleep(Duration::from_millis(20));
         let mut robot = Robot::connect(&bench);
         robot.stream.write_all(b"hello\n").unwrap();
         robot.hears() == "ok handeye kuka"

@@ -6,6 +6,8 @@ mod by_hand;
 mod gate;
 #[cfg(unix)]
 mod line;
+#[cfg(unix)]
+mod line_programs;
 mod mistakes;
 mod standstill;
 mod ur_fields;
