@@ -29,6 +29,7 @@ NO_OTHER_HOST = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"
 CHOICES = ["cell", "camera", "robot", "board"]
 FORMAT = "quaternion-xyzw"
 TOUCHES = 6
+VIEWS = 3
 
 STEP = "document.body?.dataset.step"
 PRIMARY = "document.querySelector('button.primary')"
@@ -36,6 +37,7 @@ PRIMARY = "document.querySelector('button.primary')"
 ACTION = f"({PRIMARY}.getAttribute('aria-disabled') ? '' : {PRIMARY}.querySelector('[data-say]').dataset.say)"
 STATE = f"JSON.stringify([{STEP}, {ACTION}])"
 TOUCH_STEP = "document.querySelector('[data-say=step_touch]').closest('button')"
+VERIFY_STEP = "document.querySelector('[data-say=step_verify]').closest('button')"
 # what is the same in every tab
 SHOWN = f"""JSON.stringify([{STEP}, ...['h1', '.accuracy .number', 'ol.captures', '.banner']
     .map((part) => document.querySelector(part).textContent)])"""
@@ -119,6 +121,8 @@ def main():
         clicks = page.clicks
         with_touches(page, folder, pictures)
         same_bytes(program, folder)
+        with_other_views(page, folder, pictures)
+        same_bytes(program, folder)
         assert not list(page.wrong()), list(page.wrong())
     with opened(program) as (page, folder):
         again = with_keys(page, folder)
@@ -186,6 +190,25 @@ def with_touches(page, folder, pictures):
     page.wait(f"{STEP} == 'result'", "the result")
     result = json.loads((folder / "result" / "calibration.json").read_text())
     assert result["verdict"] == "accepted" and len(result["touches"]) == TOUCHES, result["verdict"]
+
+
+def with_other_views(page, folder, pictures):
+    """Views that the calibration is not made with agree with it."""
+    before = (folder / "result" / "calibration.json").read_bytes()
+    page.click(VERIFY_STEP)
+    page.wait(f"{STEP} == 'verify' && {ACTION} == 'drive'", "the step verify, and a view to drive to")
+    while page.act(lambda: page.click(PRIMARY), "verify") != "finish":
+        pass
+    page.wait(f"{STEP} == 'result'", "the result")
+    assert len(list((folder / "verification").iterdir())) == VIEWS
+    assert (folder / "result" / "calibration.json").read_bytes() == before, "views that verify change the result"
+    page.click(VERIFY_STEP)
+    page.wait(f"{STEP} == 'verify' && {ACTION} == 'finish'", "the views are seen again")
+    agree = "document.querySelector('.verified').textContent"
+    assert page.value(agree) == "They agree with the calibration.", page.value(agree)
+    look(page, "verify", pictures)
+    page.act(lambda: page.click(PRIMARY), "verify")
+    page.wait(f"{STEP} == 'result'", "the result")
 
 
 def with_keys(page, folder):

@@ -21,7 +21,7 @@ function viewRow(app: App, id: string) {
 }
 
 export function makeStepVerify(app: App): Part {
-  const answer = h("p", { class: "which" });
+  const answer = h("p", { class: "which verified" });
   const numbers = h("p", { class: "hint" });
   const rows = h("ol", { class: "touches" });
   const draw = list<Verified>(
