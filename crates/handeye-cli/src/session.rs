@@ -32,6 +32,7 @@ use crate::{args::GlobalArgs, browser, failure::Failure, output};
 \x20 handeye session --virtual\n\
 \x20 handeye session cell/ --images-from /mnt/camera --notation kuka --target board.toml\n\
 \x20 handeye session cell/ --camera-command 'python grab.py {out}' --intrinsics camera.yaml\n\
+\x20 handeye session cell/ --upload --notation abb\n\
 \x20 handeye session cell/ --ur 192.168.1.5 --images-from /mnt/camera --target board.toml\n\
 \x20 handeye session cell/ --virtual 7 --headless --script steps.json --json\n\
 \n\
@@ -49,6 +50,10 @@ pub struct SessionArgs {
     /// Command that takes an image and writes it to {out}; poses are typed on the page, or come by --ur or --robot.
     #[arg(long, value_name = "COMMAND", conflicts_with = "seed")]
     pub camera_command: Option<String>,
+    /// Images are uploaded on the page (files, or the browser's own camera) or by HTTP; poses are typed, or come by --ur or
+    /// --robot.
+    #[arg(long, conflicts_with_all = ["seed", "images_from", "camera_command"])]
+    pub upload: bool,
     /// Who carries the camera: eye-in-hand (the robot, by default) or eye-to-hand.
     #[arg(long, value_name = "SETUP", value_parser = setup)]
     pub setup: Option<Setup>,
@@ -140,8 +145,9 @@ fn cell(args: &SessionArgs) -> Result<Cell, Failure> {
         }
         (None, Some(folder), _) => Ok(real(args, Camera::Folder(folder.clone()))),
         (None, None, Some(command)) => Ok(real(args, Camera::Command(command.clone()))),
+        (None, None, None) if args.upload => Ok(real(args, Camera::Upload)),
         (None, None, None) => {
-            let what = "where do images come from? --virtual (to try it), --images-from FOLDER, or --camera-command COMMAND";
+            let what = "where do images come from? --virtual (to try it), --images-from FOLDER, --camera-command COMMAND, or --upload";
             Err(Failure::Usage(what.into()))
         }
     }

@@ -28,6 +28,17 @@ pub fn read_image(path: &Path, bit_depth: Option<u32>) -> Result<GrayImage, Erro
     gray(&picture, bit_depth, path)
 }
 
+/// The same of an image's bytes; and the ending of a file of its format. `name` is what errors call it.
+///
+/// # Errors
+/// As [`read_image`].
+pub fn read_image_bytes(bytes: &[u8], name: &str) -> Result<(GrayImage, &'static str), Error> {
+    let path = Path::new(name);
+    let format = reader(bytes, path)?.format();
+    let ending = format.and_then(|f| f.extensions_str().first().copied()).unwrap_or("png");
+    Ok((gray(&decode_bytes(bytes, path)?, None, path)?, ending))
+}
+
 /// Width and height, from the header alone.
 ///
 /// # Errors
@@ -82,9 +93,12 @@ fn reader<'a>(bytes: &'a [u8], path: &Path) -> Result<ImageReader<Cursor<&'a [u8
 
 /// The decoded image, its size checked first.
 pub(crate) fn decode(path: &Path) -> Result<DynamicImage, Error> {
-    let bytes = files::bytes(path)?;
-    size_of(&bytes, path)?;
-    reader(&bytes, path)?.decode().map_err(|e| broken(&e, path))
+    decode_bytes(&files::bytes(path)?, path)
+}
+
+fn decode_bytes(bytes: &[u8], path: &Path) -> Result<DynamicImage, Error> {
+    size_of(bytes, path)?;
+    reader(bytes, path)?.decode().map_err(|e| broken(&e, path))
 }
 
 fn broken(error: &image::ImageError, path: &Path) -> Error {

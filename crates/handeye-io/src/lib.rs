@@ -59,7 +59,7 @@ pub use dataset::{
 };
 pub use error::{Error, Place};
 pub use files::{process, temporary_folder, write_atomically};
-pub use image::{image_size, read_image, small_jpeg};
+pub use image::{image_size, read_image, read_image_bytes, small_jpeg};
 pub use import::{Declared, Direction, Imported, import};
 pub use init::{FirstManifest, Known, first_manifest, without_request};
 pub use mesh::{is_mesh, points_on, read_mesh, spacing_on};

@@ -20,6 +20,7 @@ use crate::{
     sources::{
         command, folder,
         outlet::{CameraImage, Outlet, Wanted},
+        upload::Uploads,
         ur_rtde::{self, UrRobot},
         virtual_cell::{VirtualCamera, VirtualCell},
     },
@@ -41,6 +42,8 @@ pub enum Camera {
     Folder(PathBuf),
     /// A command that takes one, with `{out}` for the file that it writes.
     Command(String),
+    /// Whoever has the page, or a script: they are uploaded.
+    Upload,
 }
 
 /// What is shown, as JSON, and its version.
@@ -61,6 +64,7 @@ pub struct Live {
     shown: watch::Receiver<Shown>,
     frames: watch::Receiver<u64>,
     outlet: Outlet,
+    uploads: Option<Uploads>,
     folder: PathBuf,
 }
 
@@ -93,6 +97,7 @@ impl Live {
         let state = host.state();
         let outlet = Outlet::new(inputs.clone(), Wanted::of(&state.settings), show_frame);
         let (sources, equipment) = connect(cell, &outlet);
+        let uploads = sources.takes_uploads().then(|| Uploads::to(outlet.clone()));
         let (engine, effects) = Engine::new(state, sources);
         let mut runner = Runner {
             engine,
@@ -106,7 +111,7 @@ impl Live {
         };
         runner.publish(); // there is a state from the first moment
         thread::spawn(move || runner.run((&inbox, &asking), effects));
-        Self { asked, shown, frames, outlet, folder }
+        Self { asked, shown, frames, outlet, uploads, folder }
     }
 
     /// Asks for something; the answer comes at once, what it leads to is in the state.
@@ -144,6 +149,11 @@ impl Live {
     /// The newest image, and its number.
     pub fn newest_image(&self) -> Option<(u64, CameraImage)> {
         self.outlet.images().newest()
+    }
+
+    /// Where images are uploaded; `None` where they come otherwise.
+    pub fn uploads(&self) -> Option<&Uploads> {
+        self.uploads.as_ref()
     }
 
     /// The folder.
@@ -185,6 +195,7 @@ fn connect_camera(camera: Camera, robot: Flow, outlet: &Outlet) -> (Sources, Equ
             folder::watch(path, outlet.clone());
             (sources(false), Equipment::Nothing)
         }
+        Camera::Upload => (sources(false), Equipment::Nothing),
         Camera::Command(line) => {
             (sources(true), Equipment::Command(command::grabber(line, outlet.clone())))
         }

@@ -89,6 +89,11 @@ impl Sources {
     /// Those of a virtual cell.
     pub const VIRTUAL: Self =
         Self { robot: Flow::Stream, camera: Flow::Stream, takes_images: false, is_virtual: true };
+
+    /// Whether images may be handed over by whoever has one.
+    pub fn takes_uploads(self) -> bool {
+        self.camera == Flow::Single && !self.takes_images
+    }
 }
 
 /// The files of a result.

@@ -124,6 +124,8 @@ pub struct CameraView {
     pub connected: bool,
     /// Whether they come one by one.
     pub single: bool,
+    /// Whether they may be uploaded.
+    pub uploads: bool,
     /// Width, px.
     pub width: u32,
     /// Height, px.

@@ -73,21 +73,16 @@ impl Engine {
         if let Some(why) = assessed.contradiction() {
             return contradiction(why, self.folder.captures.len());
         }
-        let before = assessed
-            .verification
-            .as_ref()
-            .map_or(String::new(), |test| format!("{}. ", capitalised(&agreement(test))));
-        let go_on = if before.is_empty() { "" } else { " Or finish." };
+        if let Some(test) = &assessed.verification {
+            return format!(
+                "{}. Take another one, best where the robot will work, or finish.",
+                capitalised(&agreement(test))
+            );
+        }
         match &assessed.next {
-            Some(next) if self.is_at(next) => {
-                format!("{before}The robot is at the view: take it.{go_on}")
-            }
-            Some(_) => format!(
-                "{before}Drive to the view that is shown, or to where the robot will work, and take it: the calibration is not made with it.{go_on}"
-            ),
-            None => format!(
-                "{before}Drive to where the robot will work, with the whole board in the image, and take the view.{go_on}"
-            ),
+            Some(next) if self.is_at(next) => "The robot is at the view: take it.".into(),
+            Some(_) => "Drive to the view that is shown, or to where the robot will work, and take it: the calibration is not made with it.".into(),
+            None => "Drive to where the robot will work, with the whole board in the image, and take the view: the calibration is not made with it.".into(),
         }
     }
 

@@ -139,6 +139,7 @@ impl Engine {
         CameraView {
             connected: last.is_some_and(|p| single || self.now - p.time_s < 2.0),
             single,
+            uploads: self.sources.takes_uploads(),
             width: last.map_or(0, |p| p.size.0),
             height: last.map_or(0, |p| p.size.1),
             frame: last.map_or(0, |p| p.frame),

@@ -91,9 +91,9 @@ pub(super) async fn check(State(app): State<App>, request: Request, next: Next) 
         return not_signed_in();
     }
     let length = text(header::CONTENT_LENGTH).and_then(|length| length.parse().ok());
-    if length.is_some_and(|bytes: u64| bytes > LARGEST_BYTES) {
-        let advice = "images come from the camera's side, not from the page";
-        return refusal(StatusCode::PAYLOAD_TOO_LARGE, "this is too much", advice);
+    let most = if request.uri().path() == UPLOAD { LARGEST_IMAGE } else { LARGEST_COMMAND };
+    if length.is_some_and(|bytes: u64| bytes > most as u64) {
+        return too_large(most);
     }
     let answered = tokio::time::timeout(PATIENCE, next.run(request)).await;
     answered.unwrap_or_else(|_| {
@@ -101,13 +101,23 @@ pub(super) async fn check(State(app): State<App>, request: Request, next: Next) 
     })
 }
 
+/// Where images are uploaded.
+pub(super) const UPLOAD: &str = "/api/image";
 /// No command is longer, bytes.
-const LARGEST_BYTES: u64 = 1 << 20;
+pub(super) const LARGEST_COMMAND: usize = 1 << 20;
+/// No image's file is larger, bytes.
+pub(super) const LARGEST_IMAGE: usize = 128 << 20;
 /// A request that is still being sent after so long is given up.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn token_in(query: Option<&str>) -> Option<&str> {
     query?.split('&').find_map(|pair| pair.strip_prefix("token="))
+}
+
+/// More than this many bytes are not taken.
+pub(super) fn too_large(most: usize) -> Response {
+    let advice = format!("at most {} MiB are taken", most >> 20);
+    refusal(StatusCode::PAYLOAD_TOO_LARGE, "this is too much", &advice)
 }
 
 fn not_signed_in() -> Response {

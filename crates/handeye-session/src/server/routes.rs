@@ -1,10 +1,10 @@
 //! What the server answers.
 
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use axum::{
     Router,
-    body::Bytes,
+    body::{Body, Bytes, to_bytes},
     extract::{Path, Query, State},
     http::{HeaderName, HeaderValue, StatusCode, header},
     middleware,
@@ -14,8 +14,9 @@ use axum::{
 use handeye_io::{export, read_image, read_result, small_jpeg};
 use serde::Deserialize;
 use serde_json::{Value, json};
+use tokio::sync::Semaphore;
 
-use super::guard::{self, Guard};
+use super::guard::{self, Guard, LARGEST_COMMAND, LARGEST_IMAGE, UPLOAD};
 use crate::{engine::Command, host::RESULT, live::Live};
 
 /// What every answer needs.
@@ -23,6 +24,8 @@ use crate::{engine::Command, host::RESULT, live::Live};
 pub(super) struct App {
     pub(super) live: Live,
     pub(super) guard: Guard,
+    /// One image at a time is uploaded.
+    uploading: Arc<Semaphore>,
 }
 
 /// A state that does not change is sent again after so long.
@@ -39,13 +42,14 @@ const REPORT_POLICY: &str = "sandbox allow-scripts; default-src 'none'; script-s
      style-src 'unsafe-inline'; img-src data: blob:; font-src data:";
 
 pub(super) fn router(live: Live, guard: Guard) -> Router {
-    let app = App { live, guard };
+    let app = App { live, guard, uploading: Arc::new(Semaphore::new(1)) };
     Router::new()
         .route("/", get(page))
         .route("/session.js", get(script))
         .route("/session.css", get(style))
         .route("/api/state", get(state))
         .route("/api/do", post(command))
+        .route(UPLOAD, post(upload))
         .route("/api/live.jpg", get(live_image))
         .route("/api/captures/{name}", get(capture))
         .route("/api/report", get(report))
@@ -119,7 +123,10 @@ async fn state(State(app): State<App>, Query(After { after }): Query<After>) -> 
     content(StatusCode::OK, "application/json", Bytes::copy_from_slice(json.as_bytes()))
 }
 
-async fn command(State(app): State<App>, body: Bytes) -> Response {
+async fn command(State(app): State<App>, body: Body) -> Response {
+    let Ok(body) = to_bytes(body, LARGEST_COMMAND).await else {
+        return guard::too_large(LARGEST_COMMAND);
+    };
     let command: Command = match serde_json::from_slice(&body) {
         Ok(command) => command,
         Err(error) => {
@@ -137,6 +144,31 @@ async fn command(State(app): State<App>, body: Bytes) -> Response {
             let status = if why.later { StatusCode::CONFLICT } else { StatusCode::BAD_REQUEST };
             refusal(status, &why.message, "")
         }
+    }
+}
+
+/// An image's file, as the body.
+async fn upload(State(app): State<App>, body: Body) -> Response {
+    let Some(uploads) = app.live.uploads().cloned() else {
+        let advice = "begin the session with --upload";
+        return refusal(StatusCode::CONFLICT, "images come by themselves in this session", advice);
+    };
+    let Ok(turn) = app.uploading.clone().try_acquire_owned() else {
+        let what = "another image is being uploaded";
+        return refusal(StatusCode::CONFLICT, what, "one at a time: send it again then");
+    };
+    let Ok(body) = to_bytes(body, LARGEST_IMAGE).await else {
+        return guard::too_large(LARGEST_IMAGE);
+    };
+    let taken = tokio::task::spawn_blocking(move || {
+        let taken = uploads.image(&body);
+        drop(turn);
+        taken
+    });
+    match taken.await {
+        Ok(Ok(())) => answer_json(StatusCode::OK, &json!({})),
+        Ok(Err(why)) => refusal(StatusCode::BAD_REQUEST, &why, "PNG, JPEG, TIFF and BMP are read"),
+        Err(_) => refusal(StatusCode::BAD_REQUEST, "the image cannot be read", "save it again"),
     }
 }
 

@@ -5,5 +5,6 @@ pub mod command;
 pub mod folder;
 pub mod mistakes;
 pub mod outlet;
+pub mod upload;
 pub mod ur_rtde;
 pub mod virtual_cell;
