@@ -10,6 +10,8 @@ pub mod assess;
 pub mod engine;
 pub mod host;
 pub mod live;
+#[cfg(test)]
+mod openapi;
 pub mod script;
 pub mod server;
 pub mod sources;

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A step of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Step {
     /// Who carries the camera, and which error is tolerated.
@@ -60,6 +61,7 @@ impl Step {
 
 /// A command: `{"do": "take"}`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Command {
     /// What a step shows is right: go on.
@@ -174,6 +176,7 @@ pub enum Command {
 
 /// Where the robot of a virtual cell can be driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Destination {
     /// The next view.

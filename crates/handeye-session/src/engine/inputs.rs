@@ -47,6 +47,7 @@ pub enum Input {
 
 /// What went wrong.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Problem {
     /// A fixed name; it begins with `robot-` where poses do not come.
     pub code: String,

@@ -13,6 +13,7 @@ pub type Pixel = [f64; 2];
 
 /// The whole state.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct State {
     /// Grows with every change.
     pub version: u64,
@@ -66,6 +67,7 @@ pub struct State {
 
 /// A step.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct StepView {
     /// Which.
     pub name: Step,
@@ -79,6 +81,7 @@ pub struct StepView {
 
 /// The cell.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct CellView {
     /// Who carries the camera.
     pub setup: Setup,
@@ -96,6 +99,7 @@ pub struct CellView {
 
 /// The robot.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct RobotView {
     /// Whether poses come.
     pub connected: bool,
@@ -119,6 +123,7 @@ pub struct RobotView {
 
 /// The camera.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct CameraView {
     /// Whether images come.
     pub connected: bool,
@@ -150,6 +155,7 @@ pub struct CameraView {
 
 /// The view to take next.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct NextView {
     /// The number of the capture that it will be.
     pub number: usize,
@@ -181,6 +187,7 @@ pub struct NextView {
 
 /// A distance of two poses.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Off {
     /// Positions, mm.
     pub mm: f64,
@@ -190,6 +197,7 @@ pub struct Off {
 
 /// Corners that are touched.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TouchView {
     /// Where the tip is in the flange, mm.
     pub tip_mm: Option<[f64; 3]>,
@@ -207,6 +215,7 @@ pub struct TouchView {
 
 /// A corner that was touched.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TouchShown {
     /// Its name.
     pub id: String,
@@ -244,6 +253,7 @@ pub struct VerifyShown {
 
 /// A capture that is waited for.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Taking {
     /// How long, s.
     pub since_s: f64,
@@ -253,6 +263,7 @@ pub struct Taking {
 
 /// A capture.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct CaptureView {
     /// Its name.
     pub id: String,
@@ -282,6 +293,7 @@ pub struct CaptureView {
 
 /// What was measured in a capture's image.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct CaptureDetail {
     /// Its name.
     pub id: String,
@@ -293,6 +305,7 @@ pub struct CaptureDetail {
 
 /// A deleted capture.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct DeletedView {
     /// Its name.
     pub id: String,
@@ -300,6 +313,7 @@ pub struct DeletedView {
 
 /// A capture that was not taken.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct RefusedView {
     /// When, s.
     pub time_s: f64,
@@ -309,6 +323,7 @@ pub struct RefusedView {
 
 /// How far the captures go.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Progress {
     /// How many captures.
     pub captures: usize,
@@ -338,6 +353,7 @@ pub struct Progress {
 
 /// How well the camera's pose is known in a direction.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Direction {
     /// `x`, or `about x`: in the camera.
     pub name: &'static str,
@@ -349,6 +365,7 @@ pub struct Direction {
 
 /// The result.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ResultView {
     /// Its files.
     pub files: Vec<String>,
@@ -360,6 +377,7 @@ pub struct ResultView {
 
 /// Of a virtual cell.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct VirtualView {
     /// Whether its robot moves.
     pub driving: bool,

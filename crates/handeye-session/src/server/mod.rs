@@ -2,7 +2,7 @@
 
 mod guard;
 pub mod line;
-mod routes;
+pub(crate) mod routes;
 
 use std::{
     io,

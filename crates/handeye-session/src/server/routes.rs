@@ -9,7 +9,7 @@ use axum::{
     http::{HeaderName, HeaderValue, StatusCode, header},
     middleware,
     response::{IntoResponse, Response},
-    routing::{get, post},
+    routing::{MethodRouter, get, post},
 };
 use handeye_io::{export, read_image, read_result, small_jpeg};
 use serde::Deserialize;
@@ -41,20 +41,34 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; i
 const REPORT_POLICY: &str = "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; \
      style-src 'unsafe-inline'; img-src data: blob:; font-src data:";
 
+/// All that is answered; `openapi.json` describes it.
+fn routes() -> [(&'static str, MethodRouter<App>); 12] {
+    [
+        ("/", get(page)),
+        ("/session.js", get(script)),
+        ("/session.css", get(style)),
+        ("/api/openapi.json", get(description)),
+        ("/api/state", get(state)),
+        ("/api/do", post(command)),
+        (UPLOAD, post(upload)),
+        ("/api/live.jpg", get(live_image)),
+        ("/api/captures/{name}", get(capture)),
+        ("/api/report", get(report)),
+        ("/api/formats", get(formats)),
+        ("/api/export", get(exported)),
+    ]
+}
+
+/// Where something is answered.
+#[cfg(test)]
+pub(crate) fn paths() -> Vec<&'static str> {
+    routes().into_iter().map(|(path, _)| path).collect()
+}
+
 pub(super) fn router(live: Live, guard: Guard) -> Router {
     let app = App { live, guard, uploading: Arc::new(Semaphore::new(1)) };
-    Router::new()
-        .route("/", get(page))
-        .route("/session.js", get(script))
-        .route("/session.css", get(style))
-        .route("/api/state", get(state))
-        .route("/api/do", post(command))
-        .route(UPLOAD, post(upload))
-        .route("/api/live.jpg", get(live_image))
-        .route("/api/captures/{name}", get(capture))
-        .route("/api/report", get(report))
-        .route("/api/formats", get(formats))
-        .route("/api/export", get(exported))
+    let all = routes().into_iter();
+    all.fold(Router::new(), |router, (path, answer)| router.route(path, answer))
         .fallback(nothing_there)
         .layer(middleware::from_fn_with_state(app.clone(), guard::check))
         .with_state(app)
@@ -104,6 +118,11 @@ async fn style() -> Response {
         "text/css; charset=utf-8",
         include_bytes!("../../web/dist/session.css").as_slice().into(),
     )
+}
+
+async fn description() -> Response {
+    let document = include_bytes!("../../openapi.json").as_slice();
+    content(StatusCode::OK, "application/json", document.into())
 }
 
 async fn nothing_there() -> Response {

@@ -9,6 +9,7 @@ mod line;
 #[cfg(unix)]
 mod line_programs;
 mod mistakes;
+mod openapi;
 mod standstill;
 mod ur_fields;
 mod ur_rtde;

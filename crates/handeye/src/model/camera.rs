@@ -21,6 +21,7 @@ use crate::Error;
 
 /// Lens distortion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "model", content = "coefficients", rename_all = "kebab-case")]
 pub enum Distortion {
     /// None: a pinhole.
@@ -33,6 +34,7 @@ pub enum Distortion {
 
 /// Intrinsic parameters of a camera, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Intrinsics {
     /// Image width.
     pub width: u32,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Whether the answer can be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// Use it; the uncertainty is stated.

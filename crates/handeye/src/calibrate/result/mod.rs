@@ -450,6 +450,7 @@ impl Calibration {
 
 /// Something that was found beside the answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct JudgedFinding {
     /// Short fixed name, for programs: that of the warning, or `rejected` and `undetermined` for reasons.
     pub code: String,
