@@ -50,7 +50,7 @@ mod tree;
 pub mod units;
 mod xml;
 
-pub use camera::read_intrinsics;
+pub use camera::{intrinsics_from_json, read_intrinsics};
 pub use dataset::{
     CaptureSource, Dataset, FIXED_BOARD, ImageSource, Limits, MANIFEST, MemoryCapture, MemoryCell,
     Noise, OpenKey, OpenQuestion, PixelOrigin, PlacementSource, Question, RobotFile, RobotPoses,

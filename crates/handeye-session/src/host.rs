@@ -2,9 +2,9 @@
 
 use std::{path::Path, sync::Arc};
 
-use handeye::Config;
+use handeye::{Calibration, Config, Session};
 use handeye_io::{
-    Error, NewCapture, ResultFolder, SessionFolder,
+    Dataset, Error, NewCapture, ResultFolder, SessionFolder,
     calibrate::{calibrate_dataset, write_run},
     report::dataset_html,
     simulated,
@@ -13,7 +13,10 @@ use handeye_io::{
 use crate::{
     assess::{Measured, assess},
     engine::{Effect, FolderState, Input, Written, rest::RobotSample},
-    sources::{outlet::CameraImage, virtual_cell::VirtualCell},
+    sources::{
+        outlet::{CameraImage, StoredFile},
+        virtual_cell::VirtualCell,
+    },
 };
 
 /// The folder, and what was measured in it.
@@ -90,7 +93,10 @@ impl Host {
                 let assessment = assessment.map(Arc::new).map_err(|e| e.to_string());
                 vec![Input::Assessed { generation, assessment }]
             }
-            Effect::Write => vec![Input::Written(self.write().map_err(|e| e.to_string()))],
+            Effect::Write => {
+                let written = self.finish().map(|finished| finished.written);
+                vec![Input::Written(written.map_err(|e| e.to_string()))]
+            }
             Effect::Drive(_) | Effect::DriveTip(_) | Effect::Jog(..) | Effect::Grab => vec![],
         }
     }
@@ -104,7 +110,7 @@ impl Host {
         let Some(image) = image else {
             return vec![Input::Stored(Err("the image is gone: take the capture again".into()))];
         };
-        let own = image.file.as_ref().map(|(ending, bytes)| (&ending[..], &bytes[..]));
+        let own = image.file.as_ref().map(file);
         let made = own.is_none().then(|| simulated::picture(&image.grey));
         let made = made.as_ref().map(|png| ("png", &png[..]));
         let capture = NewCapture {
@@ -114,7 +120,7 @@ impl Host {
             robot_time_s: Some(robot.time_s),
             image_time_s: Some(image_time_s),
             image: own.or(made),
-            scan: None,
+            scan: image.scan.as_ref().map(file),
         };
         let stored = match verifies {
             true => self.folder.verify(&capture),
@@ -131,7 +137,10 @@ impl Host {
     }
 
     /// Writes the result as `handeye calibrate --out result` does, the same bytes.
-    fn write(&self) -> Result<Written, Error> {
+    ///
+    /// # Errors
+    /// A folder that cannot be read or written.
+    pub fn finish(&self) -> Result<Finished, Error> {
         let dataset = self.folder.dataset()?;
         let out = self.folder.path().join(RESULT);
         let results = ResultFolder::open(&out)?;
@@ -139,8 +148,27 @@ impl Host {
         let page = dataset_html(&dataset, &calibration, &session);
         write_run((&out, &results), Some(&dataset), &calibration, &page, vec![])?;
         let files = vec!["calibration.json".into(), "report.html".into()];
-        Ok(Written { folder: out.display().to_string(), files })
+        let written = Written { folder: out.display().to_string(), files };
+        Ok(Finished { written, calibration, dataset, session })
     }
+}
+
+/// A result that was written, and what it was made of.
+#[derive(Debug)]
+pub struct Finished {
+    /// Its files.
+    pub written: Written,
+    /// The result.
+    pub calibration: Calibration,
+    /// The folder as a dataset.
+    pub dataset: Dataset,
+    /// What was measured in it.
+    pub session: Session,
+}
+
+/// A file as the folder takes it.
+fn file((ending, bytes): &StoredFile) -> (&str, &[u8]) {
+    (ending, bytes)
 }
 
 /// Drives a virtual cell where the engine says so; whether the effect was one of those.

@@ -12,6 +12,7 @@ pub mod host;
 pub mod live;
 #[cfg(test)]
 mod openapi;
+pub mod push;
 pub mod script;
 pub mod server;
 pub mod sources;

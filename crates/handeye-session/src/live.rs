@@ -337,7 +337,7 @@ fn virtual_camera(cell: Arc<VirtualCell>, outlet: Outlet) {
             let begin = Instant::now();
             let time_s = outlet.now();
             let image = camera.image(&cell, time_s, frame);
-            if !outlet.image(CameraImage { grey: image, file: None }, time_s) {
+            if !outlet.image(CameraImage::in_memory(image), time_s) {
                 return;
             }
             thread::sleep(IMAGES.saturating_sub(begin.elapsed()));

@@ -183,7 +183,7 @@ impl Player {
             self.frame += 1;
             if self.frame.is_multiple_of(TICKS) {
                 let image = self.camera.image(&self.cell, self.now, self.frame);
-                self.images.keep(self.frame, CameraImage { grey: image.clone(), file: None });
+                self.images.keep(self.frame, CameraImage::in_memory(image.clone()));
                 let found = Wanted::of(self.engine.settings());
                 let found = found.found_in(&image, self.frame, self.now);
                 self.inputs.push_back(Input::Image(found));

@@ -118,6 +118,23 @@ pub fn read_intrinsics(
     read(&spec, Path::new(""), &Place::file(path), picture)
 }
 
+/// The intrinsics that the keys of `[camera]` of a manifest give, as JSON; `picture` is the size of the images, where the keys
+/// and the file that they name do not say it.
+///
+/// # Errors
+/// What is no intrinsics, or says more than intrinsics do; [`Error::Undeclared`] where the size is open.
+pub fn intrinsics_from_json(text: &str, picture: Option<(u32, u32)>) -> Result<Intrinsics, Error> {
+    let place = Place::file(Path::new("intrinsics"));
+    let advice = "give the keys of [camera] of a manifest, such as fx, fy, cx, cy";
+    let spec: CameraSpec = serde_json::from_str(text)
+        .map_err(|e| malformed(place.clone(), format!("no intrinsics: {e}"), advice))?;
+    if spec.calibrate.is_some() || spec.focal_sigma_px.is_some() || spec.center_sigma_px.is_some() {
+        let what = "intrinsics alone are taken here, without `calibrate` and standard deviations";
+        return Err(malformed(place, what, "leave these keys out"));
+    }
+    read(&spec, Path::new(""), &place, picture)
+}
+
 /// What the file of the intrinsics says of the camera itself.
 pub(crate) fn maker(spec: &CameraSpec, root: &Path) -> Result<Maker, Error> {
     let Some(file) = &spec.file else { return Ok(Maker::default()) };

@@ -13,6 +13,7 @@ use crate::{
         },
     },
     robot::Notation,
+    units::LengthUnit,
 };
 
 /// What is known of a cell before its captures are taken.
@@ -86,7 +87,11 @@ pub(super) fn text(settings: &CellSettings, held: &Held) -> String {
         tip: Some(TipSpec { in_flange_mm }),
         ..TouchesSpec::default()
     });
-    m.scans = held.has_scans.then(|| ScansSpec { files: "scans/*".into(), ..ScansSpec::default() });
+    m.scans = held.has_scans.then(|| ScansSpec {
+        files: "scans/*".into(),
+        length_unit: Some(LengthUnit::Metre),
+        ..ScansSpec::default()
+    });
     m.limits = LimitsSpec { max_error_mm: Some(settings.tolerance_mm) };
     m.guess = settings.guess.map(|guess| guess_keys(&guess));
     draft.written().0

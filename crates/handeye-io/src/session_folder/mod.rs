@@ -67,7 +67,7 @@ pub struct NewCapture<'a> {
     pub image_time_s: Option<f64>,
     /// The image's file: its ending (`png`) and its bytes.
     pub image: Option<(&'a str, &'a [u8])>,
-    /// The scan's file likewise.
+    /// The scan's file likewise, in metres where the file does not say it.
     pub scan: Option<(&'a str, &'a [u8])>,
 }
 

@@ -28,7 +28,7 @@ use crate::{
 };
 
 pub(crate) use manifest::camera;
-pub use pictures::picture;
+pub use pictures::{cloud, picture};
 
 /// Name of the file with the truth.
 pub const TRUTH: &str = "truth.json";

@@ -41,6 +41,11 @@ fn png_of(
     out.into_inner()
 }
 
+/// A scan as the bytes of an organised PLY file, metres.
+pub fn cloud(of: &Scan) -> Vec<u8> {
+    scan(of, ScanFormat::Ply)
+}
+
 /// A scan in the given format.
 pub(super) fn scan(scan: &Scan, format: ScanFormat) -> Vec<u8> {
     match format {

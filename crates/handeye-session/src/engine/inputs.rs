@@ -91,6 +91,10 @@ impl Sources {
     pub const VIRTUAL: Self =
         Self { robot: Flow::Stream, camera: Flow::Stream, takes_images: false, is_virtual: true };
 
+    /// Of somebody who hands over image and pose, and knows that they belong together.
+    pub const PUSHED: Self =
+        Self { robot: Flow::Single, camera: Flow::Single, takes_images: false, is_virtual: false };
+
     /// Whether images may be handed over by whoever has one.
     pub fn takes_uploads(self) -> bool {
         self.camera == Flow::Single && !self.takes_images

@@ -121,6 +121,13 @@ impl Engine {
         (engine, effects)
     }
 
+    /// At the captures from the beginning: whoever begins the session has declared what the steps before them ask.
+    #[must_use]
+    pub fn declared(mut self) -> Self {
+        self.enter(Step::Capture);
+        self
+    }
+
     /// Grows whenever what is shown changes.
     pub fn version(&self) -> u64 {
         self.version

@@ -134,7 +134,7 @@ fn files(folder: &Path) -> Vec<(PathBuf, FileState)> {
 }
 
 /// The ending of an image's name, in small letters.
-fn ending(path: &Path) -> Option<String> {
+pub(crate) fn ending(path: &Path) -> Option<String> {
     let ending = path.extension()?.to_string_lossy().to_lowercase();
     ENDINGS.contains(&&ending[..]).then_some(ending)
 }
@@ -152,7 +152,8 @@ pub(super) fn read(path: &Path, length: u64) -> Result<(CameraImage, u64), Strin
     let mut sum = DefaultHasher::new();
     bytes.hash(&mut sum);
     let ending = ending(path).unwrap_or("png".into());
-    Ok((CameraImage { grey: Arc::new(image), file: Some((ending, bytes.into())) }, sum.finish()))
+    let file = Some((ending, bytes.into()));
+    Ok((CameraImage { grey: Arc::new(image), file, scan: None }, sum.finish()))
 }
 
 #[cfg(test)]

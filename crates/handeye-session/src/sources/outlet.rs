@@ -25,7 +25,19 @@ pub struct CameraImage {
     /// Its grey values.
     pub grey: Arc<GrayImage>,
     /// The file's ending and bytes: what is stored.
-    pub file: Option<(String, Arc<[u8]>)>,
+    pub file: Option<StoredFile>,
+    /// The scan that the camera took with it (m), where it takes any.
+    pub scan: Option<StoredFile>,
+}
+
+/// The ending of a file's name, and its bytes.
+pub type StoredFile = (String, Arc<[u8]>);
+
+impl CameraImage {
+    /// An image that stands in memory.
+    pub fn in_memory(grey: Arc<GrayImage>) -> Self {
+        Self { grey, file: None, scan: None }
+    }
 }
 
 /// Images that may still be stored, by their numbers.

@@ -10,6 +10,7 @@ mod line;
 mod line_programs;
 mod mistakes;
 mod openapi;
+mod push;
 mod standstill;
 mod ur_fields;
 mod ur_rtde;

@@ -1,0 +1,385 @@
+//! A session for programs that have camera and robot already: they hand over an image and the pose of its moment, taken while
+//! both stood, and get back what that was worth.
+//!
+//! ```text
+//! pose, image ─▶ Engine ─▶ Store, Assess ─▶ Host ─▶ Pushed (its name, or why it shows nothing), State
+//! ```
+//!
+//! A call returns when all that it leads to is done. There are no threads, and the only clock is the number of pushes: the same
+//! pushes give the same bytes. The folder is that of any session; `handeye session` and a program can take turns.
+
+use std::{collections::VecDeque, fs, path::Path, sync::Arc};
+
+use handeye::{Base, Flange, Pose, Scan, Setup, TargetModel};
+use handeye_io::{
+    CellSettings, Error, RefusedCapture, SessionFolder, Writing, image_size, intrinsics_from_json,
+    read_image, simulated,
+};
+
+use crate::{
+    engine::{
+        Command, Effect, Engine, Input, Refusal, Sources, Step,
+        rest::RobotSample,
+        shown::{State, StepView},
+    },
+    host::{Finished, Host},
+    sources::{
+        folder,
+        outlet::{CameraImage, Wanted},
+    },
+};
+
+/// What is declared of a cell: all of a new one, and of one that goes on what is to be otherwise.
+#[derive(Debug, Clone, Default)]
+pub struct Declared {
+    /// Who carries the camera.
+    pub setup: Option<Setup>,
+    /// The board.
+    pub target: Option<TargetModel>,
+    /// The camera: the keys of `[camera]` of a manifest, as JSON. Without it the intrinsics are calibrated from the views.
+    pub camera_json: Option<String>,
+    /// Error that is tolerated (95 %), mm.
+    pub tolerance_mm: Option<f64>,
+    /// How poses are written: a name of a robot's notation.
+    pub notation: Option<String>,
+}
+
+/// Where the flange was in the base.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PushedPose {
+    /// As a transform.
+    Known(Pose<Base, Flange>),
+    /// As numbers of the session's notation, as they are typed from a pendant.
+    Typed(String),
+}
+
+/// What became of an image and its pose.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Pushed {
+    /// A capture of this name.
+    Taken(String),
+    /// Nothing: the image does not show the board.
+    Unseen(String),
+}
+
+/// Why something is not done.
+#[derive(Debug, thiserror::Error)]
+pub enum PushError {
+    /// A folder or file cannot be used.
+    #[error(transparent)]
+    Folder(#[from] Error),
+    /// The session refuses it; it is as it was.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+}
+
+/// A session whose captures are pushed.
+pub struct PushedSession {
+    engine: Engine,
+    host: Host,
+    /// Intrinsics that do not say the size of their images.
+    camera_json: Option<String>,
+    /// The images' size, px; not known before the first one.
+    size: Option<Size>,
+    now: f64,
+    frame: u64,
+}
+
+type Size = (u32, u32);
+
+/// Between two pushes, s: so long that nothing of the one is taken for a motion to the other.
+const PUSH_S: f64 = 60.0;
+/// Unless said otherwise, mm.
+const TOLERANCE_MM: f64 = 0.5;
+/// Unless said otherwise.
+const NOTATION: &str = "ur";
+
+impl PushedSession {
+    /// Begins a session in a new folder, or goes on with one.
+    ///
+    /// # Errors
+    /// A new folder without setup and target, what is declared wrongly or of another cell, a folder that holds something
+    /// else or that another session writes to.
+    pub fn open(path: &Path, declared: &Declared) -> Result<Self, PushError> {
+        let fresh = match SessionFolder::is_one(path) {
+            true => None,
+            false => Some(declared.over(&declared.cell()?, None)?),
+        };
+        let mut folder = SessionFolder::open(path, fresh.as_ref())?;
+        let size = size_of_images(&folder);
+        let settings = declared.over(folder.settings(), size)?;
+        if settings != *folder.settings() {
+            folder.set(&settings)?;
+        }
+        let waits = settings.intrinsics.is_none();
+        let camera_json = declared.camera_json.clone().filter(|_| waits);
+        let host = Host::new(folder);
+        let (engine, effects) = Engine::new(host.state(), Sources::PUSHED);
+        let (now, engine) = (last_time(&host), engine.declared());
+        let mut session = Self { engine, host, camera_json, size, now, frame: 0 };
+        session.perform(effects, None)?;
+        Ok(session)
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        self.host.path()
+    }
+
+    /// What is known now.
+    pub fn state(&self) -> State {
+        let title = self.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
+        self.engine.view(&self.path().display().to_string(), &title)
+    }
+
+    /// Takes a capture, stores it and assesses all.
+    ///
+    /// # Errors
+    /// A pose or an image that cannot be, an image that is not of its pose, a folder that cannot be written.
+    pub fn push(&mut self, pose: PushedPose, image: CameraImage) -> Result<Pushed, PushError> {
+        let size = (image.grey.width() as u32, image.grey.height() as u32);
+        self.know_size(size)?;
+        let (now, frame) = (self.now + PUSH_S, self.frame + 1);
+        let mut engine = self.at_captures()?;
+        engine.step(Input::Clock(now))?;
+        engine.step(match pose {
+            PushedPose::Known(base_from_flange) => {
+                let (typed, joints) = (vec![], vec![]);
+                Input::Robot(RobotSample { time_s: now, base_from_flange, typed, joints })
+            }
+            PushedPose::Typed(text) => Input::Command(Command::Pose { text }),
+        })?;
+        let found = Wanted::of(engine.settings()).found_in(&image.grey, frame, now);
+        engine.step(Input::Image(found))?;
+        can_be(&engine)?;
+        let effects = engine.step(Input::Command(Command::Take))?;
+        (self.engine, self.now, self.frame, self.size) = (engine, now, frame, Some(size));
+        self.perform(effects, Some(image))?.outcome()
+    }
+
+    /// Takes a capture out.
+    ///
+    /// # Errors
+    /// A name that no capture has; a folder that cannot be written.
+    pub fn delete(&mut self, id: &str) -> Result<(), PushError> {
+        self.obey(Command::Delete { id: id.into() })
+    }
+
+    /// Takes a deleted capture in again.
+    ///
+    /// # Errors
+    /// As [`PushedSession::delete`].
+    pub fn restore(&mut self, id: &str) -> Result<(), PushError> {
+        self.obey(Command::Restore { id: id.into() })
+    }
+
+    /// Undoes the last capture, deletion or restoring since the session was opened.
+    ///
+    /// # Errors
+    /// Nothing to undo; a folder that cannot be written.
+    pub fn undo(&mut self) -> Result<(), PushError> {
+        self.obey(Command::Undo)
+    }
+
+    /// Proposes another view, not near this one.
+    ///
+    /// # Errors
+    /// No view to skip.
+    pub fn skip(&mut self) -> Result<(), PushError> {
+        self.obey(Command::Skip { why: String::new() })
+    }
+
+    /// Writes the result, the same bytes as `handeye calibrate` does.
+    ///
+    /// # Errors
+    /// No captures, a newest one that does not fit to the others, a folder that cannot be written.
+    pub fn finish(&mut self) -> Result<Finished, PushError> {
+        self.engine.step(Input::Command(Command::Finish))?;
+        let finished = self.host.finish();
+        let written = finished.as_ref().map(|f| f.written.clone()).map_err(Error::to_string);
+        self.engine.step(Input::Written(written))?;
+        Ok(finished?)
+    }
+
+    fn obey(&mut self, command: Command) -> Result<(), PushError> {
+        let mut engine = self.at_captures()?;
+        let effects = engine.step(Input::Command(command))?;
+        self.engine = engine;
+        self.perform(effects, None).map(|_| ())
+    }
+
+    /// The engine at the step of the captures, to try something: what it refuses has not happened.
+    fn at_captures(&self) -> Result<Engine, Refusal> {
+        let mut engine = self.engine.clone();
+        engine.step(Input::Command(Command::Go { step: Step::Capture }))?;
+        Ok(engine)
+    }
+
+    /// Images have one size; intrinsics that did not say it are complete with the first one.
+    fn know_size(&mut self, size: Size) -> Result<(), PushError> {
+        if let Some(text) = &self.camera_json {
+            let intrinsics = Some(intrinsics_from_json(text, Some(size))?);
+            self.obey(Command::Camera { intrinsics })?;
+            self.camera_json = None;
+        }
+        let is_given = self.engine.settings().intrinsics.is_some();
+        match self.size.filter(|before| !is_given && *before != size) {
+            None => Ok(()),
+            Some((width, height)) => Err(refused(format!(
+                "the image has {} x {} pixels, those before it have {width} x {height}",
+                size.0, size.1
+            ))),
+        }
+    }
+
+    fn perform(
+        &mut self,
+        effects: Vec<Effect>,
+        mut image: Option<CameraImage>,
+    ) -> Result<Done, PushError> {
+        let mut done = Done::default();
+        let mut waiting = VecDeque::from(effects);
+        while let Some(effect) = waiting.pop_front() {
+            let own = match &effect {
+                Effect::Store { .. } => image.take(),
+                Effect::Refuse(refused) => {
+                    done.refused = Some(refused.clone());
+                    None
+                }
+                _ => None,
+            };
+            for input in self.host.perform(effect, own) {
+                done.note(&input);
+                waiting.extend(self.engine.step(input)?);
+            }
+        }
+        match done.failed.take() {
+            Some(why) => Err(refused(why)),
+            None => Ok(done),
+        }
+    }
+}
+
+/// What a call led to.
+#[derive(Default)]
+struct Done {
+    taken: Option<String>,
+    refused: Option<RefusedCapture>,
+    failed: Option<String>,
+}
+
+impl Done {
+    fn note(&mut self, input: &Input) {
+        match input {
+            Input::Stored(Ok(id)) => self.taken = Some(id.clone()),
+            Input::Stored(Err(why)) | Input::Failed(why) => self.failed = Some(why.clone()),
+            _ => {}
+        }
+    }
+
+    fn outcome(self) -> Result<Pushed, PushError> {
+        match (self.taken, self.refused) {
+            (Some(id), _) => Ok(Pushed::Taken(id)),
+            // where nobody need go again, the board was not found
+            (None, Some(RefusedCapture { why, base_from_flange: Some(_), .. })) => {
+                Ok(Pushed::Unseen(why))
+            }
+            (None, Some(RefusedCapture { why, .. })) => Err(refused(why)),
+            (None, None) => Err(refused("no capture was taken".into())),
+        }
+    }
+}
+
+impl Declared {
+    /// The cell of a new session.
+    fn cell(&self) -> Result<CellSettings, PushError> {
+        let (Some(setup), Some(target)) = (self.setup, self.target.clone()) else {
+            return Err(refused("a new session needs to know setup and target".into()));
+        };
+        let (tolerance_mm, notation) = (TOLERANCE_MM, NOTATION.into());
+        let (intrinsics, guess, tip_mm) = (None, None, None);
+        Ok(CellSettings { setup, target, intrinsics, tolerance_mm, notation, guess, tip_mm })
+    }
+
+    /// Settings with what is declared; `size` is that of the images, where it is known.
+    fn over(&self, settings: &CellSettings, size: Option<Size>) -> Result<CellSettings, PushError> {
+        if self.tolerance_mm.is_some_and(|mm| !(mm > 0.0 && mm.is_finite())) {
+            return Err(refused("the tolerance is a positive number of millimetres".into()));
+        }
+        let notation = self.notation.clone().unwrap_or_else(|| settings.notation.clone());
+        Writing::of(&notation)
+            .map_err(|known| refused(format!("the notation {notation:?} is not known: {known}")))?;
+        let target = self.target.clone().unwrap_or_else(|| settings.target.clone());
+        target.check().map_err(|e| refused(e.to_string()))?;
+        let given = self.camera_json.as_deref().map(|text| intrinsics(text, size)).transpose()?;
+        Ok(CellSettings {
+            setup: self.setup.unwrap_or(settings.setup),
+            target,
+            intrinsics: given.flatten().or(settings.intrinsics),
+            tolerance_mm: self.tolerance_mm.unwrap_or(settings.tolerance_mm),
+            notation,
+            ..settings.clone()
+        })
+    }
+}
+
+/// An image in a file, which is stored as it is.
+///
+/// # Errors
+/// A file that cannot be read, or is no image.
+pub fn image_in(path: &Path) -> Result<CameraImage, Error> {
+    let grey = Arc::new(read_image(path, None)?);
+    let bytes = || fs::read(path).map_err(|source| Error::Read { path: path.into(), source });
+    let file = match folder::ending(path) {
+        Some(ending) => Some((ending, bytes()?.into())),
+        // of a kind that a session's folder does not hold
+        None => None,
+    };
+    Ok(CameraImage { grey, file, scan: None })
+}
+
+/// The image with a scan that was taken with it.
+pub fn with_scan(image: CameraImage, scan: &Scan) -> CameraImage {
+    CameraImage { scan: Some(("ply".into(), simulated::cloud(scan).into())), ..image }
+}
+
+/// Intrinsics; `None` where the size of their images is open.
+fn intrinsics(text: &str, size: Option<Size>) -> Result<Option<handeye::Intrinsics>, Error> {
+    match intrinsics_from_json(text, size) {
+        Err(Error::Undeclared { key, .. }) if ["width", "height"].contains(&&key[..]) => Ok(None),
+        found => found.map(Some),
+    }
+}
+
+/// The size of the images that a folder holds.
+fn size_of_images(folder: &SessionFolder) -> Option<Size> {
+    let given = folder.settings().intrinsics.map(|camera| (camera.width, camera.height));
+    let first = || {
+        let captures = folder.captures();
+        let name = captures.iter().find_map(|capture| capture.image.as_ref())?;
+        image_size(&folder.path().join(name)).ok()
+    };
+    given.or_else(first)
+}
+
+/// The time of the last thing that happened, s.
+fn last_time(host: &Host) -> f64 {
+    let state = host.state();
+    let captures = state.captures.iter().filter_map(|capture| capture.robot_time_s);
+    captures.chain(state.refused.iter().map(|refused| refused.time_s)).fold(0.0, f64::max)
+}
+
+/// Refuses a camera and a robot that cannot be those of the cell.
+fn can_be(engine: &Engine) -> Result<(), PushError> {
+    let steps = engine.view("", "").steps;
+    let is_wrong =
+        |step: &&StepView| matches!(step.name, Step::Camera | Step::Robot) && !step.proven;
+    match steps.iter().find(is_wrong).and_then(|step| step.proof.clone()) {
+        Some(why) => Err(refused(why)),
+        None => Ok(()),
+    }
+}
+
+fn refused(message: String) -> PushError {
+    PushError::Refused(Refusal { message, later: false })
+}

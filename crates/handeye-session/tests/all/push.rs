@@ -1,0 +1,307 @@
+//! Captures that a program hands over: image and pose, one after the other.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use handeye::{Config, GrayImage, Setup, Verdict};
+use handeye_io::{Dataset, Writing, calibrate::calibrate_dataset, simulated};
+use handeye_session::{
+    push::{Declared, PushError, Pushed, PushedPose, PushedSession, image_in},
+    sources::{
+        outlet::CameraImage,
+        virtual_cell::{Faults, VirtualCell},
+    },
+};
+
+use crate::new_folder;
+
+/// A program with a robot and a camera.
+struct Program {
+    cell: VirtualCell,
+    root: PathBuf,
+    now: f64,
+}
+
+/// What it knows of its cell.
+fn declared(cell: &VirtualCell) -> Declared {
+    let settings = cell.settings();
+    let camera = settings.intrinsics.unwrap();
+    let keys = serde_json::json!({
+        "fx": camera.fx, "fy": camera.fy, "cx": camera.cx, "cy": camera.cy, "distortion_model": "none"
+    });
+    Declared {
+        setup: Some(settings.setup),
+        target: Some(settings.target),
+        camera_json: Some(keys.to_string()),
+        tolerance_mm: Some(0.5),
+        notation: Some("kuka".into()),
+    }
+}
+
+impl Program {
+    fn new(seed: u64) -> Self {
+        let cell = VirtualCell::new(Setup::EyeInHand, seed, Faults::default()).unwrap();
+        let root = new_folder();
+        fs::create_dir_all(&root).unwrap();
+        Self { cell, root, now: 0.0 }
+    }
+
+    fn folder(&self) -> PathBuf {
+        self.root.join("cell")
+    }
+
+    fn open(&self) -> PushedSession {
+        PushedSession::open(&self.folder(), &declared(&self.cell)).unwrap()
+    }
+
+    fn image(&self) -> CameraImage {
+        CameraImage::in_memory(Arc::new(self.cell.image(self.now, 1)))
+    }
+
+    fn pose(&self) -> PushedPose {
+        PushedPose::Known(self.cell.sample(self.now).base_from_flange)
+    }
+
+    /// Drives to the proposed view, or to one of its own.
+    fn drive(&mut self, session: &PushedSession, number: usize) {
+        match session.state().next {
+            Some(next) => self.cell.drive(next.base_from_flange, self.now),
+            None => self.cell.show_board(number, self.now).unwrap(),
+        }
+        self.now += 20.0;
+    }
+
+    fn push(&self, session: &mut PushedSession) -> Result<Pushed, PushError> {
+        session.push(self.pose(), self.image())
+    }
+
+    /// Takes so many captures.
+    fn take(&mut self, session: &mut PushedSession, count: usize) {
+        for _ in 0..count {
+            let number = session.state().captures.len();
+            self.drive(session, number);
+            assert!(matches!(self.push(session).unwrap(), Pushed::Taken(_)));
+        }
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        fs::remove_dir_all(&self.root).ok();
+    }
+}
+
+fn names(session: &PushedSession) -> Vec<String> {
+    session.state().captures.iter().map(|c| c.id.clone()).collect()
+}
+
+fn blank() -> CameraImage {
+    let grey = GrayImage::new(1280, 800, vec![90.0; 1280 * 800]).unwrap();
+    CameraImage::in_memory(Arc::new(grey))
+}
+
+#[track_caller]
+fn refuses<T>(done: Result<T, PushError>, said: &str) {
+    let why = done.err().expect("a refusal").to_string();
+    assert!(why.contains(said), "{why}");
+}
+
+#[test]
+fn a_program_is_led_to_a_result_that_is_true() {
+    let mut program = Program::new(3);
+    let mut session = program.open();
+    assert!(session.state().say.contains("take the first capture"), "{}", session.state().say);
+    for number in 0..30 {
+        program.drive(&session, number);
+        let taken = program.push(&mut session).unwrap();
+        assert_eq!(taken, Pushed::Taken(format!("{:03}", number + 1)));
+        if session.state().progress.unwrap().enough {
+            break;
+        }
+    }
+    let state = session.state();
+    assert!(state.progress.unwrap().enough && state.captures.len() < 15, "{}", state.say);
+    let finished = session.finish().unwrap();
+    assert_eq!(finished.calibration.verdict, Verdict::Accepted);
+    let found = finished.calibration.hand_eye.mount_from_camera.unwrap();
+    let off = found.distance_to(&program.cell.truth().mount_from_camera);
+    assert!(off < 1e-3, "{off}");
+    assert!(session.state().say.starts_with("Accepted"), "{}", session.state().say);
+
+    // the folder says the same by itself
+    let dataset = Dataset::open(&program.folder()).unwrap();
+    let (again, _) = calibrate_dataset(&dataset, &Config::default(), &|_, _| {}).unwrap();
+    assert_eq!(again, finished.calibration);
+    // and captures can follow a result
+    program.take(&mut session, 1);
+    assert!(session.state().result.is_none());
+}
+
+/// All files of a folder, by name.
+fn files(root: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let entries = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path());
+    let mut all: Vec<_> = entries
+        .flat_map(|path| match path.is_dir() {
+            true => files(&path),
+            false => vec![(path.clone(), fs::read(path).unwrap())],
+        })
+        .collect();
+    all.sort();
+    all
+}
+
+#[test]
+fn the_same_pushes_give_the_same_bytes() {
+    let run = |interrupted: bool| {
+        let mut program = Program::new(4);
+        let mut session = program.open();
+        program.take(&mut session, 2);
+        session.push(program.pose(), blank()).unwrap();
+        if interrupted {
+            drop(session);
+            session = program.open();
+        }
+        program.take(&mut session, 3);
+        session.finish().unwrap();
+        let named = |(path, bytes): (PathBuf, Vec<u8>)| {
+            (path.strip_prefix(program.folder()).unwrap().to_path_buf(), bytes)
+        };
+        let all: Vec<_> = files(&program.folder()).into_iter().map(named).collect();
+        assert!(all.iter().any(|(path, _)| path.ends_with("result/report.html")));
+        all
+    };
+    let (first, again, interrupted) = (run(false), run(false), run(true));
+    let differ = |other: &[(PathBuf, Vec<u8>)]| -> Vec<PathBuf> {
+        first.iter().zip(other).filter(|(a, b)| a != b).map(|(a, _)| a.0.clone()).collect()
+    };
+    assert_eq!(differ(&again), [] as [PathBuf; 0]);
+    assert_eq!(differ(&interrupted), [] as [PathBuf; 0]);
+    assert_eq!((again.len(), interrupted.len()), (first.len(), first.len()));
+}
+
+#[test]
+fn a_session_goes_on_and_nobody_else_writes_to_its_folder() {
+    let mut program = Program::new(5);
+    let mut session = program.open();
+    program.take(&mut session, 4);
+    let known = session.state().progress.unwrap().p95_mm;
+    refuses(PushedSession::open(&program.folder(), &Declared::default()), "in use by another");
+    drop(session);
+
+    let mut session = PushedSession::open(&program.folder(), &Declared::default()).unwrap();
+    assert_eq!(session.state().progress.unwrap().p95_mm, known);
+    assert_eq!(session.state().cell.notation, "kuka");
+    session.delete("002").unwrap();
+    assert_eq!(names(&session), ["001", "003", "004"]);
+    refuses(session.delete("002"), "no capture 002");
+    session.restore("002").unwrap();
+    assert_eq!(session.state().progress.unwrap().p95_mm, known);
+    session.undo().unwrap();
+    assert_eq!(names(&session), ["001", "003", "004"]);
+    session.undo().unwrap();
+    refuses(session.undo(), "nothing to undo");
+    let next = session.state().next.unwrap().base_from_flange;
+    session.skip().unwrap();
+    assert!(session.state().next.unwrap().base_from_flange.distance_to(&next) > 1e-3);
+    program.take(&mut session, 1);
+    assert_eq!(names(&session).last().unwrap(), "005");
+    drop(session);
+
+    let other = Declared { setup: Some(Setup::EyeToHand), ..Declared::default() };
+    refuses(PushedSession::open(&program.folder(), &other), "begin a session in a new folder");
+    let tighter = Declared { tolerance_mm: Some(0.2), ..declared(&program.cell) };
+    let session = PushedSession::open(&program.folder(), &tighter).unwrap();
+    assert_eq!(session.state().cell.tolerance_mm, 0.2);
+}
+
+#[test]
+fn what_cannot_be_is_refused_and_nothing_is_lost() {
+    let mut program = Program::new(6);
+    let nothing = Declared::default();
+    refuses(PushedSession::open(&program.folder(), &nothing), "setup and target");
+    for (wrong, said) in [
+        (Declared { tolerance_mm: Some(f64::NAN), ..declared(&program.cell) }, "positive"),
+        (Declared { notation: Some("robo".into()), ..declared(&program.cell) }, "kuka"),
+        (Declared { camera_json: Some("{\"fx\": 1}".into()), ..declared(&program.cell) }, "fy"),
+        (Declared { camera_json: Some("[]".into()), ..declared(&program.cell) }, "no intrinsics"),
+    ] {
+        // the size of the images is asked for before the rest
+        let opened = PushedSession::open(&program.folder(), &wrong);
+        refuses(opened.and_then(|mut session| program.push(&mut session)), said);
+        fs::remove_dir_all(program.folder()).ok();
+    }
+    let mut session = program.open();
+    // an image without the board, the first one already
+    let unseen = session.push(program.pose(), blank()).unwrap();
+    assert!(matches!(&unseen, Pushed::Unseen(why) if why.contains("not found")), "{unseen:?}");
+    program.take(&mut session, 4);
+    let before = fs::read(program.folder().join("robot.csv")).unwrap();
+
+    let PushedPose::Known(pose) = program.pose() else { panic!() };
+    let numbers = Writing::of("kuka").unwrap().numbers(&pose);
+    let typed = |scale: f64| {
+        let text = |(k, x): (usize, &f64)| (if k < 3 { x * scale } else { *x }).to_string();
+        let all: Vec<String> = numbers.iter().enumerate().map(text).collect();
+        PushedPose::Typed(all.join(" "))
+    };
+    let mut scaled = *pose.iso();
+    scaled.translation.vector *= 1e3;
+    let in_mm = PushedPose::Known(handeye::Pose::claim(scaled));
+    for (pose, image, said) in [
+        (typed(1e-3), program.image(), "are its lengths in another unit"),
+        (in_mm, program.image(), "are its lengths in another unit"),
+        (PushedPose::Typed("1 2 3".into()), program.image(), "3 numbers"),
+        (PushedPose::Typed("up a bit".into()), program.image(), "something else than numbers"),
+        (
+            typed(1.0),
+            CameraImage::in_memory(Arc::new(GrayImage::new(64, 48, vec![0.0; 3072]).unwrap())),
+            "the images have 64 x 48 pixels",
+        ),
+    ] {
+        refuses(session.push(pose, image), said);
+    }
+    // a pose that was not read anew
+    let stuck = program.pose();
+    session.push(stuck.clone(), program.image()).unwrap();
+    program.drive(&session, 7);
+    let moved = program.image();
+    let PushedPose::Known(pose) = stuck else { panic!() };
+    refuses(session.push(PushedPose::Known(pose), moved), "the pose was not read anew");
+
+    session.delete("005").unwrap();
+    assert_eq!(fs::read(program.folder().join("robot.csv")).unwrap(), before);
+    assert!(matches!(program.push(&mut session).unwrap(), Pushed::Taken(id) if id == "006"));
+    assert_eq!(session.state().refused.len(), 2);
+}
+
+#[test]
+fn numbers_as_typed_and_files_as_they_are_lie_in_the_folder() {
+    let mut program = Program::new(7);
+    let mut session = program.open();
+    let file = program.root.join("shot.PNG");
+    let png = simulated::picture(&program.cell.image(0.0, 1));
+    fs::write(&file, &png).unwrap();
+    let PushedPose::Known(pose) = program.pose() else { panic!() };
+    let numbers = Writing::of("kuka").unwrap().numbers(&pose);
+    let text: Vec<String> = numbers.iter().map(f64::to_string).collect();
+    session.push(PushedPose::Typed(text.join(" ")), image_in(&file).unwrap()).unwrap();
+    assert_eq!(fs::read(program.folder().join("images/001.png")).unwrap(), png);
+    let journal = fs::read_to_string(program.folder().join("journal.jsonl")).unwrap();
+    assert!(journal.contains("\"typed\":["), "{journal}");
+    assert!(session.state().captures[0].base_from_flange.distance_to(&pose) < 1e-12);
+    let nowhere = image_in(&program.root.join("nowhere.png")).unwrap_err();
+    assert!(nowhere.to_string().contains("does not exist"), "{nowhere}");
+
+    // without intrinsics images have one size
+    let root = program.root.join("open");
+    let free = Declared { camera_json: None, ..declared(&program.cell) };
+    let mut session = PushedSession::open(&root, &free).unwrap();
+    program.take(&mut session, 1);
+    drop(session);
+    let mut session = PushedSession::open(&root, &Declared::default()).unwrap();
+    let small = CameraImage::in_memory(Arc::new(GrayImage::new(64, 48, vec![0.0; 3072]).unwrap()));
+    refuses(session.push(program.pose(), small), "those before it have 1280 x 800");
+}
