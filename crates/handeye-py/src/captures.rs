@@ -30,9 +30,14 @@ struct Objects {
 }
 
 /// The path that an object is, if it is one.
-fn path(object: &Bound<'_, PyAny>) -> Option<PathBuf> {
+pub fn path(object: &Bound<'_, PyAny>) -> Option<PathBuf> {
     let is_path = object.is_instance_of::<PyString>() || object.hasattr("__fspath__").ok()?;
     is_path.then(|| object.extract().ok()).flatten()
+}
+
+/// Scans are in metres where their files do not say it.
+pub fn in_metres() -> ScanOptions {
+    ScanOptions { length_unit: Some(LengthUnit::Metre), ..Default::default() }
 }
 
 /// What the object of a capture is: read from its file without the interpreter, or taken out of its array.
@@ -62,8 +67,7 @@ impl ImageSource for Objects {
     }
 
     fn scan(&self, capture: &str) -> Result<Scan, Error> {
-        let options = ScanOptions { length_unit: Some(LengthUnit::Metre), ..Default::default() };
-        let read = |file: &PathBuf| read_scan(file, &options);
+        let read = |file: &PathBuf| read_scan(file, &in_metres());
         taken(capture, &self.scans, read, |array| scan(array, "the scan"))
     }
 }

@@ -15,6 +15,7 @@ mod images;
 mod opencv;
 mod poses;
 mod scans;
+mod session;
 mod simulation;
 mod working;
 
@@ -36,6 +37,7 @@ mod _core {
         opencv::{hand_eye, robot_world_hand_eye},
         poses::{poses_from, poses_to},
         scans::register,
+        session::PushedSession,
         simulation::simulate,
     };
     use handeye::Method;

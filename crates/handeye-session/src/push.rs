@@ -135,10 +135,12 @@ impl PushedSession {
     /// Takes a capture, stores it and assesses all.
     ///
     /// # Errors
-    /// A pose or an image that cannot be, an image that is not of its pose, a folder that cannot be written.
+    /// A pose or an image that cannot be, an image that is not of its pose, a scan with some captures only, a folder that
+    /// cannot be written.
     pub fn push(&mut self, pose: PushedPose, image: CameraImage) -> Result<Pushed, PushError> {
         let size = (image.grey.width() as u32, image.grey.height() as u32);
         self.know_size(size)?;
+        self.pairs(image.scan.is_some())?;
         let (now, frame) = (self.now + PUSH_S, self.frame + 1);
         let mut engine = self.at_captures()?;
         engine.step(Input::Clock(now))?;
@@ -229,6 +231,20 @@ impl PushedSession {
                 "the image has {} x {} pixels, those before it have {width} x {height}",
                 size.0, size.1
             ))),
+        }
+    }
+
+    /// A dataset pairs images and scans: every capture has a scan, or none has. One that is half there would not be used.
+    fn pairs(&self, has_scan: bool) -> Result<(), PushError> {
+        let with_scans = self.host.state().captures.first().map(|capture| capture.scan.is_some());
+        match (with_scans, has_scan) {
+            (Some(true), false) => Err(refused(
+                "the captures before it have a scan each, and this one has none".into(),
+            )),
+            (Some(false), true) => {
+                Err(refused("the captures before it have no scans, and this one has one".into()))
+            }
+            _ => Ok(()),
         }
     }
 

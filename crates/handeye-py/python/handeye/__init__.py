@@ -21,6 +21,7 @@ from ._core import (
 )
 from ._functions import Corners, Registration, detect, register, simulate
 from ._pose import Pose
+from ._session import Session, SessionState
 from ._solving import calibrate, closed_form, poses_from, poses_to, solve, solve_motions
 
 # what only errors in files have
@@ -43,6 +44,8 @@ __all__ = [
     "Pose",
     "Registration",
     "Rejected",
+    "Session",
+    "SessionState",
     "Target",
     "__version__",
     "bag_contents",

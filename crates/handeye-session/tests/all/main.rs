@@ -1,6 +1,7 @@
 //! Sessions from outside: with virtual cells, whose truth is known.
 
 #![allow(clippy::unwrap_used, reason = "a test fails loudly")]
+#![allow(clippy::result_large_err, reason = "an error ends the test: its size costs nothing")]
 
 mod by_hand;
 mod gate;

@@ -6,10 +6,10 @@ use std::{
     sync::Arc,
 };
 
-use handeye::{Config, GrayImage, Setup, Verdict};
+use handeye::{Config, GrayImage, Scan, Setup, Verdict};
 use handeye_io::{Dataset, Writing, calibrate::calibrate_dataset, simulated};
 use handeye_session::{
-    push::{Declared, PushError, Pushed, PushedPose, PushedSession, image_in},
+    push::{Declared, PushError, Pushed, PushedPose, PushedSession, image_in, with_scan},
     sources::{
         outlet::CameraImage,
         virtual_cell::{Faults, VirtualCell},
@@ -292,6 +292,9 @@ fn numbers_as_typed_and_files_as_they_are_lie_in_the_folder() {
     let journal = fs::read_to_string(program.folder().join("journal.jsonl")).unwrap();
     assert!(journal.contains("\"typed\":["), "{journal}");
     assert!(session.state().captures[0].base_from_flange.distance_to(&pose) < 1e-12);
+    // a scan goes with every capture, or with none
+    let cloud = Scan::new(2, 1, vec![[0.0, 0.0, 1.0], [0.1, 0.0, 1.0]]).unwrap();
+    refuses(session.push(program.pose(), with_scan(program.image(), &cloud)), "have no scans");
     let nowhere = image_in(&program.root.join("nowhere.png")).unwrap_err();
     assert!(nowhere.to_string().contains("does not exist"), "{nowhere}");
 
