@@ -143,6 +143,26 @@ fn command() -> Value {
     operation
 }
 
+fn upload() -> Value {
+    let mut operation = operation(
+        "upload",
+        "Hands over an image, in a session whose images are uploaded.",
+        vec![],
+        json!({
+            "200": answer("It has come.", "application/json", json!({ "type": "object" })),
+            "400": error("It is no image, or one that has come before."),
+            "409": error("Images come by themselves, or another one is being uploaded.")
+        }),
+    );
+    operation["responses"]["413"] = error("The image's file is larger than 128 MiB.");
+    operation["requestBody"] = json!({
+        "required": true,
+        "description": "The image's file: PNG, JPEG, TIFF or BMP.",
+        "content": { "application/octet-stream": { "schema": { "type": "string", "format": "binary" } } }
+    });
+    operation
+}
+
 fn live_image() -> Value {
     let mut image = file("The image, at most 1280 px wide.", "image/jpeg");
     image["headers"] = json!({ "x-frame": {
@@ -166,7 +186,7 @@ fn capture() -> Value {
     let name = json!({
         "name": "name", "in": "path", "required": true,
         "description": "The capture's name, with `.jpg` for its image and `.json` for what was measured in it.",
-        "schema": { "type": "string", "pattern": r"^[0-9]{1,4}\.(jpg|json)$" }
+        "schema": { "type": "string", "pattern": r"^v?[0-9]{1,4}\.(jpg|json)$" }
     });
     let mut found =
         answer("The image, or its corners.", "application/json", reference("CaptureDetail"));
@@ -235,6 +255,7 @@ fn paths() -> Value {
         "/api/openapi.json": { "get": description },
         "/api/state": { "get": state() },
         "/api/do": { "post": command() },
+        "/api/image": { "post": upload() },
         "/api/live.jpg": { "get": live_image() },
         "/api/captures/{name}": { "get": capture() },
         "/api/report": { "get": report() },

@@ -229,6 +229,7 @@ pub struct TouchShown {
 
 /// Views that verify what was made of the captures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct VerifyView {
     /// Those that were taken.
     pub views: Vec<VerifyShown>,
@@ -242,6 +243,7 @@ pub struct VerifyView {
 
 /// A view that verifies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct VerifyShown {
     /// Its name.
     pub id: String,

@@ -40,7 +40,7 @@ impl Uploads {
         let (grey, ending) = read;
         let file = Some((ending.to_owned(), bytes.into()));
         let now = self.outlet.now();
-        match self.outlet.image(CameraImage { grey: Arc::new(grey), file }, now) {
+        match self.outlet.image(CameraImage { grey: Arc::new(grey), file, scan: None }, now) {
             true => Ok(()),
             false => Err("the session has ended".into()),
         }

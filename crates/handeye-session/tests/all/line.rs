@@ -126,7 +126,7 @@ fn a_robots_program_is_led_to_the_end() {
     bench.expose();
     let mut robot = Robot::connect(&bench);
     assert_eq!(robot.says("hello"), "ok handeye kuka");
-    assert!(robot.says(&bench.pose()).contains("step `capture`"));
+    assert!(robot.says(&bench.pose()).contains("`capture`"));
     bench.confirm();
     let mut said = robot.says(&bench.pose());
     for _ in 0..30 {

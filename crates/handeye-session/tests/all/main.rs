@@ -13,6 +13,7 @@ mod mistakes;
 mod openapi;
 mod push;
 mod standstill;
+mod upload;
 mod ur_fields;
 mod ur_rtde;
 mod ur_rtde_live;

@@ -46,6 +46,12 @@ export async function command(wanted: Command): Promise<void> {
   if (!answer.ok) throw await refusal(answer);
 }
 
+/** Hands over an image's file; throws a `Refusal` where it is refused. */
+export async function sendImage(image: Blob): Promise<void> {
+  const answer = await fetch("/api/image", { method: "POST", body: image, signal: AbortSignal.timeout(PATIENCE) });
+  if (!answer.ok) throw await refusal(answer);
+}
+
 /** Hands every new state on, for ever. `lost` gets the reason while there is no connection, null when it is there again. */
 export async function follow(arrived: (state: State) => void, lost: (why: unknown) => void): Promise<never> {
   let version: number | null = null;

@@ -26,6 +26,7 @@ import { makeStepResult } from "./step_result";
 import { makeStepRobot } from "./step_robot";
 import { makeStepTouch } from "./step_touch";
 import { makeStepVerify } from "./step_verify";
+import { makeUpload } from "./upload";
 import { named, speak } from "./words";
 
 const app = makeApp(redraw);
@@ -47,6 +48,7 @@ const onStage: [Part, StepName[]][] = [
   [makeStepResult(app), ["result"]],
 ];
 const onSide: [Part, StepName[]][] = [
+  [makeUpload(app), ["camera", "board", "capture", "verify"]],
   [makeStepCell(app), ["cell"]],
   [makeStepCamera(app), ["camera"]],
   [makeStepRobot(app), ["robot"]],

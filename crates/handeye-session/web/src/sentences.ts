@@ -215,6 +215,22 @@ export const SENTENCES = {
   drive_tip: ["Bring the tip there", "Spitze hinführen"],
   go_touch: ["Touch corners", "Ecken antasten"],
 
+  // images that are handed over here
+  image: ["Image", "Bild"],
+  upload_hint: [
+    "Hand over an image of each pose: a file of the camera, or one of this browser's camera with its autofocus switched off.",
+    "Zu jeder Pose ein Bild übergeben: eine Datei der Kamera, oder eines von der Kamera dieses Browsers bei abgeschaltetem Autofokus.",
+  ],
+  choose_image: ["Choose a file", "Datei wählen"],
+  browser_camera: ["Use this browser's camera", "Kamera dieses Browsers"],
+  take_image: ["Take the image", "Bild aufnehmen"],
+  camera_off: ["Switch the camera off", "Kamera ausschalten"],
+  image_not_sent: ["The image was not sent. Try again.", "Das Bild wurde nicht übertragen. Noch einmal versuchen."],
+  no_browser_camera: [
+    "This browser gives no camera to the page. It does so to pages of this machine (127.0.0.1), if the camera is not in use and you allow it.",
+    "Dieser Browser gibt der Seite keine Kamera. Er tut es für Seiten dieses Rechners (127.0.0.1), wenn die Kamera frei ist und es erlaubt wird.",
+  ],
+
   // step: verify
   verification: ["Verification views", "Prüfansichten"],
   verification_why: [

@@ -85,6 +85,7 @@ export interface Camera {
   found?: Maybe<string>;
   missing?: Maybe<string>;
   delay_s?: Maybe<number>;
+  uploads?: boolean;
 }
 
 export interface Next {
