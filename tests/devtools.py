@@ -28,12 +28,12 @@ def program():
 class Browser:
     """One page, at first that of an address. All that happens in it is kept until it is closed."""
 
-    def __init__(self, work, address="about:blank", size=(1400, 1000)):
+    def __init__(self, work, address="about:blank", size=(1400, 1000), more=()):
         flags = [
             "--headless", "--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-sync",
             "--disable-component-update", "--host-resolver-rules=MAP * ~NOTFOUND", "--remote-debugging-port=0",
             "--remote-allow-origins=*", f"--user-data-dir={work}/profile", f"--window-size={size[0]},{size[1]}",
-            "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+            "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", *more,
         ]  # fmt: skip
         self.process = subprocess.Popen([program(), *flags, address], stderr=subprocess.DEVNULL, start_new_session=True)
         self.count, self.events = 0, []

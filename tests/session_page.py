@@ -3,7 +3,8 @@
 session_page.py PROGRAM [folder for a picture of every step]
 
 In a virtual cell, once with the mouse, whose clicks are counted, and once with the keyboard alone. The program calibrates
-the folder to the same bytes, a second tab shows the same, and nothing is loaded from elsewhere.
+the folder to the same bytes, a second tab shows the same, and nothing is loaded from elsewhere. In a session of uploads, the
+browser's own camera (a simulated one) sees the board, and its image makes a capture.
 """
 
 import contextlib
@@ -16,6 +17,7 @@ import tempfile
 import time
 import urllib.parse
 
+import cv2
 import devtools
 
 MOST_CLICKS = 25
@@ -48,8 +50,8 @@ EXPORT = "document.querySelector('#export-text').textContent"
 class Page(devtools.Browser):
     """The page of a session, under a person's hands."""
 
-    def __init__(self, work):
-        super().__init__(work, NO_OTHER_HOST)
+    def __init__(self, work, more=()):
+        super().__init__(work, NO_OTHER_HOST, more=more)
         self.work, self.clicks, self.keys = pathlib.Path(work), 0, 0
         self.call("Emulation.setDeviceMetricsOverride", width=1280, height=800, deviceScaleFactor=1, mobile=False)
 
@@ -130,22 +132,23 @@ def main():
         assert page.clicks == 0
         assert not list(page.wrong()), list(page.wrong())
         keys = page.keys
+    with_uploads(program, pictures)
     barriers = "no serious barrier" if AXE.is_file() else "barriers not looked for"
     print(f"session: {captures} captures and an accepted result with {clicks} clicks, {again} with {keys} keys;"
           f" the program gives the same bytes, a second tab shows the same, {barriers}, nothing from elsewhere")
 
 
 @contextlib.contextmanager
-def opened(program):
-    """A new session of a virtual cell and its page."""
+def opened(program, options=("--virtual", SEED), more=()):
+    """A new session, of a virtual cell unless said otherwise, and its page; `more` flags for the browser."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work:
         folder = pathlib.Path(work) / "cell"
-        command = [program, "session", folder, "--virtual", SEED, "--no-open"]
+        command = [program, "session", folder, *options, "--no-open"]
         session = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=ENVIRONMENT)
         try:
             address = next((line.split()[1] for line in session.stdout if line.startswith("session: ")), None)
             assert address, "the session prints no address"
-            with Page(work) as page:
+            with Page(work, more) as page:
                 page.sign_in(address)
                 yield page, folder
         finally:
@@ -225,6 +228,37 @@ def with_keys(page, folder):
         assert page.keys < 200, "the arrow keys do not reach the export"
     exported(page, folder)
     return count(page)
+
+
+def with_uploads(program, pictures):
+    """The browser's camera sees a board, and its image and a typed pose make a capture."""
+    with tempfile.TemporaryDirectory() as work:
+        cell = pathlib.Path(work) / "cell"
+        simulate = ["simulate", cell, "--captures", "1", "--width", "640", "--height", "480", "--quiet"]
+        subprocess.run([program, *simulate], check=True, stdout=subprocess.DEVNULL)
+        film = pathlib.Path(work) / "camera.y4m"
+        image = cv2.imread(str(next((cell / "images").iterdir())), cv2.IMREAD_GRAYSCALE)
+        half = bytes([128]) * (image.size // 2)
+        film.write_bytes(b"YUV4MPEG2 W640 H480 F10:1 Ip A1:1 C420jpeg\n" + (b"FRAME\n" + image.tobytes() + half) * 5)
+        camera = ["--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream",
+                  f"--use-file-for-fake-video-capture={film}"]
+        options = ["--upload", "--target", cell / "handeye.toml"]
+        with opened(program, options, camera) as (page, folder):
+            page.act(lambda: page.click(PRIMARY), "cell")
+            page.click("document.querySelector('[data-say=browser_camera]').closest('button')")
+            page.wait("document.querySelector('video').videoWidth == 640", "the browser's camera")
+            page.click("document.querySelector('.take-image')")
+            page.wait("document.querySelector('#stage').textContent.includes('54')", "the board in its image")
+            look(page, "upload", pictures)
+            page.act(lambda: page.click(PRIMARY), "camera")
+            page.value("(() => { document.querySelector('[data-say=type_pose]').closest('section').querySelector('input').focus(); })()")
+            page.call("Input.insertText", text="0.4 0.1 0.5 3.1 0.1 0.2")
+            page.act(lambda: page.click(PRIMARY), "robot")
+            page.act(lambda: page.click(PRIMARY), "board")
+            page.act(lambda: page.click(PRIMARY), "capture")
+            page.wait("document.querySelectorAll('ol.captures > li').length == 1", "a capture of an uploaded image")
+            assert len(list((folder / "images").iterdir())) == 1
+            assert not list(page.wrong()), list(page.wrong())
 
 
 def tab_to(page, reached):
