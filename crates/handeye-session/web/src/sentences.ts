@@ -218,8 +218,8 @@ export const SENTENCES = {
   // images that are handed over here
   image: ["Image", "Bild"],
   upload_hint: [
-    "Hand over an image of each pose: a file of the camera, or one of this browser's camera with its autofocus switched off.",
-    "Zu jeder Pose ein Bild übergeben: eine Datei der Kamera, oder eines von der Kamera dieses Browsers bei abgeschaltetem Autofokus.",
+    "Hand over an image of each pose: a file of the camera, or one of this browser's camera with its autofocus switched off. Images that are saved into a watched folder (--images-from) come by themselves.",
+    "Zu jeder Pose ein Bild übergeben: eine Datei der Kamera, oder eines von der Kamera dieses Browsers bei abgeschaltetem Autofokus. Bilder, die in einen beobachteten Ordner gespeichert werden (--images-from), kommen von selbst.",
   ],
   choose_image: ["Choose a file", "Datei wählen"],
   browser_camera: ["Use this browser's camera", "Kamera dieses Browsers"],

@@ -95,7 +95,7 @@ export function makeStepCamera(app: App): Part {
     element,
     update(state) {
       seen.update(cameraFacts(state.camera));
-      show(how, state.camera?.single === true);
+      show(how, state.camera?.single === true && state.camera.uploads !== true);
       const intrinsics = state.cell?.intrinsics;
       const isOpen = opened || Boolean(intrinsics);
       const fixes = fixedBy(state);
