@@ -1,7 +1,8 @@
 //! What people and scripts ask of a session: the same from the page, by HTTP and from a file.
 
 use handeye::{Intrinsics, Setup, TargetModel};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::Error};
+use serde_json::{Map, Value};
 
 /// A step of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -172,6 +173,23 @@ pub enum Command {
         #[serde(default)]
         turn_deg: [f64; 3],
     },
+}
+
+impl Command {
+    /// Reads a command, and refuses what it does not know of it.
+    ///
+    /// # Errors
+    /// What is none.
+    pub fn from_json(text: &[u8]) -> Result<Self, serde_json::Error> {
+        let given: Map<String, Value> = serde_json::from_slice(text)?;
+        let command: Self = serde_json::from_slice(text)?;
+        let known = serde_json::to_value(&command)?;
+        // of commands without keys of their own serde takes any
+        match given.keys().find(|key| known.get(key).is_none()) {
+            Some(key) => Err(serde_json::Error::custom(format!("unknown key `{key}`"))),
+            None => Ok(command),
+        }
+    }
 }
 
 /// Where the robot of a virtual cell can be driven.

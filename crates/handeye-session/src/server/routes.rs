@@ -146,7 +146,7 @@ async fn command(State(app): State<App>, body: Body) -> Response {
     let Ok(body) = to_bytes(body, LARGEST_COMMAND).await else {
         return guard::too_large(LARGEST_COMMAND);
     };
-    let command: Command = match serde_json::from_slice(&body) {
+    let command = match Command::from_json(&body) {
         Ok(command) => command,
         Err(error) => {
             let message = format!("this is no command: {error}");

@@ -292,6 +292,7 @@ fn answers_are_as_they_are_described() {
         (r#"{"do": "delete", "id": "099"}"#, 400),
         (r#"{"do": "confirm", "step": "cell"}"#, 409),
         ("no command", 400),
+        (r#"{"do": "undo", "twice": true}"#, 400),
     ] {
         let answer = serving.check("POST", "/api/do", "/api/do", command);
         assert_eq!(answer.status, status, "{command}");
