@@ -29,8 +29,8 @@ pub struct Assessment {
     pub no_next: Option<String>,
     /// Whether the captures are enough for the tolerance.
     pub enough: bool,
-    /// What the verification views say of it; `None` without any, or without a transform.
-    pub verification: Option<HeldOutTest>,
+    /// What the verification views say of it, or why they say nothing; `None` without any.
+    pub verification: Option<Result<HeldOutTest, String>>,
 }
 
 /// The code of a last capture that does not agree with the others.
@@ -99,26 +99,26 @@ pub fn assess(
     if goes_on && next.is_none() {
         (next, no_next, _) = plan(None);
     }
-    let verification = verification(folder, &calibration, session, &mut before.verification)?;
+    let verification = (!folder.verification().is_empty())
+        .then(|| verification(folder, (&calibration, session), &mut before.verification));
     let next = next.map(|view| ProposedView::planned(&view, session));
     let measured = measured_captures(session, &calibration);
     Ok(Assessment { calibration, measured, next, no_next, enough, verification })
 }
 
-/// What the verification views say of the captures' calibration.
+/// What the verification views say of the captures' calibration, or why they say nothing.
 fn verification(
     folder: &SessionFolder,
-    calibration: &Calibration,
-    session: &Session,
+    (calibration, session): (&Calibration, &Session),
     before: &mut Measurements,
-) -> Result<Option<HeldOutTest>, Error> {
-    if folder.verification().is_empty() {
-        return Ok(None);
-    }
-    let camera = calibration.camera.as_ref().map(|c| c.intrinsics).or(session.camera);
-    let dataset = folder.verification_dataset(camera)?;
-    let views = measure::measure_again(&dataset, before, &|_, _| {})?.session.observations;
-    Ok(held_out::test(calibration, session.target.as_ref(), &views))
+) -> Result<HeldOutTest, String> {
+    let measured = folder
+        .verification_dataset(session.camera)
+        .and_then(|dataset| measure::measure_again(&dataset, before, &|_, _| {}));
+    let views = measured.map_err(|e| e.to_string())?.session.observations;
+    held_out::test(calibration, session, &views).ok_or_else(|| {
+        "the captures determine no transform, too few of them are used, or the views show no board".into()
+    })
 }
 
 impl Assessment {

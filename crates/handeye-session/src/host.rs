@@ -39,6 +39,13 @@ impl Host {
         self.folder.path()
     }
 
+    /// Whether captures, deleted ones among them, have scans; `None` without any.
+    pub fn has_scans(&self) -> Option<bool> {
+        let all = self.folder.captures().into_iter().chain(self.folder.deleted());
+        let mut scans = all.map(|capture| capture.scan.is_some());
+        scans.next()
+    }
+
     /// What the folder holds.
     pub fn state(&self) -> FolderState {
         let owned = |all: Vec<&handeye_io::StoredCapture>| all.into_iter().cloned().collect();

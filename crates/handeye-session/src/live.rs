@@ -97,7 +97,7 @@ impl Live {
         let state = host.state();
         let outlet = Outlet::new(inputs.clone(), Wanted::of(&state.settings), show_frame);
         let (sources, equipment) = connect(cell, &outlet);
-        let uploads = sources.takes_uploads().then(|| Uploads::to(outlet.clone()));
+        let uploads = sources.takes_uploads().then(|| Uploads::to(outlet.clone(), &folder));
         let (engine, effects) = Engine::new(state, sources);
         let mut runner = Runner {
             engine,

@@ -155,8 +155,13 @@ impl PushedSession {
         engine.step(Input::Image(found))?;
         can_be(&engine)?;
         let effects = engine.step(Input::Command(Command::Take))?;
-        (self.engine, self.now, self.frame, self.size) = (engine, now, frame, Some(size));
-        self.perform(effects, Some(image))?.outcome()
+        (self.engine, self.now, self.frame) = (engine, now, frame);
+        let outcome = self.perform(effects, Some(image))?.outcome()?;
+        if let Pushed::Taken(_) = outcome {
+            // until then nobody knows whether the image is one of this camera
+            (self.size, self.camera_json) = (Some(size), None);
+        }
+        Ok(outcome)
     }
 
     /// Takes a capture out.
@@ -222,7 +227,6 @@ impl PushedSession {
         if let Some(text) = &self.camera_json {
             let intrinsics = Some(intrinsics_from_json(text, Some(size))?);
             self.obey(Command::Camera { intrinsics })?;
-            self.camera_json = None;
         }
         let is_given = self.engine.settings().intrinsics.is_some();
         match self.size.filter(|before| !is_given && *before != size) {
@@ -236,7 +240,8 @@ impl PushedSession {
 
     /// A dataset pairs images and scans: every capture has a scan, or none has. One that is half there would not be used.
     fn pairs(&self, has_scan: bool) -> Result<(), PushError> {
-        let with_scans = self.host.state().captures.first().map(|capture| capture.scan.is_some());
+        // deleted ones may come back
+        let with_scans = self.host.has_scans();
         match (with_scans, has_scan) {
             (Some(true), false) => Err(refused(
                 "the captures before it have a scan each, and this one has none".into(),
@@ -375,7 +380,10 @@ fn size_of_images(folder: &SessionFolder) -> Option<Size> {
         let name = captures.iter().find_map(|capture| capture.image.as_ref())?;
         image_size(&folder.path().join(name)).ok()
     };
-    given.or_else(first)
+    match folder.captures().is_empty() && folder.deleted().is_empty() {
+        true => None,
+        false => given.or_else(first),
+    }
 }
 
 /// The time of the last thing that happened, s.

@@ -98,6 +98,11 @@ impl Player {
         self.engine.view(&path.display().to_string(), &title)
     }
 
+    /// Its clock, s.
+    pub fn now(&self) -> f64 {
+        self.now
+    }
+
     /// The cell, whose truth is known.
     pub fn cell(&self) -> &VirtualCell {
         &self.cell

@@ -180,26 +180,25 @@ impl Journal {
         })
     }
 
+    /// What lines of one kind say, in their order.
+    fn each<'a, T>(&'a self, said: fn(&'a Line) -> Option<&'a T>) -> Vec<&'a T> {
+        self.lines.iter().filter_map(said).collect()
+    }
+
     /// All captures that were ever taken.
     pub(super) fn taken(&self) -> Vec<&StoredCapture> {
-        let mut all = vec![];
-        for line in &self.lines {
-            if let Line::Take(capture) = line {
-                all.push(capture);
-            }
-        }
-        all
+        self.each(|line| match line {
+            Line::Take(capture) => Some(capture),
+            _ => None,
+        })
     }
 
     /// All views that were ever taken to verify the answer.
     pub(super) fn verifying(&self) -> Vec<&StoredCapture> {
-        let mut all = vec![];
-        for line in &self.lines {
-            if let Line::Verify(view) = line {
-                all.push(view);
-            }
-        }
-        all
+        self.each(|line| match line {
+            Line::Verify(view) => Some(view),
+            _ => None,
+        })
     }
 
     /// Both.
@@ -237,13 +236,10 @@ impl Journal {
 
     /// All touches that were ever made.
     pub(super) fn touched(&self) -> Vec<&StoredTouch> {
-        let mut all = vec![];
-        for line in &self.lines {
-            if let Line::Touch(touch) = line {
-                all.push(touch);
-            }
-        }
-        all
+        self.each(|line| match line {
+            Line::Touch(touch) => Some(touch),
+            _ => None,
+        })
     }
 
     /// Those that stand.
@@ -256,12 +252,9 @@ impl Journal {
     }
 
     pub(super) fn refused(&self) -> Vec<&RefusedCapture> {
-        let mut all = vec![];
-        for line in &self.lines {
-            if let Line::Refuse(refused) = line {
-                all.push(refused);
-            }
-        }
-        all
+        self.each(|line| match line {
+            Line::Refuse(refused) => Some(refused),
+            _ => None,
+        })
     }
 }

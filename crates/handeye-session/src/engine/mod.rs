@@ -181,7 +181,11 @@ impl Engine {
         let has_changed = folder != self.folder;
         self.rereading = false;
         self.folder = folder;
-        if has_changed { self.assess() } else { vec![] }
+        if !has_changed {
+            return vec![];
+        }
+        self.written = None;
+        self.assess()
     }
 
     fn stored(&mut self, stored: Result<String, String>) -> Vec<Effect> {
@@ -205,7 +209,6 @@ impl Engine {
     /// Asks for a new assessment of the captures that stand.
     fn assess(&mut self) -> Vec<Effect> {
         self.generation += 1;
-        self.written = None;
         if self.folder.captures.is_empty() {
             (self.assessed, self.assessing) = (None, false);
             return vec![];
@@ -255,10 +258,11 @@ impl Engine {
     }
 
     fn enter(&mut self, step: Step) {
-        self.step = step;
         self.farthest = self.farthest.max(step);
-        if !self.takes_captures() {
-            self.wish = None;
+        if step != self.step {
+            // what was asked for in one step is not done in another
+            (self.wish, self.again) = (None, None);
         }
+        self.step = step;
     }
 }

@@ -121,6 +121,9 @@ impl Engine {
 
     /// Takes a capture out, and proposes its view again.
     fn retake(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
+        if self.step != Step::Capture {
+            return Err(later("captures are retaken in the step `capture`".into()));
+        }
         let again = self.assessed.as_ref().and_then(|assessed| assessed.view_of(&id));
         let effects = self.delete(id)?;
         self.again = again;
@@ -172,6 +175,9 @@ impl Engine {
     fn want(&mut self) -> Result<Vec<Effect>, Refusal> {
         if !self.takes_captures() {
             return Err(later("captures are taken in the steps `capture` and `verify`".into()));
+        }
+        if self.step == Step::Verify {
+            self.may_verify()?;
         }
         self.not_rereading()?;
         if self.storing {
@@ -228,8 +234,10 @@ impl Engine {
                 "the newest capture, {id}, does not fit to those before it. {WHETHER_MOVED}"
             )));
         }
-        self.not_contradicted()?;
-        Ok(vec![Effect::Write])
+        match self.not_verified() {
+            Some(why) => Err(later(why)),
+            None => Ok(vec![Effect::Write]),
+        }
     }
 
     fn drive(&mut self, to: Destination) -> Result<Vec<Effect>, Refusal> {

@@ -256,6 +256,9 @@ impl Engine {
 
     fn say_result(&self) -> String {
         let Some(assessed) = &self.assessed else { return "There is no result yet.".into() };
+        if let Some(why) = self.not_verified() {
+            return format!("{}.", capitalised(&why));
+        }
         let result = &assessed.calibration;
         match (result.verdict, assessed.p95_mm()) {
             (Verdict::Accepted, Some(mm)) => {

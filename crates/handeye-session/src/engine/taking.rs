@@ -140,11 +140,18 @@ impl Engine {
                 else {
                     return vec![];
                 };
-                if let Some(why) = self.pose_of_another(&robot.base_from_flange, image) {
+                let (here, verifies) = (robot.base_from_flange, self.step == Step::Verify);
+                let why = match (self.pose_of_another(&here, image), verifies) {
+                    // a capture's pose with another image is what a view is to show
+                    (Some(_), true) => None,
+                    (None, true) => self.view_of_another(&here),
+                    (other, false) => other,
+                };
+                if let Some(why) = why {
                     return self.refuse(why, false);
                 }
                 let effect = Effect::Store {
-                    verifies: self.step == Step::Verify,
+                    verifies,
                     frame,
                     robot: robot.clone(),
                     image_time_s: image.time_s - self.delay().unwrap_or(0.0),

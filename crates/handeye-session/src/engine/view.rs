@@ -233,7 +233,10 @@ impl Engine {
         let full = |name: &String| format!("{}/{name}", written.folder);
         Some(ResultView {
             files: written.files.iter().map(full).collect(),
-            verdict: assessed.calibration.verdict,
+            verdict: match self.not_verified() {
+                Some(_) => Verdict::Rejected,
+                None => assessed.calibration.verdict,
+            },
             headline: self.say(),
         })
     }

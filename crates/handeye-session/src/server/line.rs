@@ -124,7 +124,11 @@ fn capture(live: &Live, pose: &str) -> Result<String, String> {
 }
 
 fn worth(state: &Value) -> String {
-    let id = state["captures"].as_array().and_then(|all| all.last()).map_or("", |c| text(&c["id"]));
+    let all = match state["step"] == "verify" {
+        true => &state["verify"]["views"],
+        false => &state["captures"],
+    };
+    let id = all.as_array().and_then(|all| all.last()).map_or("", |c| text(&c["id"]));
     let error = match state["progress"]["p95_mm"].as_f64() {
         Some(mm) => format!("{mm:.3}"),
         None => "-".into(),
@@ -148,8 +152,10 @@ fn state(live: &Live) -> Value {
     serde_json::from_str(&live.shown().borrow().json).unwrap_or_default()
 }
 
+/// Captures, and views that verify them.
 fn captures(state: &Value) -> usize {
-    state["captures"].as_array().map_or(0, Vec::len)
+    let count = |all: &Value| all.as_array().map_or(0, Vec::len);
+    count(&state["captures"]) + count(&state["verify"]["views"])
 }
 
 fn refusals(state: &Value) -> usize {

@@ -277,6 +277,12 @@ struct Wanted {
     format: String,
 }
 
+/// Whether views that verify the result contradict it.
+fn is_contradicted(live: &Live) -> bool {
+    let state: Value = serde_json::from_str(&live.shown().borrow().json).unwrap_or_default();
+    state["verify"]["agrees"] == false
+}
+
 async fn exported(State(app): State<App>, Query(Wanted { format }): Query<Wanted>) -> Response {
     let bad = |what: &str| refusal(StatusCode::BAD_REQUEST, what, "");
     let format = match export::Format::named(&format) {
@@ -293,6 +299,10 @@ async fn exported(State(app): State<App>, Query(Wanted { format }): Query<Wanted
     if result.verdict != handeye::Verdict::Accepted {
         let what = "the result is not accepted, and is not exported";
         return refusal(StatusCode::CONFLICT, what, "take more captures");
+    }
+    if is_contradicted(&app.live) {
+        let what = "verification views contradict the result, and it is not exported";
+        return refusal(StatusCode::CONFLICT, what, "see the step `verify`");
     }
     match export::CameraPose::of(&result, None, None, std::slice::from_ref(&format)) {
         Ok(Some(pose)) => {

@@ -34,6 +34,13 @@ pub struct CameraImage {
 pub type StoredFile = (String, Arc<[u8]>);
 
 impl CameraImage {
+    /// The memory that it takes.
+    fn bytes(&self) -> usize {
+        let grey = self.grey.width() * self.grey.height() * size_of::<f32>();
+        let files = [&self.file, &self.scan].into_iter().flatten();
+        grey + files.map(|(_, bytes)| bytes.len()).sum::<usize>()
+    }
+
     /// An image that stands in memory.
     pub fn in_memory(grey: Arc<GrayImage>) -> Self {
         Self { grey, file: None, scan: None }
@@ -46,12 +53,17 @@ pub struct RecentImages(VecDeque<(u64, CameraImage)>);
 
 /// A capture is of one of the last images.
 const KEPT_IMAGES: usize = 16;
+/// Large ones take no more memory together, bytes, but for the last two.
+const KEPT_BYTES: usize = 512 << 20;
 
 impl RecentImages {
     /// Keeps an image, and forgets old ones.
     pub fn keep(&mut self, frame: u64, image: CameraImage) {
         self.0.push_back((frame, image));
-        if self.0.len() > KEPT_IMAGES {
+        let size = |(_, image): &(u64, CameraImage)| image.bytes();
+        while self.0.len() > KEPT_IMAGES
+            || (self.0.len() > 2 && self.0.iter().map(size).sum::<usize>() > KEPT_BYTES)
+        {
             self.0.pop_front();
         }
     }

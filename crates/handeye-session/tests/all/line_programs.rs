@@ -397,8 +397,8 @@ fn other_number_formats_of_controllers_are_read() {
     let exponents = ["6.123E+02", "-4.100E+00", "2.330E+02", "1.000E+01", "0.000E+00", "-1.70E+02"];
     let pose = Ok(vec![612.3, -4.1, 233.0, 10.0, 0.0, -170.0]);
     assert_eq!(read("fanuc", &exponents.map(|x| format!(" {x:>12}")).concat()), pose);
-    let ur = read("ur", "p[0.6123, -4.1e-05, 0.233, -0, 3.14, 1e-06]");
-    assert_eq!(ur, Ok(vec![0.6123, -4.1e-5, 0.233, 0.0, 3.14, 1e-6]));
+    let ur = read("ur", "p[0.6123, -4.1e-05, 0.233, -0, 3.25, 1e-06]");
+    assert_eq!(ur, Ok(vec![0.6123, -4.1e-5, 0.233, 0.0, 3.25, 1e-6]));
     let abb = read("abb", "[612.3,-4.1,233] [1,0,0,-4.1E-05]");
     assert_eq!(abb, Ok(vec![612.3, -4.1, 233.0, 1.0, 0.0, 0.0, -4.1e-5]));
     let whole = read("abb", "[612,-4,233] [1,0,0,0]");

@@ -27,7 +27,7 @@ use crate::new_folder;
 
 /// A command of each kind.
 const COMMANDS: &str = r#"[
-    {"do": "confirm", "step": "cell"}, {"do": "go", "step": "touch"},
+    {"do": "confirm", "step": "cell"}, {"do": "go", "step": "touch"}, {"do": "go", "step": "verify"},
     {"do": "cell", "setup": "eye-in-hand", "tolerance_mm": 0.4}, {"do": "cell", "setup": null},
     {"do": "target", "target": {"kind": "checkerboard", "columns": 9, "rows": 6, "square_mm": 30.0}},
     {"do": "target", "target": {"kind": "charuco", "squares_x": 8, "squares_y": 6, "square_mm": 30.0,

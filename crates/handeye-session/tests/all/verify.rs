@@ -3,7 +3,7 @@
 use std::{fs, path::Path};
 
 use handeye::{
-    Config, Pose, Setup,
+    Base, Config, Flange, Pose, Setup,
     nalgebra::{Isometry3, Vector3},
 };
 use handeye_io::{Dataset, SessionFolder, calibrate::calibrate_dataset, read_result};
@@ -118,4 +118,54 @@ fn after_a_knock_a_view_contradicts_and_no_result_is_written() {
         drop(player);
         fs::remove_dir_all(root).unwrap();
     }
+}
+
+/// Where the robot is led.
+fn to(player: &mut Player, pose: &Pose<Base, Flange>) {
+    player.cell().drive(*pose, player.now());
+    player.pass(30.0);
+}
+
+#[test]
+fn what_was_asked_for_in_one_step_is_not_done_in_another() {
+    let root = new_folder();
+    let mut player = calibrated(&root, Setup::EyeInHand);
+    let refused = player.command(Command::Retake { id: "001".into() }).unwrap_err();
+    assert!(refused.contains("step `capture`"), "{refused}");
+    assert!(player.state().captures.iter().any(|c| c.id == "001"));
+
+    // the robot stands where the last capture was taken, and sees the same
+    player.command(Command::Take).unwrap();
+    let problem = player.state().problem.unwrap();
+    assert!(problem.message.contains("verifies more"), "{problem:?}");
+    assert!(player.state().verify.unwrap().views.is_empty());
+
+    // a result that was written stays one while nothing has changed
+    player.command(Command::Finish).unwrap();
+    player.command(Command::Go { step: Step::Verify }).unwrap();
+    player.command(Command::Go { step: Step::Result }).unwrap();
+    assert!(player.state().result.is_some());
+    player.command(Command::Go { step: Step::Verify }).unwrap();
+    view(&mut player);
+    assert!(player.state().result.is_none());
+    drop(player);
+    fs::remove_dir_all(root).unwrap();
+}
+
+#[test]
+fn at_the_pose_of_a_capture_an_image_that_has_moved_contradicts() {
+    let root = new_folder();
+    let mut player = calibrated(&root, Setup::EyeInHand);
+    player.command(Command::Finish).unwrap();
+    player.command(Command::Go { step: Step::Verify }).unwrap();
+    let knock = Isometry3::new(Vector3::new(3e-3, -2e-3, 1e-3), Vector3::new(0.0, 4e-3, 0.0));
+    player.cell().happens(&Event::CameraMoved(Pose::claim(knock)));
+    let pose = player.state().captures[1].base_from_flange;
+    to(&mut player, &pose);
+    player.command(Command::Take).unwrap();
+    let state = player.state();
+    assert_eq!(state.verify.unwrap().agrees, Some(false), "{:?}", state.problem);
+    assert!(player.command(Command::Finish).is_err());
+    drop(player);
+    fs::remove_dir_all(root).unwrap();
 }

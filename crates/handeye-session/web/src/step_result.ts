@@ -224,6 +224,8 @@ export function makeStepResult(app: App): Part {
 
 /** What the verdict rests on. */
 function headlineOf(state: State, verdict: Verdict): string {
+  // what views contradict is said in the sentence on top
+  if (state.verify?.agrees === false) return state.say ?? "";
   const { p95_mm: error, tolerance_mm: tolerance, reasons, captures } = state.progress ?? {};
   if (verdict !== "accepted") return sentence((reasons ?? []).join("; "));
   return t("accepted_by", { error: mm(error), tolerance: mm(tolerance), count: captures ?? 0 });

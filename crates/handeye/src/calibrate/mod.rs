@@ -28,6 +28,8 @@ mod scans;
 mod touches;
 mod unknowns;
 
+pub(crate) use captures::residuals::readings;
+
 use crate::{
     Error, Session, TargetModel, calibrate::result::Calibration, estimate::touch_pairs,
     model::session::Motion,

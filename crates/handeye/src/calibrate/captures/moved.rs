@@ -3,7 +3,10 @@
 
 use nalgebra::Vector6;
 
-use super::movement::{MOST, WIDE, displaced};
+use super::{
+    movement::{MOST, WIDE, displaced},
+    residuals::readings,
+};
 use crate::{
     Calibration, Config, Session, Setup, Verdict, Warning,
     calibrate::{
@@ -140,8 +143,8 @@ fn last_displaced(session: &Session, result: &Calibration) -> Option<(String, Ve
     }
     let anchor_from_mount = result.setup.anchor_from_mount(last.base_from_flange);
     let mount_from_target = anchor_from_mount.inverse() * found.anchor_from_target;
-    let displaced = last.candidates.iter().map(|reading| {
-        let now = mount_from_target * reading.camera_from_target.inverse();
+    let displaced = readings(result, session, last).into_iter().map(|camera_from_target| {
+        let now = mount_from_target * camera_from_target.inverse();
         found.mount_from_camera.local(&now)
     });
     let delta = displaced.min_by(|a, b| a.norm().total_cmp(&b.norm()))?;

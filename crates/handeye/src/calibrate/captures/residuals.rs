@@ -1,8 +1,8 @@
 //! Residual of every capture and touch, and which way round the target lies.
 
 use crate::{
-    Camera, HandEye, ImageCorner, Intrinsics, Mount, Observation, Placement, Point, Pose, Target,
-    TargetModel, TargetPose, Touch,
+    Calibration, Camera, HandEye, ImageCorner, Intrinsics, Mount, Observation, Placement, Point,
+    Pose, Target, TargetModel, TargetPose, Touch,
     calibrate::{
         flow::{
             evidence::{Choice, Evidence},
@@ -25,6 +25,25 @@ use crate::{
     model::{residual::Residual, session::Session},
     solve::View,
 };
+
+/// Poses of the target in an observation, as an answer sees it: with the camera and the size of the target that the answer has
+/// found. All readings of a board that looks alike when it is turned.
+pub(crate) fn readings(
+    result: &Calibration,
+    session: &Session,
+    o: &Observation,
+) -> Vec<Pose<Camera, Target>> {
+    let camera = result.camera.as_ref().map(|c| c.intrinsics).or(session.camera);
+    let size = result.target_scale.filter(|s| s.used).map_or(1.0, |s| s.value);
+    let target = session.target.as_ref().map(|target| target.resized(size));
+    let found = target.as_ref().zip(camera).filter(|_| !o.corners.is_empty());
+    let again = found.and_then(|(target, camera)| {
+        let poses = detect::target_poses(&o.corners, &[], target, &camera).ok()?;
+        Some(detect::with_symmetries(&poses, target))
+    });
+    let all = again.unwrap_or_else(|| o.candidates.clone());
+    all.into_iter().map(|candidate| candidate.camera_from_target).collect()
+}
 
 /// Which symmetry of the board the chosen pose stands for: the one that brings the corners of the
 /// image's first reading onto those of the chosen one.
