@@ -8,9 +8,9 @@ mod section;
 use std::{env, fs, path::PathBuf, time::Instant};
 
 use handeye::{Camera, Point, Pose, Setup, Target};
-use handeye_io::{SessionFolder, measure::Measurements};
+use handeye_io::SessionFolder;
 use handeye_session::{
-    assess::assess,
+    assess::{Measured, assess},
     engine::{Command, Destination, Step},
     host::Host,
     script::Player,
@@ -74,12 +74,12 @@ fn assessment_s(setup: Setup, seed: u64) -> f64 {
     let newest = folder.captures().last().expect("captures").id.clone();
     let mut all: Vec<f64> = (0..5)
         .map(|_| {
-            let mut before = Measurements::default();
+            let mut before = Measured::default();
             folder.delete(&newest).expect("a capture that is deleted");
-            assess(&folder, &mut before, &[]).expect("an assessment");
+            assess(&folder, &mut before, (&[], false)).expect("an assessment");
             folder.restore(&newest).expect("a capture that is restored");
             let begin = Instant::now();
-            assess(&folder, &mut before, &[]).expect("an assessment");
+            assess(&folder, &mut before, (&[], false)).expect("an assessment");
             begin.elapsed().as_secs_f64()
         })
         .collect();
