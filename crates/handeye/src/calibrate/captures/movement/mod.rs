@@ -57,7 +57,7 @@ const SHORTLY: usize = 12;
 const IN_ORDER: f64 = 0.5;
 
 /// A movement that captures agree on is at most about as large, per axis: rad and m alike.
-pub(super) const MOST: f64 = 0.1;
+const MOST: f64 = 0.1;
 
 /// The 95 % point over its root mean square, of how far an answer is off that was moved by a twist.
 pub(super) const WIDE: f64 = 1.6;
