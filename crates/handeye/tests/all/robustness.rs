@@ -25,10 +25,16 @@ fn spoilt_captures_cost_nothing_and_no_answer_is_silently_wrong() {
         wronged * 1000 <= captures.max(1000),
         "{wronged} of {captures} were right and left out"
     );
-    let solved = all.iter().filter(|o| o.solved()).count() as u64;
+    // a last capture that is spoilt may be one after a knock: then another one is asked for
+    let asks = |o: &&Outcome| o.result.warnings.iter().any(|w| w.code == "last-capture-displaced");
+    assert!(all.iter().filter(asks).all(|o| o.spoilt.iter().any(|(k, _)| k + 1 == o.captures)));
+    let solved = all.iter().filter(|o| o.solved() || asks(o)).count() as u64;
     assert!(solved + 1 >= SESSIONS, "{solved} of {SESSIONS}");
-    let close = all.iter().filter(|o| o.ratio().is_some_and(|r| r < trial::AS_GOOD)).count();
+    let is_close = |o: &&Outcome| o.ratio().is_some_and(|r| r < trial::AS_GOOD) || asks(o);
+    let close = all.iter().filter(is_close).count();
     assert!(close as u64 + 3 >= SESSIONS, "{close} of {SESSIONS}");
+    let asking = all.iter().filter(asks).count() as u64;
+    assert!(asking * 10 <= SESSIONS, "{asking} of {SESSIONS} end with a question");
     for kind in Mistake::ALL {
         let sum = |f: &dyn Fn(&Outcome) -> usize| all.iter().map(f).sum::<usize>();
         let (count, missed) = (sum(&|o| o.of(kind).count()), sum(&|o| o.missed(kind)));

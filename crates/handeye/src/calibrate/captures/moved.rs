@@ -4,7 +4,7 @@
 use nalgebra::Vector6;
 
 use super::{
-    movement::{WIDE, displaced},
+    movement::{NAMED, PRIOR, WIDE, displaced},
     residuals::readings,
 };
 use crate::{
@@ -163,6 +163,11 @@ fn last_displaced(session: &Session, result: &Calibration) -> Option<(String, Ve
         found.mount_from_camera.local(&now)
     });
     let delta = displaced.min_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+    // where wrong captures are frequent, one more is no surprise
+    let others = (result.rejected.len() - 1) as f64;
+    if PRIOR / (PRIOR + others) < 1.0 - NAMED {
+        return None;
+    }
     let by = Residual { angle: lie::omega(&delta).norm(), distance: lie::nu(&delta).norm() };
     let is_knock = by.is_within(KNOCK) && !is_explained(result, &last.capture);
     is_knock.then(|| (last.capture.clone(), delta))

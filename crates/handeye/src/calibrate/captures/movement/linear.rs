@@ -7,7 +7,7 @@ use crate::calibrate::flow::limits::VERY_MANY;
 /// Fewest captures on either side of a step.
 const FEWEST_BESIDE: usize = 3;
 /// Prior probability that something moves in a session.
-pub(super) const PRIOR: f64 = 0.2;
+pub(in super::super) const PRIOR: f64 = 0.2;
 /// Standard deviations of a movement, per axis: rad and m alike. Small and large ones are equally probable beforehand.
 const SIZES: [f64; 3] = [0.5e-3, 1.5e-3, 5e-3];
 /// The side that moved.

@@ -38,15 +38,16 @@ use crate::{
     solve::{consensus::Consensus, least_squares},
 };
 
+pub(super) use linear::PRIOR;
 pub(crate) use linear::Row;
-use linear::{PRIOR, SIDES, Side, Sums, Used, Weighed, linear, weighed};
+use linear::{SIDES, Side, Sums, Used, Weighed, linear, weighed};
 
 /// Fewest captures one after the other that are a block.
 const FEWEST_IN_BLOCK: usize = 3;
 /// Fewest captures that tell a movement from noise.
 const FEWEST: usize = 8;
 /// A movement is named from this probability on.
-const NAMED: f64 = 0.95;
+pub(super) const NAMED: f64 = 0.95;
 /// A rotation counts against a position by this lever when neighbours are looked for, m.
 const LEVER: f64 = 0.3;
 /// A block whose captures have their nearest neighbour in the block this often lies at a place of its own.
