@@ -41,9 +41,8 @@ impl Host {
 
     /// Whether captures, deleted ones among them, have scans; `None` without any.
     pub fn has_scans(&self) -> Option<bool> {
-        let all = self.folder.captures().into_iter().chain(self.folder.deleted());
-        let mut scans = all.map(|capture| capture.scan.is_some());
-        scans.next()
+        let mut all = self.folder.captures().into_iter().chain(self.folder.deleted());
+        all.next().map(|capture| capture.scan.is_some())
     }
 
     /// What the folder holds.

@@ -132,7 +132,7 @@ class SessionState:
 
 
 class Session:
-    """A live calibration for a program that has camera and robot: it pushes an image and the pose of its moment, and is told
+    """A live calibration for a program that has camera and robot: it pushes an image and the pose of its moment; the answer is
     what that was worth and where to drive next.
 
     The folder is the session: a capture is stored before a push returns, ``handeye calibrate FOLDER`` gives the same

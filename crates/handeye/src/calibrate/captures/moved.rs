@@ -163,7 +163,7 @@ fn last_displaced(session: &Session, result: &Calibration) -> Option<(String, Ve
         found.mount_from_camera.local(&now)
     });
     let delta = displaced.min_by(|a, b| a.norm().total_cmp(&b.norm()))?;
-    // where wrong captures are frequent, one more is no surprise
+    // where many captures are outliers, the last one is probably another one, and no knock
     let others = (result.rejected.len() - 1) as f64;
     if PRIOR / (PRIOR + others) < 1.0 - NAMED {
         return None;
