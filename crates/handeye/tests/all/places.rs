@@ -254,3 +254,43 @@ fn a_workspace_says_where_the_robot_works() {
     assert!(x.distance_to(&answer(depths[20])) > 1e-5);
     assert!(x.distance_to(&answer(depths[3])) < 1e-9);
 }
+
+#[test]
+fn with_a_board_of_another_size_the_board_is_where_it_is_and_residuals_are_of_its_true_size() {
+    let (mut by_place, mut sum_mm) = (0, 0.0);
+    for seed in 0..8 {
+        let setup = [Setup::EyeInHand, Setup::EyeToHand][seed as usize % 2];
+        let usual = Cell::new(setup, 40 + seed);
+        let share = [0.006, -0.006, 0.009, -0.009][seed as usize / 2];
+        let cell = Cell {
+            captures: 30,
+            placements: 0,
+            touches: 0,
+            print_scale: [share, share],
+            arm: Some(ArmErrors { length_m: 0.4e-3, angle_rad: 8e-4, ..ArmErrors::default() }),
+            viewing: Viewing { spin_rad: 1.0, tilt_rad: 0.6, ..usual.viewing },
+            ..usual
+        };
+        let (mut session, truth) = cell.session(seed).unwrap();
+        session.arm = None;
+        let found = run(&session);
+        let scale = found.target_scale.unwrap();
+        assert!(scale.used && (scale.value - 1.0 - share).abs() < 4e-3, "{share}: {scale:?}");
+        by_place += u32::from(found.chosen.as_deref() == Some("joint-by-place"));
+        let y = found.hand_eye.anchor_from_target.unwrap();
+        let off_mm = truth.hand_eye.anchor_from_target.distance_to(&y) * 1e3;
+        println!("{setup:?} {share}: {:?}, the board {off_mm:.2} mm off", found.chosen);
+
+        sum_mm += off_mm;
+        let all: Vec<f64> = found.captures.iter().filter_map(|c| c.residual_mm).collect();
+        let rms = (all.iter().map(|r| r * r).sum::<f64>() / all.len() as f64).sqrt();
+        let stated = found.residual.translation_rms_mm.unwrap();
+        assert!(
+            (rms - stated).abs() < 1e-9,
+            "{setup:?} {share}: {rms} of captures, {stated} in all"
+        );
+    }
+    assert!(by_place >= 6, "{by_place} of 8");
+    // 4 mm where the views are taken with the declared size
+    assert!(sum_mm / 8.0 < 2.0, "{} mm off on average", sum_mm / 8.0);
+}

@@ -5,7 +5,10 @@ use nalgebra::Matrix6;
 use crate::{
     Camera, Mount, Pose,
     calibrate::{
-        flow::{evidence::RestsOn, views::Views},
+        flow::{
+            evidence::{RestsOn, Seen},
+            views::Views,
+        },
         prediction::workpiece::Workpiece,
         result::{Candidate, RobotErrorKind},
     },
@@ -28,6 +31,8 @@ pub(super) struct Judged {
     pub(super) candidate: Candidate,
     /// Residual of each capture when it was left out.
     pub(super) held_out: HeldOut,
+    /// The captures as it sees them, where that is not as they were read.
+    pub(super) seen: Option<Seen>,
 }
 
 impl Judge<'_> {

@@ -23,7 +23,7 @@ use crate::{
             size,
         },
         prediction::{
-            answers::{as_fitted, blocks, excess, stated_covariance, stored},
+            answers::{as_fitted, blocks, excess, seen_by, stated_covariance, stored},
             budget,
             reach::UsedTouches,
             workpiece::{Workpiece, volume},
@@ -110,7 +110,9 @@ fn fuse(
     evidence.notes.add(unseen.then(wrong).then(of_touches));
     let as_declared = joint.as_ref().map_or(*as_declared, |j| j.as_declared);
     let of_size = (1.0 + optics.size, as_declared.size);
-    let mut evidence = with_size(evidence, views, (fit, best), of_size, task);
+    // what a robot errs by place looks like another size, too
+    let of_robot = robot.best((whole, best)).1;
+    let mut evidence = with_size(evidence, views, (fit, of_robot), of_size, task);
     let (determined, open) = name_free(views, fit, best);
     let known = Notes::of(known_position::judge(whole, best, views, &config.known));
     evidence.notes.add(open.then(known));
@@ -283,6 +285,7 @@ impl Judge<'_> {
             let mut own = self.judged(fit, likeliest.into(), &fit.hand_eye, left_out);
             own.candidate.in_sample =
                 evaluate::in_sample(&fit.hand_eye, &as_fitted(fit, &self.views.views));
+            own.seen = Some(seen_by(fit, self.views));
             judged.push(own);
         }
         judged
@@ -319,7 +322,7 @@ impl Judge<'_> {
             predicted_tre_mm: self.workpiece.predicted_rms_mm(&x),
             note: None,
         };
-        Judged { rests_on: RestsOn::Views, candidate, held_out: left_out }
+        Judged { rests_on: RestsOn::Views, candidate, held_out: left_out, seen: None }
     }
 
     /// The same beside that for the target.
@@ -347,7 +350,8 @@ impl Judge<'_> {
             predicted_tre_mm: self.workpiece.predicted_rms_mm(&x),
             note: joint.note(),
         };
-        Some(Judged { rests_on: RestsOn::Both, candidate, held_out: left_out })
+        let seen = Some(seen_by(fit, self.views));
+        Some(Judged { rests_on: RestsOn::Both, candidate, held_out: left_out, seen })
     }
 }
 
@@ -361,14 +365,16 @@ impl Judge<'_> {
             (RobotErrorKind::ByPlace, false) => NOTE_BY_PLACE_TOUCHED,
         };
         let views = self.views;
-        let placed = solve::place_target(&pairs_of(views), &x);
-        let held_out = evaluate::placed_without(&views.views, &x);
+        // as robots report them, and as the camera and the target that were found show them
+        let (fitted, seen) = (as_fitted(fit, &views.views), seen_by(fit, views));
+        let placed = solve::place_target(&seen.pairs, &x);
+        let held_out = evaluate::placed_without(&fitted, &x);
         let missed = evaluate::rms(&held_out);
         let touch_rms = touch_pairs::touch_rms(self.paired, &x).map(|m| m * 1e3);
         let candidate = Candidate {
             name: errors.candidate().into(),
             hand_eye: stored_registration(views, fit, &placed, Some(&covariance)),
-            in_sample: evaluate::in_sample(&placed, &views.views),
+            in_sample: evaluate::in_sample(&placed, &fitted),
             held_out: missed,
             touch_rms_mm: touch_rms,
             // no touch was left out of it
@@ -376,7 +382,8 @@ impl Judge<'_> {
             predicted_tre_mm: self.workpiece.predicted_rms_mm(&x),
             note: Some(note.into()),
         };
-        Some(Judged { rests_on: RestsOn::BothFor(errors), candidate, held_out })
+        let seen = Some(seen);
+        Some(Judged { rests_on: RestsOn::BothFor(errors), candidate, held_out, seen })
     }
 }
 
@@ -410,6 +417,7 @@ fn choose(
         predicted_tre_mm: x.and_then(|x| workpiece.tre(&x)),
         residual: best.candidate.in_sample,
         held_out: best.candidate.held_out,
+        seen: best.seen.clone(),
     };
     Some((choice, best.held_out.clone()))
 }

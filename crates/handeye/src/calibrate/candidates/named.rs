@@ -42,6 +42,7 @@ pub(crate) fn by_likeliest(
         residual: evaluate::in_sample(&fit.hand_eye, &answers::as_fitted(fit, &views.views)),
         // for the residuals of the captures; the verdict hides it
         hand_eye: answers::stored(views, &fit.hand_eye, None),
+        seen: Some(answers::seen_by(fit, views)),
         ..choice
     };
     (choice, left_out)

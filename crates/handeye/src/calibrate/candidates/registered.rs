@@ -71,7 +71,7 @@ impl Judge<'_> {
             predicted_tre_mm: predicted.filter(|_| found.wrong_matches == 0),
             note: registration_note(&found),
         };
-        Ok(Judged { rests_on: RestsOn::Touches, candidate, held_out })
+        Ok(Judged { rests_on: RestsOn::Touches, candidate, held_out, seen: None })
     }
 }
 

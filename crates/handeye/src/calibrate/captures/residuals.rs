@@ -5,9 +5,9 @@ use crate::{
     Pose, Target, TargetModel, TargetPose, Touch,
     calibrate::{
         flow::{
-            evidence::{Choice, Evidence},
+            evidence::{Choice, Evidence, Seen},
             notes::Notes,
-            views::{Views, own_pose},
+            views::{self, Views, own_pose},
         },
         result::CaptureResult,
     },
@@ -212,16 +212,24 @@ pub(crate) fn held_out(
 pub(crate) fn with_residuals(views: &Views, mut found: Evidence) -> Evidence {
     let Some(choice) = &mut found.choice else { return found };
     let Some(answer) = answer(choice, views) else { return found };
-    for (v, &i) in views.views.iter().zip(&views.indices) {
-        let Residual { angle, distance } = answer.loop_residual(&v.pair);
+    let as_read = || Seen {
+        pairs: views::pairs_of(views),
+        camera: views.session.camera,
+        target: views.session.target.clone(),
+    };
+    let seen = choice.seen.take().unwrap_or_else(as_read);
+    for (pair, &i) in seen.pairs.iter().zip(&views.indices) {
+        let Residual { angle, distance } = answer.loop_residual(pair);
         let capture = &mut found.captures[i];
-        capture.camera_from_target = Some(own_pose(v, views));
+        capture.camera_from_target =
+            Some(pair.camera_from_target * views.target_from_corner.inverse());
         capture.residual_deg = Some(angle.to_degrees());
         capture.residual_mm = Some(distance * 1e3);
     }
     let (Some(target), Some(camera)) = (&views.session.target, &views.session.camera) else {
         return found;
     };
+    let (Some(target_seen), Some(camera_seen)) = (&seen.target, &seen.camera) else { return found };
     let own = answer.retarget(views.target_from_corner.inverse());
     let (mut sum, mut count) = (0.0, 0.0);
     for (k, &i) in views.indices.iter().enumerate() {
@@ -230,7 +238,7 @@ pub(crate) fn with_residuals(views: &Views, mut found: Evidence) -> Evidence {
         let map = relabelling(o, &pose, target);
         let capture = &mut found.captures[i];
         capture.reprojection_px =
-            evaluate::reprojection_px(&own, o, views.session.setup, target, &map, camera);
+            evaluate::reprojection_px(&own, o, views.session.setup, target_seen, &map, camera_seen);
         capture.residual_px = picture_residual(o, &pose, target, &map, camera);
         if let Some(px) = capture.reprojection_px {
             let n = o.corners.len() as f64;

@@ -2,7 +2,7 @@
 
 use super::{notes::Notes, views};
 use crate::{
-    Calibration, Camera, Mount, Pose, Session, Setup, Verdict,
+    Calibration, Camera, Intrinsics, Mount, Pose, PosePair, Session, Setup, TargetModel, Verdict,
     calibrate::result::{
         Advice, Answer, ArmResult, BudgetEntry, CameraResult, Candidate, CaptureResult,
         CompensationResult, DepthResult, Determined, PoseCovariance, RobotErrorKind, Rows, Scale,
@@ -96,6 +96,18 @@ pub(crate) struct Choice {
     pub residual: RmsResidual,
     /// Leave-one-out residual.
     pub held_out: RmsResidual,
+    /// The captures as it sees them; `None` where that is as they were read.
+    pub seen: Option<Seen>,
+}
+
+/// The captures as an answer sees them that has found more than two poses: with its camera, the size of its target, and
+/// its clock.
+#[derive(Clone)]
+pub(crate) struct Seen {
+    /// About the target's first corner, in the order of the views.
+    pub pairs: Vec<PosePair>,
+    pub camera: Option<Intrinsics>,
+    pub target: Option<TargetModel>,
 }
 
 /// How measured distances and clocks relate to metres and to the robot's clock.

@@ -240,6 +240,12 @@ impl Optics {
 }
 
 /// The camera as the fit has it.
+pub(crate) fn camera_of(camera: &Intrinsics, fit: &JointFit) -> Intrinsics {
+    let at = |i: usize| fit.extra(ExtraKind::Camera(LENS + i)).map_or(0.0, |x| x.0);
+    camera.moved(&SVector::from_fn(|i, _| at(i)))
+}
+
+/// The same, with its uncertainty.
 fn refined_camera(camera: &Intrinsics, fit: &JointFit) -> CameraResult {
     let at = |i: usize| fit.extra(ExtraKind::Camera(LENS + i)).unwrap_or((0.0, 0.0));
     let sigma = |i: usize| at(i).1;
@@ -247,7 +253,7 @@ fn refined_camera(camera: &Intrinsics, fit: &JointFit) -> CameraResult {
     let both = covariance(fit, LENS, LENS + 1);
     let fy = (share * sigma(0)).powi(2) + sigma(1).powi(2) + 2.0 * share * both;
     CameraResult {
-        intrinsics: camera.moved(&SVector::from_fn(|i, _| at(i).0)),
+        intrinsics: camera_of(camera, fit),
         sigma_fx: sigma(0),
         sigma_fy: fy.max(0.0).sqrt(),
         sigma_cx: sigma(2),

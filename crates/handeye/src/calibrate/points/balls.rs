@@ -193,6 +193,7 @@ fn chosen(
         predicted_tre_mm: tre,
         residual: in_sample,
         held_out,
+        seen: None,
     };
     (choice, candidate)
 }

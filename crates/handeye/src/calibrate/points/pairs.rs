@@ -56,6 +56,7 @@ pub(crate) fn from_points(session: &Session) -> Evidence {
         predicted_tre_mm: tre,
         residual: candidate.in_sample,
         held_out: candidate.held_out,
+        seen: None,
     };
     let candidates = vec![candidate];
     Evidence { notes, choice: Some(choice), candidates, ..Evidence::default() }

@@ -6,7 +6,8 @@ use super::workpiece::inflation;
 use crate::{
     HandEye,
     calibrate::{
-        flow::views::Views,
+        flow::{evidence::Seen, views::Views},
+        optics::{self, prior::SIZE},
         result::{Answer, PoseCovariance, rows},
     },
     estimate::JointFit,
@@ -38,6 +39,16 @@ pub(crate) fn stated_covariance(fit: &JointFit) -> Option<Matrix12> {
 pub(crate) fn as_fitted(fit: &JointFit, views: &[View]) -> Vec<View> {
     let moved = |v: &View| View { pair: v.with(&fit.extras, &fit.values), ..v.clone() };
     views.iter().map(moved).collect()
+}
+
+/// The captures as a fit sees them.
+pub(crate) fn seen_by(fit: &JointFit, views: &Views) -> Seen {
+    let size = fit.extra(SIZE).map_or(1.0, |x| 1.0 + x.0);
+    Seen {
+        pairs: as_fitted(fit, &views.views).iter().map(|v| v.pair).collect(),
+        camera: views.session.camera.map(|camera| optics::camera_of(&camera, fit)),
+        target: views.session.target.as_ref().map(|target| target.resized(size)),
+    }
 }
 
 /// What an answer is more uncertain than the likeliest one: their difference and the likeliest one's error are
