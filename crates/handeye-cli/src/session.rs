@@ -9,8 +9,8 @@ use std::{
 use clap::Args;
 use handeye::{Setup, TargetModel};
 use handeye_io::{
-    CellSettings, Place, SessionFolder, Writing, process, read_intrinsics, read_target,
-    temporary_folder,
+    CellSettings, Place, ScanSettings, SessionFolder, Writing, process, read_intrinsics,
+    read_target, temporary_folder,
 };
 use handeye_session::{
     engine::shown::State,
@@ -19,12 +19,18 @@ use handeye_session::{
     script::{Action, Player},
     server::{Server, line},
     sources::{
+        command,
         ur_rtde::UrRobot,
         virtual_cell::{Faults, VirtualCell},
     },
 };
 
-use crate::{args::GlobalArgs, browser, failure::Failure, output};
+use crate::{
+    args::{GlobalArgs, Length},
+    browser,
+    failure::Failure,
+    output,
+};
 
 /// Arguments of `session`.
 #[derive(Args)]
@@ -54,6 +60,13 @@ pub struct SessionArgs {
     /// --robot.
     #[arg(long, conflicts_with_all = ["seed", "images_from", "camera_command"])]
     pub upload: bool,
+    /// A scan comes with each image, in m, cm, mm or inch: beside it in the folder under the same name, or written by the
+    /// command to {scan} (PLY), {scan.pcd} and the like.
+    #[arg(long, value_name = "UNIT", conflicts_with_all = ["seed", "upload"])]
+    pub scan_unit: Option<Length>,
+    /// A depth image comes with each image likewise ({scan.tif}, {scan.npy}): metres per unit of depth.
+    #[arg(long, value_name = "METRES", conflicts_with_all = ["seed", "upload"])]
+    pub depth_scale: Option<f64>,
     /// Who carries the camera: eye-in-hand (the robot, by default) or eye-to-hand.
     #[arg(long, value_name = "SETUP", value_parser = setup)]
     pub setup: Option<Setup>,
@@ -103,6 +116,9 @@ fn setup(name: &str) -> Result<Setup, String> {
 }
 
 pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
+    if args.depth_scale.is_some_and(|scale| !(scale > 0.0 && scale.is_finite())) {
+        return Err(Failure::Usage("--depth-scale must be positive".into()));
+    }
     if args.tolerance_mm.is_some_and(|mm| !(mm > 0.0 && mm.is_finite())) {
         return Err(Failure::Usage("--tolerance-mm must be positive".into()));
     }
@@ -126,9 +142,34 @@ pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
         folder.set(&settings)?;
     }
     let host = Host::new(folder);
+    scans_fit(args, &host)?;
     match (&args.script, cell) {
         (Some(script), Cell::Virtual(cell)) => play(&mut Player::new(host, *cell), script, global),
         (_, cell) => serve(Live::begin(host, cell), args, global),
+    }
+}
+
+/// Refuses scans for some captures only, and a command that does not go with what is said of them.
+fn scans_fit(args: &SessionArgs, host: &Host) -> Result<(), Failure> {
+    let comes = host.state().settings.scans.is_some();
+    let folder = host.path().display();
+    let usage = |what: String| Err(Failure::Usage(what));
+    match host.has_scans() {
+        Some(true) if !comes => usage(format!(
+            "{folder}: its captures have a scan each, in metres: say --scan-unit m, and give scans in metres"
+        )),
+        Some(false) if comes => usage(format!(
+            "{folder}: its captures have no scans, and all have one or none: leave out --scan-unit and --depth-scale, or begin in a new folder"
+        )),
+        _ => match &args.camera_command {
+            Some(line) if comes && command::scan_in(line).is_none() => usage(
+                "--camera-command: where does it write the scan? It needs {scan} (PLY), or {scan.pcd} and the like".into(),
+            ),
+            Some(line) if !comes && command::scan_in(line).is_some() => {
+                usage("--camera-command: in which unit are its scans? Say --scan-unit mm, or --depth-scale".into())
+            }
+            _ => Ok(()),
+        },
     }
 }
 
@@ -171,6 +212,7 @@ fn usual() -> CellSettings {
         notation: "ur".into(),
         guess: None,
         tip_mm: None,
+        scans: None,
     }
 }
 
@@ -183,7 +225,14 @@ fn with_options(settings: CellSettings, args: &SessionArgs) -> Result<CellSettin
         None => settings.intrinsics,
     };
     let target = args.target.as_deref().map(read_target).transpose()?;
+    let scans = match (args.scan_unit, args.depth_scale) {
+        (None, None) => settings.scans,
+        (unit, depth_scale) => {
+            Some(ScanSettings { length_unit: unit.map(Into::into), depth_scale })
+        }
+    };
     Ok(CellSettings {
+        scans,
         setup: args.setup.unwrap_or(settings.setup),
         target: target.unwrap_or_else(|| settings.target.clone()),
         intrinsics,

@@ -12,8 +12,8 @@ use std::{collections::VecDeque, fs, path::Path, sync::Arc};
 
 use handeye::{Base, Flange, Pose, Scan, Setup, TargetModel};
 use handeye_io::{
-    CellSettings, Error, RefusedCapture, SessionFolder, Writing, image_size, intrinsics_from_json,
-    read_image, simulated,
+    CellSettings, Error, RefusedCapture, ScanSettings, SessionFolder, Writing, image_size,
+    intrinsics_from_json, read_image, simulated,
 };
 
 use crate::{
@@ -242,6 +242,11 @@ impl PushedSession {
     fn pairs(&self, has_scan: bool) -> Result<(), PushError> {
         // deleted ones may come back
         let with_scans = self.host.has_scans();
+        if has_scan && self.engine.settings().scans.is_some_and(|own| own != ScanSettings::METRES) {
+            return Err(refused(
+                "the scans of this folder are not in metres: `handeye session` goes on with it, or begin in a new folder".into(),
+            ));
+        }
         match (with_scans, has_scan) {
             (Some(true), false) => Err(refused(
                 "the captures before it have a scan each, and this one has none".into(),
@@ -318,8 +323,8 @@ impl Declared {
             return Err(refused("a new session needs to know setup and target".into()));
         };
         let (tolerance_mm, notation) = (TOLERANCE_MM, NOTATION.into());
-        let (intrinsics, guess, tip_mm) = (None, None, None);
-        Ok(CellSettings { setup, target, intrinsics, tolerance_mm, notation, guess, tip_mm })
+        let (intrinsics, guess, tip_mm, scans) = (None, None, None, None);
+        Ok(CellSettings { setup, target, intrinsics, tolerance_mm, notation, guess, tip_mm, scans })
     }
 
     /// Settings with what is declared; `size` is that of the images, where it is known.

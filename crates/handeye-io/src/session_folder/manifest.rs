@@ -34,14 +34,36 @@ pub struct CellSettings {
     /// Where the tip of the tool that touches corners is in the flange, mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_mm: Option<[f64; 3]>,
+    /// How the scans are read that come with the images; `None` where none come, or their files are metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scans: Option<ScanSettings>,
+}
+
+/// What the files of scans do not say.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ScanSettings {
+    /// Unit of the coordinates of points, where the file or its format does not say it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length_unit: Option<LengthUnit>,
+    /// Metres per unit of depth images.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_scale: Option<f64>,
+}
+
+impl ScanSettings {
+    /// Points in metres.
+    pub const METRES: Self = Self { length_unit: Some(LengthUnit::Metre), depth_scale: None };
 }
 
 impl CellSettings {
     /// Whether captures of the one are captures of the other: all but what is tolerated, how poses are written, and the
     /// tool that touches corners.
     pub fn is_of_same_cell(&self, other: &Self) -> bool {
+        let metres = |of: &Self| Some(of.scans.unwrap_or(ScanSettings::METRES));
         let Self { tolerance_mm, notation, tip_mm, .. } = self.clone();
-        *self == Self { tolerance_mm, notation, tip_mm, ..other.clone() }
+        let (own, of_other) = (metres(self), metres(other));
+        Self { scans: own, ..self.clone() }
+            == Self { tolerance_mm, notation, tip_mm, scans: of_other, ..other.clone() }
     }
 }
 
@@ -87,9 +109,11 @@ pub(super) fn text(settings: &CellSettings, held: &Held) -> String {
         tip: Some(TipSpec { in_flange_mm }),
         ..TouchesSpec::default()
     });
+    let ScanSettings { length_unit, depth_scale } = settings.scans.unwrap_or(ScanSettings::METRES);
     m.scans = held.has_scans.then(|| ScansSpec {
         files: "scans/*".into(),
-        length_unit: Some(LengthUnit::Metre),
+        length_unit,
+        depth_scale,
         ..ScansSpec::default()
     });
     m.limits = LimitsSpec { max_error_mm: Some(settings.tolerance_mm) };

@@ -29,7 +29,7 @@ use crate::{
 };
 use journal::{Journal, Line};
 pub use journal::{RefusedCapture, StoredCapture, StoredTouch};
-pub use manifest::{CameraGuess, CellSettings};
+pub use manifest::{CameraGuess, CellSettings, ScanSettings};
 
 /// The journal's name.
 const JOURNAL: &str = "journal.jsonl";
@@ -67,7 +67,7 @@ pub struct NewCapture<'a> {
     pub image_time_s: Option<f64>,
     /// The image's file: its ending (`png`) and its bytes.
     pub image: Option<(&'a str, &'a [u8])>,
-    /// The scan's file likewise, in metres where the file does not say it.
+    /// The scan's file likewise, to be read as the settings say, or in metres.
     pub scan: Option<(&'a str, &'a [u8])>,
 }
 

@@ -5,6 +5,7 @@ pub mod command;
 pub mod folder;
 pub mod mistakes;
 pub mod outlet;
+pub mod scan;
 pub mod upload;
 pub mod ur_rtde;
 pub mod virtual_cell;

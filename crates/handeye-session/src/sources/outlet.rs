@@ -11,7 +11,7 @@ use std::{
 };
 
 use handeye::{GrayImage, Intrinsics, TargetModel, detect};
-use handeye_io::CellSettings;
+use handeye_io::{CellSettings, ScanSettings};
 use tokio::sync::watch;
 
 use crate::engine::{
@@ -86,12 +86,15 @@ pub struct Wanted {
     pub target: TargetModel,
     /// The camera, where it is known.
     pub intrinsics: Option<Intrinsics>,
+    /// How the scan is read that comes with each image; `None` where none comes.
+    pub scans: Option<ScanSettings>,
 }
 
 impl Wanted {
     /// What the settings of a cell say of it.
     pub fn of(settings: &CellSettings) -> Self {
-        Self { target: settings.target.clone(), intrinsics: settings.intrinsics }
+        let CellSettings { target, intrinsics, scans, .. } = settings.clone();
+        Self { target, intrinsics, scans }
     }
 
     /// What an image shows that came at this time.

@@ -6,10 +6,11 @@ use std::{
 };
 
 use handeye::{
-    Base, Camera, Error, Flange, GrayImage, HandEye, ImageCorner, Intrinsics, Pose, Setup, Target,
+    Base, Camera, Error, Flange, GrayImage, HandEye, ImageCorner, Intrinsics, Pose, Scan, Setup,
+    Target,
     math::random::Random,
     nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3},
-    simulate::{Cell, CellNoise, Optics, Scene},
+    simulate::{Cell, CellNoise, DepthSensor, Optics, Scene},
 };
 use handeye_io::{CameraGuess, CellSettings};
 
@@ -119,6 +120,7 @@ impl VirtualCell {
             notation: "ur".into(),
             guess: Some(self.guess),
             tip_mm: Some((self.cell.tip_in_flange.vector() * 1e3).into()),
+            scans: None,
         };
         match &self.faults.mistake {
             Some(mistake) => mistake.declared(settings),
@@ -261,6 +263,11 @@ impl VirtualCell {
         };
         let exact = self.scene(now).corners();
         exact.into_iter().map(&mut noisy).collect()
+    }
+
+    /// What a 3D camera measures with that image, a point per pixel; number `frame` decides on its noise.
+    pub fn scan(&self, now: f64, frame: u64) -> Scan {
+        self.scene(now).scan(&DepthSensor::default(), frame)
     }
 
     /// The image that comes at this moment; number `frame` decides on its noise.

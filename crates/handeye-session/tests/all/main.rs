@@ -13,6 +13,7 @@ mod line_programs;
 mod mistakes;
 mod openapi;
 mod push;
+mod scans;
 mod standstill;
 mod upload;
 mod ur_fields;

@@ -19,7 +19,7 @@ use crate::new_folder;
 
 const PATIENCE: Duration = Duration::from_secs(120);
 
-fn until(live: &Live, what: &str, seen: impl Fn(&Value) -> bool) {
+pub fn until(live: &Live, what: &str, seen: impl Fn(&Value) -> bool) {
     let begin = Instant::now();
     loop {
         let state: Value = serde_json::from_str(&live.shown().borrow().json).unwrap();

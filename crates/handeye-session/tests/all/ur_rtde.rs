@@ -34,7 +34,7 @@ impl Listener {
     fn follow(port: u16, silence: Duration) -> Self {
         let (to, inputs) = mpsc::channel();
         let target = TargetModel::Checkerboard { columns: 9, rows: 6, square_mm: 30.0 };
-        let wanted = Wanted { target, intrinsics: None };
+        let wanted = Wanted { target, intrinsics: None, scans: None };
         let outlet = Outlet::new(to, wanted, tokio::sync::watch::channel(0).0);
         let pause = Duration::from_millis(1);
         ur_rtde::stream(UrRobot { pause, silence, ..UrRobot::new("127.0.0.1", port) }, outlet);
