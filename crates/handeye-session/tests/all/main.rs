@@ -10,6 +10,7 @@ mod gate;
 mod line;
 #[cfg(unix)]
 mod line_programs;
+mod long;
 mod mistakes;
 mod openapi;
 mod push;
