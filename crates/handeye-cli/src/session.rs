@@ -139,6 +139,7 @@ pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     // what is said now comes before what was said when the session began
     let settings = with_options(folder.settings().clone(), args)?;
     if settings != *folder.settings() {
+        folder.is_of_cell(&settings)?;
         folder.set(&settings)?;
     }
     let host = Host::new(folder);

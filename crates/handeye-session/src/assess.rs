@@ -3,6 +3,8 @@
 
 use handeye::{
     Base, Calibration, Camera, Config, Flange, ImageCorner, Pose, Session, Target, Verdict,
+    calibrate::result::JudgedFinding,
+    findings::severity::Severity,
     nalgebra::Vector2,
     tools::{
         held_out::{self, HeldOutTest},
@@ -146,10 +148,14 @@ impl Assessment {
 
     /// What the captures say against one another, or against what is declared of them; `None` where more captures are all
     /// that is missing.
-    pub fn contradiction(&self) -> Option<&str> {
+    /// With the code of the finding that is the first to speak against the result, where there is one.
+    pub fn contradiction(&self) -> Option<(&str, Option<&str>)> {
         let result = &self.calibration;
         let is_wrong = result.verdict == Verdict::Rejected && !result.is_only_imprecise();
-        result.reasons.first().filter(|_| is_wrong).map(String::as_str)
+        let why = result.reasons.first().filter(|_| is_wrong)?;
+        let rejects = |f: &&JudgedFinding| f.severity == Severity::Rejects && f.code != "rejected";
+        let finding = result.findings.iter().find(rejects);
+        Some((why, finding.map(|finding| finding.code.as_str())))
     }
 
     /// Whether it is only the last capture that speaks against the others: something may have been moved before it.

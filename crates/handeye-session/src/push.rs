@@ -109,6 +109,7 @@ impl PushedSession {
         let size = size_of_images(&folder);
         let settings = declared.over(folder.settings(), size)?;
         if settings != *folder.settings() {
+            folder.is_of_cell(&settings)?;
             folder.set(&settings)?;
         }
         let waits = settings.intrinsics.is_none();

@@ -175,15 +175,30 @@ impl SessionFolder {
         Ok(cell)
     }
 
-    /// Other settings; with captures, of the same cell.
+    /// Refuses the settings of another cell where there are captures: whoever declares them anew has taken the wrong folder.
     ///
     /// # Errors
-    /// [`Error::Unusable`] for another cell once there are captures; a folder that cannot be written.
+    /// [`Error::Unusable`] where setup, camera or target differ.
+    pub fn is_of_cell(&self, settings: &CellSettings) -> Result<(), Error> {
+        match settings.is_of_same_cell(&self.settings) || self.journal.taken().is_empty() {
+            true => Ok(()),
+            false => Err(unusable(
+                &self.root,
+                "has captures of another camera, board or setup: begin a session in a new folder, or change what is wrong on the page of this session",
+            )),
+        }
+    }
+
+    /// Other settings. Captures are read anew with them.
+    ///
+    /// # Errors
+    /// [`Error::Unusable`] for a target of other corners once corners were touched; a folder that cannot be written.
     pub fn set(&mut self, settings: &CellSettings) -> Result<(), Error> {
-        if !settings.is_of_same_cell(&self.settings) && !self.journal.taken().is_empty() {
+        let corners = |of: &CellSettings| (of.setup, of.target.grid(), of.target.len());
+        if corners(settings) != corners(&self.settings) && !self.touches().is_empty() {
             return Err(unusable(
                 &self.root,
-                "has captures of the cell as it was: begin a session in a new folder for another camera, board or setup",
+                "has touches of corners, whose numbers are those of the board as it was: delete the touches first",
             ));
         }
         self.journal.append(Line::Cell(Box::new(settings.clone())))?;

@@ -103,8 +103,11 @@ impl Engine {
             return Err(wrong("the tolerance is a positive number of millimetres"));
         }
         let old = self.settings();
+        let setup = setup.unwrap_or(old.setup);
         self.configure(CellSettings {
-            setup: setup.unwrap_or(old.setup),
+            setup,
+            // where the camera sits on the robot says nothing of where it stands beside it
+            guess: old.guess.filter(|_| setup == old.setup),
             tolerance_mm: tolerance_mm.unwrap_or(old.tolerance_mm),
             ..old.clone()
         })
@@ -151,11 +154,6 @@ impl Engine {
 
     pub(super) fn configure(&mut self, settings: CellSettings) -> Result<Vec<Effect>, Refusal> {
         let is_other = !settings.is_of_same_cell(self.settings());
-        if is_other && !(self.folder.captures.is_empty() && self.folder.deleted.is_empty()) {
-            return Err(later(
-                "there are captures of the cell as it was: begin a session in a new folder for another camera, board or setup".into(),
-            ));
-        }
         if is_other && self.sources.is_virtual {
             return Err(wrong("a virtual cell has its own setup, camera and board"));
         }

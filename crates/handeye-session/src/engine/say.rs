@@ -284,7 +284,7 @@ fn reasons(all: &[String]) -> String {
 }
 
 /// What is wrong comes before where to drive next.
-pub(super) fn contradiction(why: &str, captures: usize) -> String {
+pub(super) fn contradiction((why, code): (&str, Option<&str>), captures: usize) -> String {
     let why = match why.ends_with('?') {
         true => why.to_owned(),
         false => format!("{}.", why.trim_end_matches('.')),
@@ -293,7 +293,32 @@ pub(super) fn contradiction(why: &str, captures: usize) -> String {
         true => format!(
             "These captures do not fit together: {why} Take another one wherever the whole board is seen: from {KNOWN} on the cause can be found."
         ),
-        false => format!("Something is wrong: {why} Put it right before you go on."),
+        false => format!("Something is wrong: {why} {}", code.map_or(REMEDY, remedy)),
+    }
+}
+
+/// What to do about what is wrong, where nothing more is known.
+const REMEDY: &str = "Put it right before you go on.";
+
+/// At which step that is put right which a finding names. The captures are read again with what is changed there.
+fn remedy(code: &str) -> &'static str {
+    match code {
+        "poses-inverted" | "robot-poses-inverted" => {
+            "See at the step Cell whether the camera is where it is said to be, and at the step Robot whether these are poses of the flange in the base, in this notation."
+        }
+        "robot-length-unit" | "target-length-unit" => {
+            "Choose the notation of the pendant at the step Robot, and enter the size of the board at the step Board."
+        }
+        "target-scale" | "target-size-contradicted" => {
+            "Measure the board, and enter its size at the step Board."
+        }
+        "camera-refined" | "camera-bends" => {
+            "Give other intrinsics at the step Camera, or have them calibrated there."
+        }
+        "stale-robot-pose" | "robot-pose-frozen" => {
+            "See that each pose is read when the robot stands, and take those captures again."
+        }
+        _ => REMEDY,
     }
 }
 

@@ -4,6 +4,7 @@
 #![allow(clippy::result_large_err, reason = "an error ends the test: its size costs nothing")]
 
 mod by_hand;
+mod corrected;
 mod faults;
 mod gate;
 #[cfg(unix)]

@@ -195,8 +195,7 @@ export function canFinish(state: State): boolean {
 
 /** Why setup, board and intrinsics cannot be changed; null where they can. */
 export function fixedBy(state: State): Key | null {
-  if (state.cell?.is_virtual) return "fixed_virtual";
-  return state.captures?.length || state.deleted?.length ? "fixed_captures" : null;
+  return state.cell?.is_virtual ? "fixed_virtual" : null;
 }
 
 /** The key N: the virtual robot drives to the next view; any other robot gets another view. */

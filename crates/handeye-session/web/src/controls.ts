@@ -1,8 +1,10 @@
 // Buttons, all made the same way: large, with a name, and not holding the focus after a touch, so that the space bar stays
 // with the primary action.
 
+import { fixedBy } from "./actions";
 import { h, show } from "./dom";
-import { icon, type Icon } from "./icons";
+import { icon, setIcon, type Icon } from "./icons";
+import type { State } from "./state";
 import { named, said, type Key } from "./words";
 
 interface Look {
@@ -33,14 +35,16 @@ export function labelled(key: Key, control: HTMLElement): HTMLLabelElement {
   return h("label", { class: "labelled" }, said(h("span"), key), control);
 }
 
-/** Says why something cannot be changed. */
+/** Says why something cannot be changed, or what a change does to the captures. */
 export function makeFixed() {
-  const why = h("span");
-  const element = h("p", { class: "fixed-by" }, icon("lock"), why);
+  const [sign, why] = [icon("lock"), h("span")];
+  const element = h("p", { class: "fixed-by" }, sign, why);
   return {
     element,
-    update(key: Key | null): void {
+    update(state: State): void {
+      const key = fixedBy(state) ?? (state.captures?.length ? "read_again" : null);
       show(element, key !== null);
+      setIcon(sign, key === "read_again" ? "again" : "lock");
       if (key) said(why, key);
     },
   };

@@ -138,9 +138,9 @@ export const SENTENCES = {
   eye_to_hand: ["Beside the robot", "Neben dem Roboter"],
   eye_to_hand_what: ["The board is on the flange (eye-to-hand).", "Die Tafel ist am Flansch (eye-to-hand)."],
   fixed_virtual: ["A virtual cell has its own setup, camera and board.", "Eine virtuelle Zelle hat Aufbau, Kamera und Tafel schon."],
-  fixed_captures: [
-    "There are captures of the cell as it is. For another camera, board or setup begin a session in a new folder.",
-    "Es gibt Aufnahmen dieser Zelle. Für andere Kamera, Tafel oder anderen Aufbau eine Sitzung in einem neuen Ordner beginnen.",
+  read_again: [
+    "The captures are read again with what is changed here. For another camera, board or robot begin a session in a new folder.",
+    "Die Aufnahmen werden mit dem, was hier geändert wird, neu gelesen. Für eine andere Kamera, Tafel oder einen anderen Roboter eine Sitzung in einem neuen Ordner beginnen.",
   ],
   how_accurate: ["How accurate must it be?", "Wie genau muss es werden?"],
   tolerance: ["Position error that your work tolerates", "Positionsfehler, den die Arbeit erlaubt"],

@@ -86,7 +86,7 @@ export function makeStepBoard(app: App): Part {
       const name = target && TARGETS[target.kind] ? target.kind : sort.value;
       field(sort, name);
       const fixes = fixedBy(state);
-      fixed.update(fixes);
+      fixed.update(state);
       attribute(sort, "disabled", fixes !== null);
       const shown = form(name);
       for (const one of forms.values()) show(one.element, one === shown);

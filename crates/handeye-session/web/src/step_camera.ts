@@ -105,7 +105,7 @@ export function makeStepCamera(app: App): Part {
         attribute(choice.input, "disabled", fixes !== null && !choice.input.checked);
         kind(choice.element, "fixed", fixes !== null && !choice.input.checked);
       }
-      fixed.update(fixes);
+      fixed.update(state);
       for (const one of fields) one.disable(fixes !== null);
       for (const one of [model, distortion]) attribute(one, "disabled", fixes !== null);
       show(known, isOpen);

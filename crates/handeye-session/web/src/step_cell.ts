@@ -69,7 +69,7 @@ export function makeStepCell(app: App): Part {
         kind(label, "chosen", chosen);
         kind(label, "fixed", fixedBy(state) !== null && !chosen);
       }
-      fixed.update(fixedBy(state));
+      fixed.update(state);
       tolerance.set(state.cell?.tolerance_mm);
     },
   };
