@@ -191,7 +191,7 @@ fn numbers_that_were_typed_in_another_notation_are_read_again() {
             scan: None,
         };
         folder.take(&capture).unwrap();
-        folder.touch(3, (read(first), &numbers), 1.0).unwrap();
+        folder.touch((None, 3), (read(first), &numbers), 1.0).unwrap();
         // whether or not the notation was corrected before, and twice is as good as once
         folder.set(&CellSettings { notation: really.into(), ..settings }).unwrap();
         folder.reread(really).unwrap();

@@ -11,6 +11,7 @@ mod command;
 mod hand;
 mod inputs;
 mod obey;
+mod placement;
 pub mod rest;
 mod say;
 pub mod shown;
@@ -66,6 +67,8 @@ pub struct Engine {
     rereading: bool,
     /// The corner to which the tip of a virtual cell's tool is led, and since when, s.
     tip_to: Option<(u32, f64)>,
+    /// In a virtual cell a board was laid into the view, and no placement shows it yet.
+    laid: bool,
 }
 
 /// What can be undone.
@@ -75,6 +78,8 @@ enum Change {
     Deleted(String),
     Restored(String),
     Touched(String),
+    Untouched(String),
+    Placed(String),
 }
 
 impl Engine {
@@ -116,6 +121,7 @@ impl Engine {
             grabbing: false,
             rereading: false,
             tip_to: None,
+            laid: false,
         };
         let effects = engine.assess();
         (engine, effects)
@@ -192,7 +198,11 @@ impl Engine {
         self.storing = false;
         match stored {
             Ok(id) => {
-                self.changes.push(Change::Taken(id));
+                let is_placement = self.folder.placements.iter().any(|p| p.id == id);
+                self.changes.push(match is_placement {
+                    true => Change::Placed(id),
+                    false => Change::Taken(id),
+                });
                 self.again = None;
             }
             Err(why) => self.trouble("not-written", why),

@@ -62,6 +62,7 @@ impl Engine {
             Command::Undo => self.undo(),
             Command::Skip { .. } => self.skip(),
             Command::Tip { in_flange_mm } => self.tip(in_flange_mm),
+            Command::Place => self.place(),
             Command::Touch { corner } => self.touch(corner),
             Command::Untouch { id } => self.untouch(id),
             Command::Finish => self.finish(),
@@ -196,7 +197,9 @@ impl Engine {
     }
 
     fn delete(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
-        if !self.folder.captures.iter().chain(&self.folder.verification).any(|c| c.id == id) {
+        let is_placement = self.folder.placements.iter().any(|p| p.id == id);
+        let mut captures = self.folder.captures.iter().chain(&self.folder.verification);
+        if !is_placement && !captures.any(|c| c.id == id) {
             return Err(wrong(format!("there is no capture {id}")));
         }
         self.changes.push(Change::Deleted(id.clone()));
@@ -214,9 +217,14 @@ impl Engine {
     fn undo(&mut self) -> Result<Vec<Effect>, Refusal> {
         match self.changes.pop() {
             None => Err(later("there is nothing to undo".into())),
-            Some(Change::Taken(id) | Change::Restored(id)) => Ok(vec![Effect::Delete(id)]),
-            Some(Change::Deleted(id)) => Ok(vec![Effect::Restore(id)]),
             Some(Change::Touched(id)) => Ok(vec![Effect::Untouch(id)]),
+            Some(Change::Restored(id)) if self.folder.touches.iter().any(|t| t.id == id) => {
+                Ok(vec![Effect::Untouch(id)])
+            }
+            Some(Change::Taken(id) | Change::Placed(id) | Change::Restored(id)) => {
+                Ok(vec![Effect::Delete(id)])
+            }
+            Some(Change::Deleted(id) | Change::Untouched(id)) => Ok(vec![Effect::Restore(id)]),
         }
     }
 
@@ -244,13 +252,17 @@ impl Engine {
         if !self.sources.is_virtual {
             return Err(only_virtual());
         }
+        if to == Destination::Placement {
+            return self.lay();
+        }
         if to == Destination::Touch {
+            self.may_touch_board()?;
             let none = || later("no corner is to be touched".into());
             let corner = self.next_corner().ok_or_else(none)?;
             self.tip_to = Some((corner, self.now));
             return Ok(vec![Effect::DriveTip(corner)]);
         }
-        self.tip_to = None;
+        (self.tip_to, self.laid) = (None, false);
         let next = self.next().ok_or_else(|| later("there is no next view yet".into()))?;
         Ok(vec![Effect::Drive(next.base_from_flange)])
     }

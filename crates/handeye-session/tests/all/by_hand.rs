@@ -31,6 +31,7 @@ impl Bench {
             verification: vec![],
             deleted: vec![],
             refused: vec![],
+            placements: vec![],
             touches: vec![],
         };
         let by_hand =
@@ -173,6 +174,7 @@ fn nothing_is_finished_while_a_capture_may_still_say_that_something_moved() {
         verification: vec![],
         deleted: vec![],
         refused: vec![],
+        placements: vec![],
         touches: vec![],
     };
     let effects = bench.engine.step(Input::Folder(Box::new(folder))).unwrap();
@@ -214,6 +216,7 @@ impl Streaming {
             verification: vec![],
             deleted: vec![],
             refused: vec![],
+            placements: vec![],
             touches: vec![],
         };
         let sources =

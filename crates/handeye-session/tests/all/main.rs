@@ -12,6 +12,7 @@ mod line;
 mod line_programs;
 mod mistakes;
 mod openapi;
+mod placements;
 mod push;
 mod standstill;
 mod upload;

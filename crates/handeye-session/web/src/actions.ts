@@ -111,11 +111,19 @@ function inVerify(app: App, state: State): Action {
 
 const DONE_TOUCHES = 6; // then finishing is the next thing
 
+/** Takes the image of a board that was laid into the view; in a virtual cell somebody lays it there first. */
+export function placeAction(app: App, state: State): Action {
+  if (state.taking) return { label: "waiting_for_board", enabled: false, run: () => cancel(app) };
+  if (state.virtual_cell && !state.touch?.laid) return act(app, "lay_board", { do: "drive", to: "placement" });
+  return act(app, "place", { do: "place" });
+}
+
 function inTouch(app: App, state: State): Action {
   const count = state.touch?.touches?.length ?? 0;
   if (state.virtual_cell?.driving) return act(app, "driving", { do: "cancel" }, false);
   if (state.assessing) return act(app, "assessing_now", { do: "cancel" }, false);
   if (!state.touch?.tip_mm) return act(app, "touch_it", { do: "touch" }, false);
+  if (state.touch.lays && (state.taking || state.touch.laid || !state.touch.placement)) return placeAction(app, state);
   if (count >= DONE_TOUCHES) return act(app, "finish", { do: "finish" });
   if (state.virtual_cell && state.touch.at_corner !== true) return act(app, "drive_tip", { do: "drive", to: "touch" });
   return { label: "touch_it", enabled: true, run: () => void touch(app) };
@@ -172,6 +180,8 @@ export function secondary(app: App, state: State): Action[] {
       ];
     case "touch":
       return [
+        ...stop,
+        ...(state.touch?.lays && state.touch.placement && !state.taking && !state.touch.laid ? [placeAction(app, state)] : []),
         ...(primary(app, state).label === "finish" ? [] : [act(app, "finish", { do: "finish" })]),
         act(app, "back_to_captures", { do: "go", step: "capture" }),
       ];

@@ -170,13 +170,24 @@ export interface Touching {
   tip_mm?: Maybe<[number, number, number]>;
   corner: number; // to be touched next
   columns?: number;
+  lays?: boolean; // boards are laid into the view to be touched
+  placements?: Placement[];
+  placement?: Maybe<string>; // the one whose corners are touched now
+  laid?: boolean; // in a virtual cell a board lies there whose image is not taken yet
   touches?: Touch[];
   rms_mm?: Maybe<number>;
   at_corner?: Maybe<boolean>; // whether a virtual robot's tip is there
 }
 
+/** A board that was laid into the view to be touched. */
+export interface Placement {
+  id: string;
+  touches?: number;
+}
+
 export interface Touch {
   id: string;
+  placement?: Maybe<string>;
   corner: number;
   residual_mm?: Maybe<number>;
   used?: boolean;
