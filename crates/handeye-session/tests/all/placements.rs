@@ -24,14 +24,18 @@ fn play(player: &mut Player, text: &str) {
     player.play(&actions).unwrap();
 }
 
-/// A session that has so many captures, at the step of the touches.
+/// A session with captures that are enough, or so many, at the step of the touches.
 fn with_captures(root: &Path, setup: Setup, count: usize) -> Player {
     let mut player = player(root, setup);
     for step in [Step::Cell, Step::Camera, Step::Robot, Step::Board] {
         player.command(Command::Confirm { step }).unwrap();
     }
     player.command(Command::Take).unwrap();
-    while player.state().captures.len() < count {
+    let goes_on = |player: &Player| {
+        let state = player.state();
+        state.captures.len() < count && !state.progress.is_some_and(|p| p.enough)
+    };
+    while goes_on(&player) {
         play(&mut player, r#"[{"do": "drive", "to": "next"}, {"do": "take"}]"#);
     }
     player.command(Command::Go { step: Step::Touch }).unwrap();
@@ -66,7 +70,7 @@ fn assert_same_bytes(root: &Path) {
 #[test]
 fn corners_of_a_board_that_is_laid_into_the_view_are_touched() {
     let root = new_folder();
-    let mut player = with_captures(&root, Setup::EyeToHand, 10);
+    let mut player = with_captures(&root, Setup::EyeToHand, 30);
     let said = player.state().say;
     assert!(said.starts_with("Lay the board, or another of the same kind"), "{said}");
     let early = player.command(Command::Touch { corner: None }).unwrap_err();
