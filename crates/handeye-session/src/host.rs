@@ -113,7 +113,7 @@ impl Host {
             }
             Effect::Drive(_)
             | Effect::DriveTip(_)
-            | Effect::Lay
+            | Effect::Lay(_)
             | Effect::Jog(..)
             | Effect::Grab => vec![],
         }
@@ -210,7 +210,8 @@ pub fn drive(cell: &VirtualCell, effect: &Effect, now: f64) -> bool {
     match effect {
         Effect::Drive(to) => cell.drive(*to, now),
         Effect::DriveTip(corner) => cell.drive_tip(*corner, now),
-        Effect::Lay => cell.lay(now),
+        Effect::Lay(true) => cell.lay(now),
+        Effect::Lay(false) => cell.take_away(),
         Effect::Jog(by, turn) => cell.jog(*by, *turn, now),
         _ => return false,
     }

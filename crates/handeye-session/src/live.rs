@@ -266,7 +266,7 @@ impl Runner {
         for effect in effects {
             match (&effect, &self.equipment) {
                 (
-                    Effect::Drive(_) | Effect::DriveTip(_) | Effect::Lay | Effect::Jog(..),
+                    Effect::Drive(_) | Effect::DriveTip(_) | Effect::Lay(_) | Effect::Jog(..),
                     Equipment::Virtual(cell),
                 ) => {
                     drive(cell, &effect, self.outlet.now());

@@ -188,8 +188,8 @@ pub enum Effect {
     Drive(Pose<Base, Flange>),
     /// Drive the tip of a virtual cell's robot to a corner of the board that lies there.
     DriveTip(u32),
-    /// Lay a board into the view of a virtual cell's camera.
-    Lay,
+    /// Lay a board into the view of a virtual cell's camera, or take it away.
+    Lay(bool),
     /// Move the robot of a virtual cell a little, in the camera's axes (mm, degrees).
     Jog([f64; 3], [f64; 3]),
 }

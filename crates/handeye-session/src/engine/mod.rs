@@ -29,6 +29,7 @@ use crate::assess::{Assessment, ProposedView};
 pub use command::{Command, Destination, Step};
 pub use inputs::{Effect, Flow, FolderState, Input, Problem, Sources, Written};
 pub use obey::Refusal;
+use placement::LyingBoard;
 use rest::{ImageSample, Memory, Motion, Rest, RobotSample};
 use taking::Wish;
 
@@ -67,8 +68,8 @@ pub struct Engine {
     rereading: bool,
     /// The corner to which the tip of a virtual cell's tool is led, and since when, s.
     tip_to: Option<(u32, f64)>,
-    /// In a virtual cell a board was laid into the view, and no placement shows it yet.
-    laid: bool,
+    /// The board that lies in the view of a virtual cell's camera.
+    lies: Option<LyingBoard>,
 }
 
 /// What can be undone.
@@ -121,7 +122,7 @@ impl Engine {
             grabbing: false,
             rereading: false,
             tip_to: None,
-            laid: false,
+            lies: None,
         };
         let effects = engine.assess();
         (engine, effects)
@@ -199,10 +200,11 @@ impl Engine {
         match stored {
             Ok(id) => {
                 let is_placement = self.folder.placements.iter().any(|p| p.id == id);
-                self.changes.push(match is_placement {
-                    true => Change::Placed(id),
+                let change = match is_placement {
+                    true => self.placed(id),
                     false => Change::Taken(id),
-                });
+                };
+                self.changes.push(change);
                 self.again = None;
             }
             Err(why) => self.trouble("not-written", why),

@@ -91,8 +91,12 @@ impl Engine {
         }
         let is_another_plan = (self.step == Step::Verify) != (step == Step::Verify);
         self.enter(step);
+        let mut effects = if step == Step::Touch { vec![] } else { self.take_away() };
         // where to drive next is another question then
-        Ok(if is_another_plan { self.assess() } else { vec![] })
+        if is_another_plan {
+            effects.extend(self.assess());
+        }
+        Ok(effects)
     }
 
     fn change_cell(
@@ -256,15 +260,16 @@ impl Engine {
             return self.lay();
         }
         if to == Destination::Touch {
-            self.may_touch_board()?;
+            self.may_drive_to_board()?;
             let none = || later("no corner is to be touched".into());
             let corner = self.next_corner().ok_or_else(none)?;
             self.tip_to = Some((corner, self.now));
             return Ok(vec![Effect::DriveTip(corner)]);
         }
-        (self.tip_to, self.laid) = (None, false);
+        self.tip_to = None;
         let next = self.next().ok_or_else(|| later("there is no next view yet".into()))?;
-        Ok(vec![Effect::Drive(next.base_from_flange)])
+        let to = Effect::Drive(next.base_from_flange);
+        Ok(self.take_away().into_iter().chain([to]).collect())
     }
 }
 

@@ -5,17 +5,25 @@ use handeye::{ImageCorner, Setup};
 use handeye_io::StoredPlacement;
 
 use super::{
-    Effect, Engine, Flow, Problem, Refusal, Step,
+    Change, Effect, Engine, Flow, Problem, Refusal, Step,
     obey::{later, wrong},
     rest::{self, Motion},
-    shown::PlacementShown,
+    shown::{Lying, PlacementShown},
     taking::{ANOTHER_IMAGE_PX, Asked, LOOKING_S, PATIENCE_S, Wish},
 };
+use crate::assess::MeasuredCapture;
 
 /// A board nearer than this to where the carried one is expected is the carried one, mm.
 const CARRIED_MM: f64 = 5.0;
 /// So many touches of a placement, then another one tells more.
 const ENOUGH_TOUCHES: usize = 4;
+
+/// A board that somebody has laid into the view of a virtual cell's camera.
+#[derive(Debug, Clone)]
+pub(super) struct LyingBoard {
+    /// The placement that shows it.
+    placement: Option<String>,
+}
 
 impl Engine {
     /// Whether boards are laid into the view to be touched.
@@ -62,8 +70,57 @@ impl Engine {
             ));
         }
         self.may_touch()?;
-        (self.tip_to, self.laid) = (None, true);
-        Ok(vec![Effect::Lay])
+        self.forget_images();
+        (self.tip_to, self.lies) = (None, Some(LyingBoard { placement: None }));
+        Ok(vec![Effect::Lay(true)])
+    }
+
+    /// And takes it away again.
+    pub(super) fn take_away(&mut self) -> Vec<Effect> {
+        if self.lies.take().is_none() {
+            return vec![];
+        }
+        self.forget_images();
+        vec![Effect::Lay(false)]
+    }
+
+    /// Images that came until now show another board.
+    fn forget_images(&mut self) {
+        self.images.clear();
+        self.memory.image = None;
+    }
+
+    /// A placement was stored: it shows the board that lies there.
+    pub(super) fn placed(&mut self, id: String) -> Change {
+        if let Some(board) = &mut self.lies {
+            board.placement = Some(id.clone());
+        }
+        Change::Placed(id)
+    }
+
+    /// What lies in the view of a virtual cell's camera.
+    pub(super) fn lying(&self) -> Lying {
+        let newest = self.newest_placement().map(|newest| &newest.id);
+        match &self.lies {
+            None => Lying::Nothing,
+            // the placement of one that lies there may have been deleted
+            Some(board) if newest.is_some() && board.placement.as_ref() == newest => Lying::Placed,
+            Some(_) => Lying::New,
+        }
+    }
+
+    /// Whether the tip of a virtual cell's tool can be led to a corner.
+    pub(super) fn may_drive_to_board(&self) -> Result<(), Refusal> {
+        self.may_touch_board()?;
+        let first = match self.lying() {
+            Lying::Nothing => "lay a board into the view (`drive` to `placement`)",
+            Lying::New => "take the image of the board that was laid down (`place`)",
+            Lying::Placed => return Ok(()),
+        };
+        match self.lays_boards() {
+            true => Err(later(format!("there is no corner to be touched: first {first}"))),
+            false => Ok(()),
+        }
     }
 
     /// Takes the image that is waited for.
@@ -80,7 +137,7 @@ impl Engine {
             return vec![];
         };
         let image_time_s = image.time_s - delay;
-        (self.wish, self.storing, self.problem, self.laid) = (None, true, None, false);
+        (self.wish, self.storing, self.problem) = (None, true, None);
         self.note_image(frame);
         vec![Effect::StorePlacement { frame, image_time_s }]
     }
@@ -160,7 +217,7 @@ impl Engine {
                 "the board still lies as in placement {id}: touch its corners, or lay it elsewhere first"
             ));
         }
-        self.is_carried(corners).then(|| {
+        (self.is_as_captured(corners) || self.is_carried(corners)).then(|| {
             "this is the board that the robot carries: drive it out of the view or take it off, and lay the board that is to be touched into the view".into()
         })
     }
@@ -169,7 +226,14 @@ impl Engine {
     fn lies_as_before(&self, corners: &[ImageCorner]) -> Option<&str> {
         let id = &self.newest_placement()?.id;
         let before = self.assessed.as_ref()?.placements.iter().find(|found| found.id == *id)?;
-        (rest::moved(&before.corners, corners)? < ANOTHER_IMAGE_PX).then_some(&id[..])
+        is_as_in(before, corners).then_some(&id[..])
+    }
+
+    /// Whether the board is where the newest capture shows it.
+    fn is_as_captured(&self, corners: &[ImageCorner]) -> bool {
+        let newest = self.folder.captures.last().zip(self.assessed.as_ref());
+        let seen = newest.and_then(|(c, a)| a.measured.iter().find(|found| found.id == c.id));
+        seen.is_some_and(|before| is_as_in(before, corners))
     }
 
     /// Whether corners are where those of the board are expected that the robot carries.
@@ -190,7 +254,8 @@ impl Engine {
             let why = if wish.why.is_empty() { "waiting for a standstill" } else { &wish.why };
             return Some(format!("The image of the board is to be taken: {why}."));
         }
-        let Some(newest) = self.newest_placement() else {
+        let is_gone = self.sources.is_virtual && self.lying() != Lying::Placed;
+        let Some(newest) = self.newest_placement().filter(|_| !is_gone) else {
             return Some("Lay the board, or another of the same kind, into the view, so that the tool reaches it, and take its image.".into());
         };
         let touched = self.touches_of(&newest.id);
@@ -212,4 +277,9 @@ impl Engine {
         };
         self.folder.placements.iter().map(shown).collect()
     }
+}
+
+/// Whether an image shows the board where one before has it.
+fn is_as_in(before: &MeasuredCapture, corners: &[ImageCorner]) -> bool {
+    rest::moved(&before.corners, corners).is_some_and(|px| px < ANOTHER_IMAGE_PX)
 }

@@ -211,14 +211,27 @@ pub struct TouchView {
     pub placements: Vec<PlacementShown>,
     /// The one whose corners are touched now.
     pub placement: Option<String>,
-    /// Whether in a virtual cell a board was laid down whose image is not taken yet.
-    pub laid: bool,
+    /// What lies in the view of a virtual cell's camera that stands beside the robot; `None` of other cells.
+    pub lying: Option<Lying>,
     /// Those that were touched.
     pub touches: Vec<TouchShown>,
     /// How far the tip was from where the answer puts the corners, RMS over the touches that are used, mm.
     pub rms_mm: Option<f64>,
     /// Whether the tip of a virtual cell's tool was led to the corner.
     pub at_corner: bool,
+}
+
+/// What lies in the view of a virtual cell's camera.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum Lying {
+    /// No board but the one that the robot carries.
+    Nothing,
+    /// A board that no placement shows yet.
+    New,
+    /// The board of the newest placement.
+    Placed,
 }
 
 /// A board that was laid into the view to be touched.

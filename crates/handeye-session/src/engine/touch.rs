@@ -12,7 +12,7 @@ use handeye_io::StoredTouch;
 use super::{
     Change, Effect, Engine, Flow, Refusal, Step,
     obey::{later, wrong},
-    rest::Motion,
+    rest::{Motion, RobotSample},
     say::{Proof, capitalised, contradiction, proof},
     shown::{TouchShown, TouchView},
     taking::THE_SAME_POSE,
@@ -87,6 +87,22 @@ impl Engine {
         if self.storing || self.assessing {
             return Err(later("what came before is still being assessed: touch then".into()));
         }
+        if self.wish.is_some() {
+            return Err(later(
+                "the image of the board is waited for: touch it then, or cancel that".into(),
+            ));
+        }
+        let robot = self.touching_pose()?;
+        self.note_touch(robot.time_s);
+        self.tip_to = None;
+        self.storing = true;
+        self.forget_problem();
+        let placement = self.newest_placement().map(|p| p.id.clone());
+        Ok(vec![Effect::StoreTouch { corner, placement, robot }])
+    }
+
+    /// The pose with the tip at a corner: the robot stands, and where no touch was made before.
+    fn touching_pose(&self) -> Result<RobotSample, Refusal> {
         if let (Flow::Stream, Motion::Moves(why)) = (self.sources.robot, &self.rest.robot) {
             return Err(later(format!("no touch was taken: {why}")));
         }
@@ -108,12 +124,7 @@ impl Engine {
                 before.corner
             )));
         }
-        self.note_touch(robot.time_s);
-        self.tip_to = None;
-        self.storing = true;
-        self.forget_problem();
-        let placement = self.newest_placement().map(|p| p.id.clone());
-        Ok(vec![Effect::StoreTouch { corner, placement, robot }])
+        Ok(robot)
     }
 
     /// Whether the tip of a virtual cell's tool was led to a corner, and stands there.
@@ -225,7 +236,7 @@ impl Engine {
             lays: self.lays_boards(),
             placements: self.placements_shown(),
             placement: self.newest_placement().map(|p| p.id.clone()),
-            laid: self.laid,
+            lying: (self.sources.is_virtual && self.lays_boards()).then(|| self.lying()),
             touches,
             rms_mm,
             at_corner,

@@ -150,7 +150,6 @@ impl VirtualCell {
 
     /// Drives the robot to where it is to report that it is.
     pub fn drive(&self, to: Pose<Base, Flange>, now: f64) {
-        self.clear();
         let commanded = self.faults.mistake.as_ref().map_or(to, |mistake| mistake.commanded(&to));
         self.send(commanded, now);
     }
@@ -195,7 +194,7 @@ impl VirtualCell {
     }
 
     /// The board that lies in the view is taken away.
-    fn clear(&self) {
+    pub fn take_away(&self) {
         self.laid.lock().unwrap_or_else(PoisonError::into_inner).there = None;
     }
 
@@ -230,7 +229,6 @@ impl VirtualCell {
     /// # Errors
     /// A cell that shows nothing of its board.
     pub fn show_board(&self, number: usize, now: f64) -> Result<(), Error> {
-        self.clear();
         let cell = Cell { hand_eye: self.truth(), captures: number + 1, ..self.cell.clone() };
         self.send(cell.record(0)?.truth.base_from_flange[number], now);
         Ok(())
@@ -238,7 +236,6 @@ impl VirtualCell {
 
     /// Moves it a little, in the camera's axes (mm, degrees).
     pub fn jog(&self, move_mm: [f64; 3], turn_deg: [f64; 3], now: f64) {
-        self.clear();
         let here = self.reported(now);
         let turn = Rotation3::new(Vector3::from(turn_deg).map(f64::to_radians));
         let step: Pose<Flange, Flange> =

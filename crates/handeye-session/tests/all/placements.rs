@@ -148,6 +148,12 @@ fn placements_and_touches_are_deleted_undone_and_gone_on_with() {
     player.command(Command::Undo).unwrap();
     assert_eq!(names(&player), ["t01", "t02", "t03"]);
 
+    // with the captures goes the board that lay there
+    player.command(Command::Go { step: Step::Capture }).unwrap();
+    player.command(Command::Go { step: Step::Touch }).unwrap();
+    let why = player.command(Command::Drive { to: Destination::Touch }).unwrap_err();
+    assert!(why.contains("first lay a board into the view"), "{why}");
+
     // with a placement its touches go and come
     player.command(Command::Delete { id: "p01".into() }).unwrap();
     assert_eq!(placements(&player), [("p02".into(), 1)]);

@@ -2,7 +2,7 @@
 
 import { selectedCapture, type App } from "./app";
 import type { Icon } from "./icons";
-import { isOutlier, takesCaptures, type State, type StepName } from "./state";
+import { isOutlier, isPlaced, takesCaptures, type State, type StepName } from "./state";
 import type { Key } from "./words";
 
 export interface Action {
@@ -114,7 +114,7 @@ const DONE_TOUCHES = 6; // then finishing is the next thing
 /** Takes the image of a board that was laid into the view; in a virtual cell somebody lays it there first. */
 export function placeAction(app: App, state: State): Action {
   if (state.taking) return { label: "waiting_for_board", enabled: false, run: () => cancel(app) };
-  if (state.virtual_cell && !state.touch?.laid) return act(app, "lay_board", { do: "drive", to: "placement" });
+  if (state.virtual_cell && state.touch?.lying !== "new") return act(app, "lay_board", { do: "drive", to: "placement" });
   return act(app, "place", { do: "place" });
 }
 
@@ -123,7 +123,7 @@ function inTouch(app: App, state: State): Action {
   if (state.virtual_cell?.driving) return act(app, "driving", { do: "cancel" }, false);
   if (state.assessing) return act(app, "assessing_now", { do: "cancel" }, false);
   if (!state.touch?.tip_mm) return act(app, "touch_it", { do: "touch" }, false);
-  if (state.touch.lays && (state.taking || state.touch.laid || !state.touch.placement)) return placeAction(app, state);
+  if (state.touch.lays && (state.taking || !isPlaced(state.touch))) return placeAction(app, state);
   if (count >= DONE_TOUCHES) return act(app, "finish", { do: "finish" });
   if (state.virtual_cell && state.touch.at_corner !== true) return act(app, "drive_tip", { do: "drive", to: "touch" });
   return { label: "touch_it", enabled: true, run: () => void touch(app) };
@@ -181,7 +181,7 @@ export function secondary(app: App, state: State): Action[] {
     case "touch":
       return [
         ...stop,
-        ...(state.touch?.lays && state.touch.placement && !state.taking && !state.touch.laid ? [placeAction(app, state)] : []),
+        ...(state.touch?.lays && !state.taking && isPlaced(state.touch) ? [placeAction(app, state)] : []),
         ...(primary(app, state).label === "finish" ? [] : [act(app, "finish", { do: "finish" })]),
         act(app, "back_to_captures", { do: "go", step: "capture" }),
       ];

@@ -8,7 +8,7 @@ import { h, kind, show, text } from "./dom";
 import { frameFor } from "./live";
 import { mm } from "./numbers";
 import { drawEarlier, drawFound, drawGhost, drawResiduals, drawWay, type Colours, type Fit } from "./overlay";
-import { isOutlier, takesCaptures, type Capture, type State } from "./state";
+import { isOutlier, isPlaced, takesCaptures, type Capture, type State } from "./state";
 import { named, sentence, t } from "./words";
 
 const COLOURS: Colours = {
@@ -145,7 +145,7 @@ export function makePicture(app: App): Part & { draw(): void } {
 /** Whether the next image is to show the board: while corners are touched, the camera sees whatever part of it. */
 function needsBoard({ step, touch, taking }: State): boolean {
   if (step !== "touch") return true;
-  return touch?.lays === true && Boolean(!touch.placement || touch.laid || taking);
+  return touch?.lays === true && (Boolean(taking) || !isPlaced(touch));
 }
 
 function captureTag(capture: Capture): string {

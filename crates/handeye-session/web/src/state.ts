@@ -173,11 +173,14 @@ export interface Touching {
   lays?: boolean; // boards are laid into the view to be touched
   placements?: Placement[];
   placement?: Maybe<string>; // the one whose corners are touched now
-  laid?: boolean; // in a virtual cell a board lies there whose image is not taken yet
+  lying?: Maybe<"nothing" | "new" | "placed">; // in the view of a virtual cell's camera
   touches?: Touch[];
   rms_mm?: Maybe<number>;
   at_corner?: Maybe<boolean>; // whether a virtual robot's tip is there
 }
+
+/** Whether the board whose corners are touched lies where its image shows it. */
+export const isPlaced = ({ placement, lying }: Touching): boolean => Boolean(placement) && (lying ?? "placed") === "placed";
 
 /** A board that was laid into the view to be touched. */
 export interface Placement {

@@ -6,7 +6,7 @@ import { button, card } from "./controls";
 import { h, list, show, svg, text } from "./dom";
 import { numberField } from "./number_field";
 import { mm } from "./numbers";
-import type { Maybe, Placement, Target, Touch, Touching } from "./state";
+import { isPlaced, type Maybe, type Placement, type Target, type Touch, type Touching } from "./state";
 import { said, t } from "./words";
 
 const SIDE = 20; // of a square in the drawing
@@ -66,7 +66,7 @@ function placementRow(app: App, id: string) {
 
 /** The boards that were laid into the view of a camera beside the robot. */
 function placementsCard(app: App) {
-  const rows = h("ol", { class: "touches" });
+  const rows = h("ol", { class: "placements" });
   const draw = list<Placement>(
     rows,
     ({ id }) => id,
@@ -138,7 +138,7 @@ export function makeStepTouch(app: App): Part {
       axes.forEach((axis, k) => axis.set(touch.tip_mm?.[k]));
       placements.update(touch);
       text(which, t("corner_number", { number: String(touch.corner) }));
-      show(next, !touch.lays || Boolean(touch.placement));
+      show(next, !touch.lays || isPlaced(touch));
       const touches = touch.touches ?? [];
       draw([...touches].reverse());
       const gone = state.deleted ?? [];
