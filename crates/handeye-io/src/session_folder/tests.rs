@@ -216,12 +216,13 @@ fn numbers_that_were_typed_in_another_notation_are_read_again() {
 #[test]
 fn boards_that_are_laid_down_and_touched_are_those_of_the_dataset() {
     let root = new_folder();
-    let cell = Cell { setup: Setup::EyeToHand, ..cell() };
-    let recording = Cell::new(Setup::EyeToHand, 3).record(1).unwrap();
+    let intrinsics = cell().intrinsics;
+    let cell = Cell { intrinsics, captures: 3, placements: 1, ..Cell::new(Setup::EyeToHand, 3) };
+    let recording = cell.record(1).unwrap();
     let settings = CellSettings { tip_mm: Some([0.0, 0.0, 150.0]), ..settings(&cell) };
     let mut folder = SessionFolder::open(&root, Some(&settings)).unwrap();
     take(&mut folder, &recording, &[0, 1, 2]);
-    let png = simulated::picture(&recording.picture(15));
+    let png = simulated::picture(&recording.picture(3));
     let image = Some(("png", &png[..]));
     let placement = NewPlacement { image_time_s: Some(1.0), image, scan: None };
     let touch = |folder: &mut SessionFolder, placement: &str, corner: u32| {
