@@ -220,6 +220,7 @@ export const SENTENCES = {
   placement_touches: ["{id}: {count} touched", "{id}: {count} angetastet"],
   placed_corner: ["{id}, corner {number}", "{id}, Ecke {number}"],
   place: ["Take the board's image", "Bild der Tafel aufnehmen"],
+  place_again: ["It lies elsewhere now: take its image", "Sie liegt jetzt woanders: Bild aufnehmen"],
   lay_board: ["Lay a board into the view", "Tafel ins Bild legen"],
   waiting_for_board: ["Waiting for the board's image", "Warte auf das Bild der Tafel"],
   drive_tip: ["Bring the tip there", "Spitze hinführen"],

@@ -1,12 +1,13 @@
 // The step "touch": where the tip is in the flange, which boards were laid down to be touched, which corner the tip touches
 // next, and how far the touches are from the answer.
 
+import { placeAction } from "./actions";
 import type { App, Part } from "./app";
 import { button, card } from "./controls";
 import { h, list, show, svg, text } from "./dom";
 import { numberField } from "./number_field";
 import { mm } from "./numbers";
-import { isPlaced, type Maybe, type Placement, type Target, type Touch, type Touching } from "./state";
+import { isPlaced, type Maybe, type Placement, type State, type Target, type Touch, type Touching } from "./state";
 import { said, t } from "./words";
 
 const SIDE = 20; // of a square in the drawing
@@ -72,11 +73,17 @@ function placementsCard(app: App) {
     ({ id }) => id,
     ({ id }) => placementRow(app, id),
   );
-  const element = card("placements", said(h("p", { class: "hint" }), "placement_what"), rows);
+  const place = () => app.state && placeAction(app, app.state).run();
+  const [again, lay] = [button("place_again", place), button("lay_board", place)];
+  const element = card("placements", said(h("p", { class: "hint" }), "placement_what"), rows, again, lay);
   return {
     element,
-    update(touch: Touching): void {
+    update(touch: Touching, state: State): void {
       show(element, touch.lays === true);
+      // before that it is the primary action
+      const isNext = isPlaced(touch) && !state.taking;
+      show(again, isNext && !state.virtual_cell);
+      show(lay, isNext && Boolean(state.virtual_cell));
       draw([...(touch.placements ?? [])].reverse());
     },
   };
@@ -136,7 +143,7 @@ export function makeStepTouch(app: App): Part {
       const touch = state.touch;
       if (!touch) return;
       axes.forEach((axis, k) => axis.set(touch.tip_mm?.[k]));
-      placements.update(touch);
+      placements.update(touch, state);
       text(which, t("corner_number", { number: String(touch.corner) }));
       show(next, !touch.lays || isPlaced(touch));
       const touches = touch.touches ?? [];
