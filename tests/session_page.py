@@ -218,7 +218,7 @@ def with_placement(page, folder, pictures):
         if done.count("touch_it") == TOUCHES // 2 and done[-1] == "touch_it":
             page.wait(ACTION, "the touches are assessed")
             look(page, "placement-touches", pictures)
-    assert done.count("place") == 1 and done.count("touch_it") == TOUCHES, done
+    assert done.count("place") == 1, done
     page.wait(f"{STEP} == 'result'", "the result")
     result = json.loads((folder / "result" / "calibration.json").read_text())
     assert result["verdict"] == "accepted" and len(result["touches"]) == TOUCHES, result["verdict"]
