@@ -4,7 +4,8 @@ session_page.py PROGRAM [folder for a picture of every step]
 
 In a virtual cell, once with the mouse, whose clicks are counted, and once with the keyboard alone. The program calibrates
 the folder to the same bytes, a second tab shows the same, and nothing is loaded from elsewhere. In a session of uploads, the
-browser's own camera (a simulated one) sees the board, and its image makes a capture.
+browser's own camera (a simulated one) sees the board, and its image makes a capture. With a camera beside the robot a board
+is laid into the view, and its corners are touched.
 """
 
 import contextlib
@@ -132,6 +133,10 @@ def main():
         assert page.clicks == 0
         assert not list(page.wrong()), list(page.wrong())
         keys = page.keys
+    with opened(program, ("--virtual", SEED, "--setup", "eye-to-hand")) as (page, folder):
+        with_placement(page, folder, pictures)
+        same_bytes(program, folder)
+        assert not list(page.wrong()), list(page.wrong())
     with_uploads(program, pictures)
     barriers = "no serious barrier" if AXE.is_file() else "barriers not looked for"
     print(f"session: {captures} captures and an accepted result with {clicks} clicks, {again} with {keys} keys;"
@@ -193,6 +198,31 @@ def with_touches(page, folder, pictures):
     page.wait(f"{STEP} == 'result'", "the result")
     result = json.loads((folder / "result" / "calibration.json").read_text())
     assert result["verdict"] == "accepted" and len(result["touches"]) == TOUCHES, result["verdict"]
+
+
+def with_placement(page, folder, pictures):
+    """With a camera beside the robot a board is laid into the view, and its corners are touched."""
+    for step in CHOICES:
+        page.act(lambda: page.click(PRIMARY), step)
+    while True:
+        before = page.wait(f"{STEP} == 'capture' && {ACTION} && {STATE}", "something can be done in the step capture")
+        if json.loads(before)[1] == "finish":
+            break
+        page.act(lambda: page.click(PRIMARY), "capture")
+    page.click(TOUCH_STEP)
+    page.wait(f"{STEP} == 'touch' && {ACTION} == 'lay_board'", "a board is to be laid into the view")
+    look(page, "placement", pictures)
+    done = []
+    while not done or done[-1] != "finish":
+        done.append(page.act(lambda: page.click(PRIMARY), "touch"))
+        if done.count("touch_it") == TOUCHES // 2 and done[-1] == "touch_it":
+            page.wait(ACTION, "the touches are assessed")
+            look(page, "placement-touches", pictures)
+    assert done.count("place") == 1, done
+    page.wait(f"{STEP} == 'result'", "the result")
+    result = json.loads((folder / "result" / "calibration.json").read_text())
+    assert result["verdict"] == "accepted" and len(result["touches"]) == TOUCHES, result["verdict"]
+    assert len(list((folder / "placements").iterdir())) == 1
 
 
 def with_other_views(page, folder, pictures):

@@ -2,7 +2,8 @@
 //! folder is read, measured (each file once) and calibrated, and the next view is planned.
 
 use handeye::{
-    Base, Calibration, Camera, Config, Flange, ImageCorner, Pose, Session, Target, Verdict,
+    Base, Calibration, Camera, Config, Flange, HandEye, ImageCorner, Intrinsics, Pose, Session,
+    Target, Verdict,
     calibrate::result::JudgedFinding,
     findings::severity::Severity,
     nalgebra::Vector2,
@@ -12,7 +13,7 @@ use handeye::{
     },
 };
 use handeye_io::{
-    Error, SessionFolder,
+    CellSettings, Error, SessionFolder,
     calibrate::calibrate_measured,
     measure::{self, Measurements},
     plan::{self, PlanOptions},
@@ -25,6 +26,10 @@ pub struct Assessment {
     pub calibration: Calibration,
     /// What was measured in each capture.
     pub measured: Vec<MeasuredCapture>,
+    /// What was measured in the image of each placement.
+    pub placements: Vec<MeasuredCapture>,
+    /// The camera with which it was measured.
+    pub camera: Option<Intrinsics>,
     /// The view to take next.
     pub next: Option<ProposedView>,
     /// Why there is none.
@@ -104,8 +109,18 @@ pub fn assess(
     let verification = (!folder.verification().is_empty())
         .then(|| verification(folder, (&calibration, session), &mut before.verification));
     let next = next.map(|view| ProposedView::planned(&view, session));
+    let (camera, placements) = (session.camera, measured_placements(session));
     let measured = measured_captures(session, &calibration);
-    Ok(Assessment { calibration, measured, next, no_next, enough, verification })
+    Ok(Assessment {
+        calibration,
+        measured,
+        placements,
+        camera,
+        next,
+        no_next,
+        enough,
+        verification,
+    })
 }
 
 /// What the verification views say of the captures' calibration, or why they say nothing.
@@ -144,6 +159,34 @@ impl Assessment {
             before_mm: None,
             after_mm: None,
         })
+    }
+
+    /// How far corners are, at most, from those of the board that the robot carries, where the answer expects it with the flange
+    /// there, mm at its distance; `None` where none is expected in the image.
+    pub fn off_carried_board(
+        &self,
+        base_from_flange: &Pose<Base, Flange>,
+        cell: &CellSettings,
+        corners: &[ImageCorner],
+    ) -> Option<f64> {
+        let (answer, camera) = (&self.calibration.hand_eye, self.camera?);
+        let hand_eye = HandEye {
+            mount_from_camera: answer.mount_from_camera?,
+            anchor_from_target: answer.anchor_from_target?,
+        };
+        let seen = hand_eye.camera_from_target(cell.setup, base_from_flange);
+        let pixel = |id: u32| camera.project(&(seen * cell.target.corner(id)?).vector());
+        let by_id = corners.iter().map(|c| Some((c.pixel - pixel(c.id)?).norm()));
+        let by_id: Option<f64> = by_id.map(|px| px.unwrap_or(f64::INFINITY)).reduce(f64::max);
+        // of a board that looks alike from two sides, ids may be those of the other side
+        let all: Vec<Vector2<f64>> = (0..cell.target.len() as u32).filter_map(pixel).collect();
+        let nearest = |c: &ImageCorner| {
+            all.iter().map(|p| (c.pixel - p).norm()).fold(f64::INFINITY, f64::min)
+        };
+        let is_whole = corners.len() == all.len();
+        let by_place = corners.iter().map(nearest).reduce(f64::max).filter(|_| is_whole);
+        let mm_per_px = seen.translation().z * 1e3 / camera.fx;
+        Some(by_id?.min(by_place.unwrap_or(f64::INFINITY)) * mm_per_px)
     }
 
     /// What the captures say against one another, or against what is declared of them; `None` where more captures are all
@@ -193,6 +236,15 @@ fn measured_captures(session: &Session, calibration: &Calibration) -> Vec<Measur
         MeasuredCapture { id: o.capture.clone(), corners: o.corners.clone(), residuals }
     };
     session.observations.iter().map(one).collect()
+}
+
+fn measured_placements(session: &Session) -> Vec<MeasuredCapture> {
+    let one = |p: &handeye::Placement| MeasuredCapture {
+        id: p.id.clone(),
+        corners: p.corners.clone(),
+        residuals: vec![],
+    };
+    session.placements.iter().map(one).collect()
 }
 
 fn residuals(

@@ -4,7 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use handeye::{Calibration, Config, Session};
 use handeye_io::{
-    Dataset, Error, NewCapture, ResultFolder, SessionFolder,
+    Dataset, Error, NewCapture, NewPlacement, ResultFolder, SessionFolder,
     calibrate::{calibrate_dataset, write_run},
     report::dataset_html,
     simulated,
@@ -52,10 +52,17 @@ impl Host {
             settings: self.folder.settings().clone(),
             captures: owned(self.folder.captures()),
             verification: owned(self.folder.verification()),
-            deleted: self.folder.deleted().iter().map(|c| c.id.clone()).collect(),
+            deleted: self.deleted(),
             refused: self.folder.refused().into_iter().cloned().collect(),
+            placements: self.folder.placements().into_iter().cloned().collect(),
             touches: self.folder.touches().into_iter().cloned().collect(),
         }
+    }
+
+    /// Names of captures, views, placements and touches that were deleted.
+    fn deleted(&self) -> Vec<String> {
+        let captures = self.folder.deleted().into_iter().map(|c| &c.id[..]);
+        captures.chain(self.folder.deleted_beside()).map(Into::into).collect()
     }
 
     /// Does it; returns what it led to. Effects for sources are not for it.
@@ -64,9 +71,10 @@ impl Host {
             Effect::Store { verifies, robot, image_time_s, .. } => {
                 self.store(verifies, (&robot, image_time_s), image)
             }
-            Effect::StoreTouch { corner, robot } => {
-                let stored =
-                    self.folder.touch(corner, (robot.base_from_flange, &robot.typed), robot.time_s);
+            Effect::StorePlacement { image_time_s, .. } => self.place(image_time_s, image),
+            Effect::StoreTouch { corner, placement, robot } => {
+                let pose = (robot.base_from_flange, &robot.typed[..]);
+                let stored = self.folder.touch((placement.as_deref(), corner), pose, robot.time_s);
                 let stored = stored.map_err(|e| e.to_string());
                 vec![Input::Folder(Box::new(self.state())), Input::Touched(stored)]
             }
@@ -103,7 +111,11 @@ impl Host {
                 let written = self.finish().map(|finished| finished.written);
                 vec![Input::Written(written.map_err(|e| e.to_string()))]
             }
-            Effect::Drive(_) | Effect::DriveTip(_) | Effect::Jog(..) | Effect::Grab => vec![],
+            Effect::Drive(_)
+            | Effect::DriveTip(_)
+            | Effect::Lay(_)
+            | Effect::Jog(..)
+            | Effect::Grab => vec![],
         }
     }
 
@@ -134,6 +146,22 @@ impl Host {
         };
         let stored = stored.map_err(|e| e.to_string());
         // first what lies in the folder: until then it is being stored
+        vec![Input::Folder(Box::new(self.state())), Input::Stored(stored)]
+    }
+
+    fn place(&mut self, image_time_s: f64, image: Option<CameraImage>) -> Vec<Input> {
+        let Some(image) = image else {
+            return vec![Input::Stored(Err("the image is gone: take it again".into()))];
+        };
+        let own = image.file.as_ref().map(file);
+        let made = own.is_none().then(|| simulated::picture(&image.grey));
+        let made = made.as_ref().map(|png| ("png", &png[..]));
+        let stored = self.folder.place(&NewPlacement {
+            image_time_s: Some(image_time_s),
+            image: own.or(made),
+            scan: image.scan.as_ref().map(file),
+        });
+        let stored = stored.map_err(|e| e.to_string());
         vec![Input::Folder(Box::new(self.state())), Input::Stored(stored)]
     }
 
@@ -182,6 +210,8 @@ pub fn drive(cell: &VirtualCell, effect: &Effect, now: f64) -> bool {
     match effect {
         Effect::Drive(to) => cell.drive(*to, now),
         Effect::DriveTip(corner) => cell.drive_tip(*corner, now),
+        Effect::Lay(true) => cell.lay(now),
+        Effect::Lay(false) => cell.take_away(),
         Effect::Jog(by, turn) => cell.jog(*by, *turn, now),
         _ => return false,
     }

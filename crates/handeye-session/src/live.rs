@@ -266,17 +266,14 @@ impl Runner {
         for effect in effects {
             match (&effect, &self.equipment) {
                 (
-                    Effect::Drive(_) | Effect::DriveTip(_) | Effect::Jog(..),
+                    Effect::Drive(_) | Effect::DriveTip(_) | Effect::Lay(_) | Effect::Jog(..),
                     Equipment::Virtual(cell),
                 ) => {
                     drive(cell, &effect, self.outlet.now());
                 }
                 (Effect::Grab, Equipment::Command(ask)) => _ = ask.send(()),
                 _ => {
-                    let image = match &effect {
-                        Effect::Store { frame, .. } => self.outlet.images().get(*frame),
-                        _ => None,
-                    };
+                    let image = effect.frame().and_then(|frame| self.outlet.images().get(frame));
                     self.work.send((effect, image)).ok();
                 }
             }

@@ -186,7 +186,7 @@ fn capture() -> Value {
     let name = json!({
         "name": "name", "in": "path", "required": true,
         "description": "The capture's name, with `.jpg` for its image and `.json` for what was measured in it.",
-        "schema": { "type": "string", "pattern": r"^v?[0-9]{1,4}\.(jpg|json)$" }
+        "schema": { "type": "string", "pattern": r"^[vp]?[0-9]{1,4}\.(jpg|json)$" }
     });
     let mut found =
         answer("The image, or its corners.", "application/json", reference("CaptureDetail"));

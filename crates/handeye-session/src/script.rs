@@ -173,7 +173,7 @@ impl Player {
     fn is_busy(&self, command: &Command) -> bool {
         let state = self.state();
         match command {
-            Command::Take => state.taking.is_some() || state.assessing,
+            Command::Take | Command::Place => state.taking.is_some() || state.assessing,
             Command::Drive { .. } | Command::Jog { .. } => !state.robot.stands,
             _ => state.assessing,
         }
@@ -211,10 +211,7 @@ impl Player {
             if drive(&self.cell, &effect, self.now) {
                 continue;
             }
-            let image = match &effect {
-                Effect::Store { frame, .. } => self.images.get(*frame),
-                _ => None,
-            };
+            let image = effect.frame().and_then(|frame| self.images.get(frame));
             self.inputs.extend(self.host.perform(effect, image));
         }
         self.drain();

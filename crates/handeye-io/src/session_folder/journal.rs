@@ -63,6 +63,9 @@ pub struct StoredTouch {
     pub id: String,
     /// Which corner.
     pub corner: u32,
+    /// Of the board of which placement (eye-to-hand).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub placement: Option<String>,
     /// What the robot reported.
     pub base_from_flange: Pose<Base, Flange>,
     /// The numbers from which that was read, where they were typed.
@@ -70,6 +73,22 @@ pub struct StoredTouch {
     pub typed: Vec<f64>,
     /// When, s.
     pub time_s: f64,
+}
+
+/// A board that lies in the camera's view, to be touched (eye-to-hand).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StoredPlacement {
+    /// Its name.
+    pub id: String,
+    /// Its image, relative to the folder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub image: Option<String>,
+    /// Its scan likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scan: Option<String>,
+    /// When the image was taken, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image_time_s: Option<f64>,
 }
 
 /// A line of the journal.
@@ -84,9 +103,11 @@ pub(super) enum Line {
     Verify(StoredCapture),
     /// A capture was not taken.
     Refuse(RefusedCapture),
-    /// A capture was deleted.
+    /// An image was taken of a board that lies in the view.
+    Place(StoredPlacement),
+    /// A capture was deleted, or a placement.
     Delete(String),
-    /// And taken in again.
+    /// And taken in again; a touch likewise.
     Restore(String),
     /// A corner was touched.
     Touch(StoredTouch),
@@ -206,12 +227,26 @@ impl Journal {
         self.taken().into_iter().chain(self.verifying()).collect()
     }
 
-    /// The names of those that are deleted.
+    /// All placements that there ever were.
+    pub(super) fn placed(&self) -> Vec<&StoredPlacement> {
+        self.each(|line| match line {
+            Line::Place(placement) => Some(placement),
+            _ => None,
+        })
+    }
+
+    /// Those that stand.
+    pub(super) fn placements(&self) -> Vec<&StoredPlacement> {
+        let gone = self.gone();
+        self.placed().into_iter().filter(|p| !gone.contains(&p.id[..])).collect()
+    }
+
+    /// The names of captures, views, placements and touches that are deleted.
     fn gone(&self) -> BTreeSet<&str> {
         let mut gone = BTreeSet::new();
         for line in &self.lines {
             match line {
-                Line::Delete(id) => _ = gone.insert(&id[..]),
+                Line::Delete(id) | Line::Untouch(id) => _ = gone.insert(&id[..]),
                 Line::Restore(id) => _ = gone.remove(&id[..]),
                 _ => {}
             }
@@ -242,13 +277,29 @@ impl Journal {
         })
     }
 
-    /// Those that stand.
+    /// Those that stand; with a placement its touches go, and come back.
     pub(super) fn touches(&self) -> Vec<&StoredTouch> {
-        let is_gone = |id: &str| {
-            let mut gone = self.lines.iter();
-            gone.any(|line| matches!(line, Line::Untouch(other) if other == id))
-        };
-        self.touched().into_iter().filter(|touch| !is_gone(&touch.id)).collect()
+        let gone = self.gone();
+        self.of_standing_boards().filter(|touch| !gone.contains(&touch.id[..])).collect()
+    }
+
+    /// Those that were deleted themselves.
+    pub(super) fn deleted_touches(&self) -> Vec<&StoredTouch> {
+        let gone = self.gone();
+        self.of_standing_boards().filter(|touch| gone.contains(&touch.id[..])).collect()
+    }
+
+    fn of_standing_boards(&self) -> impl Iterator<Item = &StoredTouch> {
+        let gone = self.gone();
+        let stands =
+            move |t: &&StoredTouch| t.placement.as_ref().is_none_or(|p| !gone.contains(&p[..]));
+        self.touched().into_iter().filter(stands)
+    }
+
+    /// Placements that were deleted.
+    pub(super) fn deleted_placements(&self) -> Vec<&StoredPlacement> {
+        let gone = self.gone();
+        self.placed().into_iter().filter(|p| gone.contains(&p.id[..])).collect()
     }
 
     pub(super) fn refused(&self) -> Vec<&RefusedCapture> {

@@ -3,13 +3,14 @@
 use handeye::{Camera, Intrinsics, Mount, Pose, Setup, TargetModel};
 use serde::{Deserialize, Serialize};
 
+use super::StoredPlacement;
 use crate::{
     camera::CameraSpec,
     dataset::{
         Draft,
         manifest::{
-            GuessSpec, ImagesSpec, LimitsSpec, Pairing, RobotDirection, RobotSpec, ScansSpec,
-            TipSpec, TouchKind, TouchesSpec,
+            GuessSpec, ImagesSpec, LimitsSpec, Pairing, PlacementSpec, RobotDirection, RobotSpec,
+            ScansSpec, TipSpec, TouchKind, TouchesSpec,
         },
     },
     robot::Notation,
@@ -79,9 +80,10 @@ pub struct CameraGuess {
 }
 
 /// What a session's folder holds beside images and poses.
-pub(super) struct Held {
+pub(super) struct Held<'a> {
     pub(super) has_scans: bool,
     pub(super) has_touches: bool,
+    pub(super) placements: Vec<&'a StoredPlacement>,
 }
 
 /// The text of the manifest.
@@ -110,6 +112,7 @@ pub(super) fn text(settings: &CellSettings, held: &Held) -> String {
         ..TouchesSpec::default()
     });
     let ScanSettings { length_unit, depth_scale } = settings.scans.unwrap_or(ScanSettings::METRES);
+    m.placements = held.placements.iter().map(|placement| placement_keys(placement)).collect();
     m.scans = held.has_scans.then(|| ScansSpec {
         files: "scans/*".into(),
         length_unit,
@@ -128,6 +131,15 @@ fn camera(intrinsics: Option<&Intrinsics>) -> CameraSpec {
             calibrate: Some(handeye::intrinsics::LensModel::default()),
             ..CameraSpec::default()
         },
+    }
+}
+
+fn placement_keys(placement: &StoredPlacement) -> PlacementSpec {
+    PlacementSpec {
+        id: placement.id.clone(),
+        image: placement.image.clone(),
+        scan: placement.scan.clone(),
+        ..PlacementSpec::default()
     }
 }
 

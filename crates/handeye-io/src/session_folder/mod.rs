@@ -5,6 +5,7 @@
 //! robot.csv           the flange's pose in each capture, in the robot's notation
 //! touches.csv         the same for each corner that was touched
 //! images/001.png      scans/001.ply
+//! placements/p01.png  boards that lie in the view, to be touched
 //! verification/v01.png    views that verify the answer, which is not made with them
 //! journal.jsonl       what was done, a line each: the truth, from which the rest follows
 //! deleted/            images and scans of captures that were deleted, for those who want them back
@@ -28,7 +29,7 @@ use crate::{
     CaptureSource, Dataset, Error, MANIFEST, Writing, error::unusable, files::write_atomically,
 };
 use journal::{Journal, Line};
-pub use journal::{RefusedCapture, StoredCapture, StoredTouch};
+pub use journal::{RefusedCapture, StoredCapture, StoredPlacement, StoredTouch};
 pub use manifest::{CameraGuess, CellSettings, ScanSettings};
 
 /// The journal's name.
@@ -39,6 +40,10 @@ const TOUCHES: &str = "touches.csv";
 const DELETED: &str = "deleted";
 /// The folder of verification views.
 const VERIFICATION: &str = "verification";
+/// The folder of placements.
+const PLACEMENTS: &str = "placements";
+/// No session has more of those.
+const MOST_PLACEMENTS: usize = 99;
 /// No session has more of those.
 const MOST_VIEWS: u32 = 99;
 /// No session has more captures.
@@ -70,6 +75,22 @@ pub struct NewCapture<'a> {
     /// The scan's file likewise, to be read as the settings say, or in metres.
     pub scan: Option<(&'a str, &'a [u8])>,
 }
+
+/// The image of a board that lies in the view.
+#[derive(Debug, Clone)]
+pub struct NewPlacement<'a> {
+    /// When it was taken, s.
+    pub image_time_s: Option<f64>,
+    /// The image's file: its ending (`png`) and its bytes.
+    pub image: Option<(&'a str, &'a [u8])>,
+    /// The scan's file likewise, in metres where the file does not say it.
+    pub scan: Option<(&'a str, &'a [u8])>,
+}
+
+/// The files of a capture or placement: image and scan, each an ending and bytes.
+type NewFiles<'a> = [Option<(&'a str, &'a [u8])>; 2];
+/// And their names in the folder.
+type FileNames = [Option<String>; 2];
 
 impl SessionFolder {
     /// Opens a folder that a session has written, or begins one in an empty or missing folder. `settings` are asked for in
@@ -136,6 +157,17 @@ impl SessionFolder {
         self.journal.deleted()
     }
 
+    /// Boards that lie in the view to be touched, in the order in which they were laid there.
+    pub fn placements(&self) -> Vec<&StoredPlacement> {
+        self.journal.placements()
+    }
+
+    /// Names of placements and touches that were deleted.
+    pub fn deleted_beside(&self) -> Vec<&str> {
+        let placements = self.journal.deleted_placements().into_iter().map(|p| &p.id[..]);
+        placements.chain(self.journal.deleted_touches().into_iter().map(|t| &t.id[..])).collect()
+    }
+
     /// Captures that were not taken, and why.
     pub fn refused(&self) -> Vec<&RefusedCapture> {
         self.journal.refused()
@@ -171,7 +203,7 @@ impl SessionFolder {
         let captures = self.verification().iter().map(source).collect();
         let mut cell = Dataset::without_captures(&self.root.join(MANIFEST))?;
         cell.intrinsics = camera.or(cell.intrinsics);
-        (cell.captures, cell.touches) = (captures, vec![]);
+        (cell.captures, cell.touches, cell.placements) = (captures, vec![], vec![]);
         Ok(cell)
     }
 
@@ -266,6 +298,29 @@ impl SessionFolder {
         (images, scans): (&str, &str),
         line: fn(StoredCapture) -> Line,
     ) -> Result<String, Error> {
+        self.store_files(&id, (images, scans), [capture.image, capture.scan], |[image, scan]| {
+            line(StoredCapture {
+                id: id.clone(),
+                image,
+                scan,
+                base_from_flange: capture.base_from_flange,
+                typed: capture.typed.to_vec(),
+                joints: capture.joints.to_vec(),
+                robot_time_s: capture.robot_time_s,
+                image_time_s: capture.image_time_s,
+            })
+        })?;
+        Ok(id)
+    }
+
+    /// Writes files aside, then the line with their names, then brings them into their folders.
+    fn store_files(
+        &mut self,
+        id: &str,
+        (images, scans): (&str, &str),
+        [image, scan]: NewFiles,
+        line: impl FnOnce(FileNames) -> Line,
+    ) -> Result<(), Error> {
         let mut aside = vec![];
         let mut place = |folder: &str, file: Option<(&str, &[u8])>| -> Result<_, Error> {
             let Some((ending, bytes)) = file else { return Ok(None) };
@@ -276,26 +331,34 @@ impl SessionFolder {
             write_atomically(&path, bytes)?;
             Ok(Some(name))
         };
-        let files =
-            place(images, capture.image).and_then(|image| Ok((image, place(scans, capture.scan)?)));
-        let written = files.and_then(|(image, scan)| {
-            let line = line(StoredCapture {
-                id: id.clone(),
-                image,
-                scan,
-                base_from_flange: capture.base_from_flange,
-                typed: capture.typed.to_vec(),
-                joints: capture.joints.to_vec(),
-                robot_time_s: capture.robot_time_s,
-                image_time_s: capture.image_time_s,
-            });
-            self.journal.append(line)
-        });
+        let files = place(images, image).and_then(|image| Ok([image, place(scans, scan)?]));
+        let written = files.and_then(|names| self.journal.append(line(names)));
         if written.is_err() {
             aside.iter().for_each(|path| _ = fs::remove_file(path));
         }
         written?;
-        self.settle()?;
+        self.settle()
+    }
+
+    /// Stores the image of a board that lies in the view, to be touched; what it returns, its name, is never used for
+    /// another.
+    ///
+    /// # Errors
+    /// As [`SessionFolder::take`].
+    pub fn place(&mut self, placement: &NewPlacement) -> Result<String, Error> {
+        let number = self.journal.placed().len() + 1;
+        if number > MOST_PLACEMENTS {
+            return Err(unusable(
+                &self.root,
+                format!("has {MOST_PLACEMENTS} placements of the board already"),
+            ));
+        }
+        let id = format!("p{number:02}");
+        let image_time_s = placement.image_time_s;
+        let files = [placement.image, placement.scan];
+        self.store_files(&id, (PLACEMENTS, PLACEMENTS), files, |[image, scan]| {
+            Line::Place(StoredPlacement { id: id.clone(), image, scan, image_time_s })
+        })?;
         Ok(id)
     }
 
@@ -304,23 +367,29 @@ impl SessionFolder {
         self.journal.touches()
     }
 
-    /// Stores a touch of a corner with the flange there, a pose that was read from the `typed` numbers if there are any; returns
-    /// its name.
+    /// Stores a touch of a corner, of the board of a placement where those are touched, with the flange there, a pose that
+    /// was read from the `typed` numbers if there are any; returns its name.
     ///
     /// # Errors
-    /// A corner that the board has not; a folder that cannot be written.
+    /// A corner that the board has not, a placement that is not there; a folder that cannot be written.
     pub fn touch(
         &mut self,
-        corner: u32,
+        (placement, corner): (Option<&str>, u32),
         (base_from_flange, typed): (Pose<Base, Flange>, &[f64]),
         time_s: f64,
     ) -> Result<String, Error> {
         if self.settings.target.corner(corner).is_none() {
             return Err(unusable(&self.root, format!("the board has no corner {corner}")));
         }
+        if let Some(name) =
+            placement.filter(|name| !self.placements().iter().any(|p| p.id == *name))
+        {
+            return Err(unusable(&self.root, format!("has no placement {name}")));
+        }
         let id = format!("t{:02}", self.journal.touched().len() + 1);
-        let typed = typed.to_vec();
-        let touch = StoredTouch { id: id.clone(), corner, base_from_flange, typed, time_s };
+        let (placement, typed) = (placement.map(Into::into), typed.to_vec());
+        let touch =
+            StoredTouch { id: id.clone(), corner, placement, base_from_flange, typed, time_s };
         self.journal.append(Line::Touch(touch))?;
         self.settle()?;
         Ok(id)
@@ -346,24 +415,26 @@ impl SessionFolder {
         self.journal.append(Line::Refuse(refused))
     }
 
-    /// Takes a capture out, or a verification view; its files are kept aside.
+    /// Takes a capture out, a verification view, or a placement with its touches; its files are kept aside.
     ///
     /// # Errors
     /// No such capture; a folder that cannot be written.
     pub fn delete(&mut self, id: &str) -> Result<(), Error> {
-        if !self.captures().iter().chain(&self.verification()).any(|c| c.id == id) {
+        let is_placement = self.placements().iter().any(|p| p.id == id);
+        if !is_placement && !self.captures().iter().chain(&self.verification()).any(|c| c.id == id)
+        {
             return Err(unusable(&self.root, format!("has no capture {id}")));
         }
         self.journal.append(Line::Delete(id.into()))?;
         self.settle()
     }
 
-    /// Takes a deleted capture in again.
+    /// Takes a deleted capture in again, a view, a placement with its touches, or a touch.
     ///
     /// # Errors
     /// As [`SessionFolder::delete`].
     pub fn restore(&mut self, id: &str) -> Result<(), Error> {
-        if !self.deleted().iter().any(|c| c.id == id) {
+        if !self.deleted().iter().any(|c| c.id == id) && !self.deleted_beside().contains(&id) {
             return Err(unusable(&self.root, format!("has no deleted capture {id}")));
         }
         self.journal.append(Line::Restore(id.into()))?;
@@ -377,9 +448,11 @@ impl SessionFolder {
 
     /// Makes files agree with the journal: what stands lies in its place, what was deleted aside; then table and manifest.
     fn settle(&self) -> Result<(), Error> {
-        for capture in self.journal.stored() {
-            let stands = self.journal.stands(&capture.id);
-            for name in [&capture.image, &capture.scan].into_iter().flatten() {
+        let captures = self.journal.stored().into_iter().map(|c| (&c.id, [&c.image, &c.scan]));
+        let placements = self.journal.placed().into_iter().map(|p| (&p.id, [&p.image, &p.scan]));
+        for (id, files) in captures.chain(placements) {
+            let stands = self.journal.stands(id);
+            for name in files.into_iter().flatten() {
                 let (aside, there) = (self.aside(name), self.root.join(name));
                 let (from, to) = if stands { (aside, there) } else { (there, aside) };
                 if from.exists() {
@@ -389,9 +462,9 @@ impl SessionFolder {
             }
         }
         // only those that are empty go
-        ["deleted/images", "deleted/scans", "deleted/verification", DELETED, VERIFICATION]
-            .iter()
-            .for_each(|name| _ = fs::remove_dir(self.root.join(name)));
+        let aside = ["images", "scans", VERIFICATION, PLACEMENTS].map(|name| self.aside(name));
+        let emptied = [DELETED, VERIFICATION, PLACEMENTS].map(|name| self.root.join(name));
+        aside.iter().chain(&emptied).for_each(|path| _ = fs::remove_dir(path));
         self.write_if_changed("robot.csv", &self.table())?;
         let touches = self.touches();
         match touches.is_empty() {
@@ -401,6 +474,7 @@ impl SessionFolder {
         let held = manifest::Held {
             has_scans: self.captures().iter().any(|c| c.scan.is_some()),
             has_touches: !touches.is_empty(),
+            placements: self.placements(),
         };
         self.write_if_changed(MANIFEST, &manifest::text(&self.settings, &held))
     }
@@ -413,13 +487,19 @@ impl SessionFolder {
         writing.map_or_else(|_| String::new(), |writing| writing.table(poses))
     }
 
-    /// The table of touches: that of poses, with the corner in front.
+    /// The table of touches: that of poses, with placement and corner in front.
     fn table_of(&self, touches: &[&StoredTouch]) -> String {
-        let corners: Vec<String> = touches.iter().map(|touch| touch.corner.to_string()).collect();
+        let has_placements = touches.iter().any(|touch| touch.placement.is_some());
+        let name = |touch: &&StoredTouch| match &touch.placement {
+            Some(placement) => format!("{placement},{}", touch.corner),
+            None => touch.corner.to_string(),
+        };
+        let corners: Vec<String> = touches.iter().map(name).collect();
         let poses =
             corners.iter().zip(touches).map(|(corner, t)| (&corner[..], &t.base_from_flange));
+        let head = if has_placements { "placement,corner," } else { "corner," };
         let table = Writing::of(&self.settings.notation).map(|writing| writing.table(poses));
-        table.map_or_else(|_| String::new(), |table| table.replacen("id,", "corner,", 1))
+        table.map_or_else(|_| String::new(), |table| table.replacen("id,", head, 1))
     }
 
     fn write_if_changed(&self, name: &str, text: &str) -> Result<(), Error> {

@@ -192,7 +192,7 @@ fn numbers_that_were_typed_in_another_notation_are_read_again() {
             scan: None,
         };
         folder.take(&capture).unwrap();
-        folder.touch(3, (read(first), &numbers), 1.0).unwrap();
+        folder.touch((None, 3), (read(first), &numbers), 1.0).unwrap();
         // whether or not the notation was corrected before, and twice is as good as once
         folder.set(&CellSettings { notation: really.into(), ..settings }).unwrap();
         folder.reread(really).unwrap();
@@ -212,6 +212,56 @@ fn numbers_that_were_typed_in_another_notation_are_read_again() {
         drop(folder);
         fs::remove_dir_all(root).unwrap();
     }
+}
+
+#[test]
+fn boards_that_are_laid_down_and_touched_are_those_of_the_dataset() {
+    let root = new_folder();
+    let intrinsics = cell().intrinsics;
+    let cell = Cell { intrinsics, captures: 3, placements: 1, ..Cell::new(Setup::EyeToHand, 3) };
+    let recording = cell.record(1).unwrap();
+    let settings = CellSettings { tip_mm: Some([0.0, 0.0, 150.0]), ..settings(&cell) };
+    let mut folder = SessionFolder::open(&root, Some(&settings)).unwrap();
+    take(&mut folder, &recording, &[0, 1, 2]);
+    let png = simulated::picture(&recording.picture(3));
+    let image = Some(("png", &png[..]));
+    let placement = NewPlacement { image_time_s: Some(1.0), image, scan: None };
+    let touch = |folder: &mut SessionFolder, placement: &str, corner: u32| {
+        let pose = recording.base_from_flange[0];
+        folder.touch((Some(placement), corner), (pose, &[]), 2.0)
+    };
+    let missing = touch(&mut folder, "p01", 0).unwrap_err().to_string();
+    assert!(missing.contains("has no placement p01"), "{missing}");
+    assert_eq!(folder.place(&placement).unwrap(), "p01");
+    assert_eq!(folder.place(&placement).unwrap(), "p02");
+    for (on, corner) in [("p01", 3), ("p02", 3), ("p02", 8)] {
+        touch(&mut folder, on, corner).unwrap();
+    }
+    let seen = |folder: &SessionFolder| -> (Vec<String>, Vec<(String, u32)>) {
+        let dataset = folder.dataset().unwrap();
+        let placements = dataset.placements.iter().map(|p| p.id.clone()).collect();
+        (placements, dataset.touches.iter().map(|t| (t.placement.clone(), t.corner)).collect())
+    };
+    let on = |placement: &str, corner: u32| (placement.to_owned(), corner);
+    let all =
+        (vec!["p01".to_owned(), "p02".to_owned()], vec![on("p01", 3), on("p02", 3), on("p02", 8)]);
+    assert_eq!(seen(&folder), all);
+
+    // with a placement its touches go; one that was deleted before stays so
+    folder.untouch("t03").unwrap();
+    folder.delete("p02").unwrap();
+    assert_eq!(seen(&folder), (vec!["p01".into()], vec![on("p01", 3)]));
+    assert_eq!(folder.deleted_beside(), ["p02"]);
+    assert!(folder.restore("t03").is_err());
+    drop(folder);
+    let mut folder = SessionFolder::open(&root, None).unwrap();
+    folder.restore("p02").unwrap();
+    assert_eq!(folder.deleted_beside(), ["t03"]);
+    folder.restore("t03").unwrap();
+    assert_eq!(seen(&folder), all);
+    assert!(!root.join(DELETED).exists());
+    assert_eq!(folder.place(&placement).unwrap(), "p03");
+    fs::remove_dir_all(root).unwrap();
 }
 
 #[test]

@@ -118,12 +118,12 @@ pub enum Command {
         /// Its numbers, in the notation.
         text: String,
     },
-    /// Take a capture or a verification view out.
+    /// Take a capture or a verification view out, or a placement with its touches.
     Delete {
         /// Its name.
         id: String,
     },
-    /// Take it in again.
+    /// Take it in again; a touch likewise.
     Restore {
         /// Its name.
         id: String,
@@ -133,7 +133,7 @@ pub enum Command {
         /// Its name.
         id: String,
     },
-    /// Undo the last capture, deletion or restoring.
+    /// Undo the last capture, placement, touch, deletion or restoring.
     Undo,
     /// Propose another view, not near this one.
     Skip {
@@ -146,7 +146,9 @@ pub enum Command {
         /// x, y and z.
         in_flange_mm: [f64; 3],
     },
-    /// The tip is at a corner of the board.
+    /// Take the image of a board that was laid into the view to be touched, as soon as it stands (eye-to-hand).
+    Place,
+    /// The tip is at a corner of the board; of the newest placement with eye-to-hand.
     Touch {
         /// Which; the proposed one unless said.
         #[serde(default)]
@@ -201,4 +203,6 @@ pub enum Destination {
     Next,
     /// The corner to touch.
     Touch,
+    /// Somewhere else: a board is laid into the camera's view, to be touched.
+    Placement,
 }

@@ -29,6 +29,16 @@ impl Engine {
         self.used.pose_s == Some(time_s)
     }
 
+    /// Whether something was made of an image already.
+    pub(super) fn is_used_image(&self, frame: u64) -> bool {
+        self.used.frame == Some(frame)
+    }
+
+    /// Something was made of an image, or nothing can be.
+    pub(super) fn note_image(&mut self, frame: u64) {
+        self.used.frame = Some(frame);
+    }
+
     /// A touch was made of the pose of then.
     pub(super) fn note_touch(&mut self, time_s: f64) {
         self.used.pose_s = Some(time_s);

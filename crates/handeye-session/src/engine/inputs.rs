@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use handeye::{Base, Flange, Pose};
-use handeye_io::{CellSettings, RefusedCapture, StoredCapture, StoredTouch};
+use handeye_io::{CellSettings, RefusedCapture, StoredCapture, StoredPlacement, StoredTouch};
 
 use serde::Serialize;
 
@@ -26,7 +26,7 @@ pub enum Input {
     Command(Command),
     /// What the folder holds now.
     Folder(Box<FolderState>),
-    /// A capture was stored under this name, or why it was not.
+    /// A capture or placement was stored under this name, or why it was not.
     Stored(Result<String, String>),
     /// A touch was stored under this name, or why it was not.
     Touched(Result<String, String>),
@@ -119,10 +119,12 @@ pub struct FolderState {
     pub captures: Vec<StoredCapture>,
     /// The views that verify what is made of them.
     pub verification: Vec<StoredCapture>,
-    /// Names of deleted captures and views.
+    /// Names of what was deleted: captures, views, placements, touches.
     pub deleted: Vec<String>,
     /// Captures that were not taken.
     pub refused: Vec<RefusedCapture>,
+    /// Boards that lie in the view to be touched (eye-to-hand).
+    pub placements: Vec<StoredPlacement>,
     /// Corners that were touched.
     pub touches: Vec<StoredTouch>,
 }
@@ -141,10 +143,19 @@ pub enum Effect {
         /// When the image was taken, s.
         image_time_s: f64,
     },
+    /// Store a placement of this image.
+    StorePlacement {
+        /// The image's number.
+        frame: u64,
+        /// When the image was taken, s.
+        image_time_s: f64,
+    },
     /// Store a touch of this corner.
     StoreTouch {
         /// Which.
         corner: u32,
+        /// Of the board of which placement; `None` for the board of the captures.
+        placement: Option<String>,
         /// Where the robot stood.
         robot: RobotSample,
     },
@@ -152,7 +163,7 @@ pub enum Effect {
     Untouch(String),
     /// Remember a capture that was not taken.
     Refuse(RefusedCapture),
-    /// Delete a capture.
+    /// Delete a capture, a view, or a placement with its touches.
     Delete(String),
     /// Take a deleted one in again.
     Restore(String),
@@ -175,8 +186,20 @@ pub enum Effect {
     Grab,
     /// Drive the robot of a virtual cell; no other robot can be moved.
     Drive(Pose<Base, Flange>),
-    /// Drive the tip of a virtual cell's robot to a corner of its board.
+    /// Drive the tip of a virtual cell's robot to a corner of the board that lies there.
     DriveTip(u32),
+    /// Lay a board into the view of a virtual cell's camera, or take it away.
+    Lay(bool),
     /// Move the robot of a virtual cell a little, in the camera's axes (mm, degrees).
     Jog([f64; 3], [f64; 3]),
+}
+
+impl Effect {
+    /// The number of the image that it stores.
+    pub fn frame(&self) -> Option<u64> {
+        match self {
+            Effect::Store { frame, .. } | Effect::StorePlacement { frame, .. } => Some(*frame),
+            _ => None,
+        }
+    }
 }

@@ -11,6 +11,7 @@ mod command;
 mod hand;
 mod inputs;
 mod obey;
+mod placement;
 pub mod rest;
 mod say;
 pub mod shown;
@@ -28,6 +29,7 @@ use crate::assess::{Assessment, ProposedView};
 pub use command::{Command, Destination, Step};
 pub use inputs::{Effect, Flow, FolderState, Input, Problem, Sources, Written};
 pub use obey::Refusal;
+use placement::LyingBoard;
 use rest::{ImageSample, Memory, Motion, Rest, RobotSample};
 use taking::Wish;
 
@@ -66,6 +68,8 @@ pub struct Engine {
     rereading: bool,
     /// The corner to which the tip of a virtual cell's tool is led, and since when, s.
     tip_to: Option<(u32, f64)>,
+    /// The board that lies in the view of a virtual cell's camera.
+    lies: Option<LyingBoard>,
 }
 
 /// What can be undone.
@@ -75,6 +79,8 @@ enum Change {
     Deleted(String),
     Restored(String),
     Touched(String),
+    Untouched(String),
+    Placed(String),
 }
 
 impl Engine {
@@ -116,6 +122,7 @@ impl Engine {
             grabbing: false,
             rereading: false,
             tip_to: None,
+            lies: None,
         };
         let effects = engine.assess();
         (engine, effects)
@@ -192,7 +199,12 @@ impl Engine {
         self.storing = false;
         match stored {
             Ok(id) => {
-                self.changes.push(Change::Taken(id));
+                let is_placement = self.folder.placements.iter().any(|p| p.id == id);
+                let change = match is_placement {
+                    true => self.placed(id),
+                    false => Change::Taken(id),
+                };
+                self.changes.push(change);
                 self.again = None;
             }
             Err(why) => self.trouble("not-written", why),

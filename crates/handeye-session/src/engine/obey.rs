@@ -62,6 +62,7 @@ impl Engine {
             Command::Undo => self.undo(),
             Command::Skip { .. } => self.skip(),
             Command::Tip { in_flange_mm } => self.tip(in_flange_mm),
+            Command::Place => self.place(),
             Command::Touch { corner } => self.touch(corner),
             Command::Untouch { id } => self.untouch(id),
             Command::Finish => self.finish(),
@@ -90,8 +91,12 @@ impl Engine {
         }
         let is_another_plan = (self.step == Step::Verify) != (step == Step::Verify);
         self.enter(step);
+        let mut effects = if step == Step::Touch { vec![] } else { self.take_away() };
         // where to drive next is another question then
-        Ok(if is_another_plan { self.assess() } else { vec![] })
+        if is_another_plan {
+            effects.extend(self.assess());
+        }
+        Ok(effects)
     }
 
     fn change_cell(
@@ -194,7 +199,9 @@ impl Engine {
     }
 
     fn delete(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
-        if !self.folder.captures.iter().chain(&self.folder.verification).any(|c| c.id == id) {
+        let is_placement = self.folder.placements.iter().any(|p| p.id == id);
+        let mut captures = self.folder.captures.iter().chain(&self.folder.verification);
+        if !is_placement && !captures.any(|c| c.id == id) {
             return Err(wrong(format!("there is no capture {id}")));
         }
         self.changes.push(Change::Deleted(id.clone()));
@@ -212,9 +219,14 @@ impl Engine {
     fn undo(&mut self) -> Result<Vec<Effect>, Refusal> {
         match self.changes.pop() {
             None => Err(later("there is nothing to undo".into())),
-            Some(Change::Taken(id) | Change::Restored(id)) => Ok(vec![Effect::Delete(id)]),
-            Some(Change::Deleted(id)) => Ok(vec![Effect::Restore(id)]),
             Some(Change::Touched(id)) => Ok(vec![Effect::Untouch(id)]),
+            Some(Change::Restored(id)) if self.folder.touches.iter().any(|t| t.id == id) => {
+                Ok(vec![Effect::Untouch(id)])
+            }
+            Some(Change::Taken(id) | Change::Placed(id) | Change::Restored(id)) => {
+                Ok(vec![Effect::Delete(id)])
+            }
+            Some(Change::Deleted(id) | Change::Untouched(id)) => Ok(vec![Effect::Restore(id)]),
         }
     }
 
@@ -242,7 +254,11 @@ impl Engine {
         if !self.sources.is_virtual {
             return Err(only_virtual());
         }
+        if to == Destination::Placement {
+            return self.lay();
+        }
         if to == Destination::Touch {
+            self.may_drive_to_board()?;
             let none = || later("no corner is to be touched".into());
             let corner = self.next_corner().ok_or_else(none)?;
             self.tip_to = Some((corner, self.now));
@@ -250,7 +266,8 @@ impl Engine {
         }
         self.tip_to = None;
         let next = self.next().ok_or_else(|| later("there is no next view yet".into()))?;
-        Ok(vec![Effect::Drive(next.base_from_flange)])
+        let to = Effect::Drive(next.base_from_flange);
+        Ok(self.take_away().into_iter().chain([to]).collect())
     }
 }
 

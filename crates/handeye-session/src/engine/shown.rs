@@ -43,7 +43,7 @@ pub struct State {
     pub automatic: bool,
     /// The captures that stand.
     pub captures: Vec<CaptureView>,
-    /// Those that were deleted.
+    /// Those that were deleted; placements and touches likewise.
     pub deleted: Vec<DeletedView>,
     /// Those that were not taken.
     pub refused: Vec<RefusedView>,
@@ -205,6 +205,14 @@ pub struct TouchView {
     pub corner: u32,
     /// Corners in a row of the board.
     pub columns: u32,
+    /// Whether boards are laid into the view to be touched: the robot carries the one of the captures.
+    pub lays: bool,
+    /// Boards that were laid there.
+    pub placements: Vec<PlacementShown>,
+    /// The one whose corners are touched now.
+    pub placement: Option<String>,
+    /// What lies in the view of a virtual cell's camera that stands beside the robot; `None` of other cells.
+    pub lying: Option<Lying>,
     /// Those that were touched.
     pub touches: Vec<TouchShown>,
     /// How far the tip was from where the answer puts the corners, RMS over the touches that are used, mm.
@@ -213,12 +221,37 @@ pub struct TouchView {
     pub at_corner: bool,
 }
 
+/// What lies in the view of a virtual cell's camera.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum Lying {
+    /// No board but the one that the robot carries.
+    Nothing,
+    /// A board that no placement shows yet.
+    New,
+    /// The board of the newest placement.
+    Placed,
+}
+
+/// A board that was laid into the view to be touched.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct PlacementShown {
+    /// Its name; its image and corners are asked for as those of a capture.
+    pub id: String,
+    /// How many of its corners were touched.
+    pub touches: usize,
+}
+
 /// A corner that was touched.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TouchShown {
     /// Its name.
     pub id: String,
+    /// Of the board of which placement.
+    pub placement: Option<String>,
     /// Which corner.
     pub corner: u32,
     /// How far the tip was from where the answer puts it, mm.
@@ -305,7 +338,7 @@ pub struct CaptureDetail {
     pub arrows: Option<Vec<Pixel>>,
 }
 
-/// A deleted capture.
+/// A deleted capture, placement or touch.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct DeletedView {

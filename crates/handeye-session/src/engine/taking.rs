@@ -11,15 +11,15 @@ use super::{
 /// Samples are kept for so long, s.
 const KEPT_S: f64 = 12.0;
 /// A capture that is waited for is refused after so long, s.
-const PATIENCE_S: f64 = 15.0;
+pub(super) const PATIENCE_S: f64 = 15.0;
 /// A board that is not found while all stands is looked for so long, s.
-const LOOKING_S: f64 = 2.5;
+pub(super) const LOOKING_S: f64 = 2.5;
 /// A robot stands at another pose, rad and m.
 pub(super) const ELSEWHERE: Residual = Residual { angle: 0.03, distance: 0.01 };
 /// A robot that has moved is not within this of where it was, rad and m.
 pub(super) const THE_SAME_POSE: Residual = Residual { angle: 2e-5, distance: 2e-5 };
 /// An image of the same pose is not this far from it, px.
-const ANOTHER_IMAGE_PX: f64 = 3.0;
+pub(super) const ANOTHER_IMAGE_PX: f64 = 3.0;
 /// Approaches from which the delay of the images is known.
 const APPROACHES: usize = 5;
 /// Images may be so much later than the latest approach shows, s.
@@ -113,7 +113,11 @@ impl Engine {
         if self.automatic && self.wish.is_none() && !self.storing && self.is_elsewhere() {
             self.wish = Some(Wish::new(self.now, Asked::Automatic));
         }
-        self.fulfil()
+        match self.step {
+            // in this step nothing is waited for but the image of a board that was laid down
+            Step::Touch if self.wish.is_some() => self.fulfil_placement(),
+            _ => self.fulfil(),
+        }
     }
 
     /// How much later images come than they are taken, s: an upper bound from the last approaches.

@@ -3,13 +3,16 @@
 
 use std::collections::BTreeSet;
 
-use handeye::{Setup, model::residual::Residual, nalgebra::Vector3, tools::plan::spread_corners};
+use handeye::{
+    calibrate::result::TouchResult, model::residual::Residual, nalgebra::Vector3,
+    tools::plan::spread_corners,
+};
 use handeye_io::StoredTouch;
 
 use super::{
     Change, Effect, Engine, Flow, Refusal, Step,
     obey::{later, wrong},
-    rest::Motion,
+    rest::{Motion, RobotSample},
     say::{Proof, capitalised, contradiction, proof},
     shown::{TouchShown, TouchView},
     taking::THE_SAME_POSE,
@@ -23,16 +26,22 @@ const FEWEST: usize = 3;
 impl Engine {
     /// Whether corners can be touched.
     pub(super) fn may_touch(&self) -> Result<(), Refusal> {
-        if self.settings().setup == Setup::EyeToHand {
-            return Err(wrong(
-                "the robot carries the board and cannot touch it: for touches with a camera beside the robot lay boards into its view, and calibrate the folder (the book has a chapter on touches)",
-            ));
-        }
         if self.settings().target.corners().is_empty() {
             return Err(wrong("this target has no corners that could be touched"));
         }
         match self.folder.captures.is_empty() {
             true => Err(later("first captures are taken, then corners are touched".into())),
+            false => Ok(()),
+        }
+    }
+
+    /// Whether a board lies where it can be touched.
+    pub(super) fn may_touch_board(&self) -> Result<(), Refusal> {
+        self.may_touch()?;
+        match self.lays_boards() && self.newest_placement().is_none() {
+            true => Err(later(
+                "the robot cannot touch the board that it carries: first lay the board into the view, and take its image (`place`)".into(),
+            )),
             false => Ok(()),
         }
     }
@@ -53,7 +62,9 @@ impl Engine {
     /// The corner to touch next: the first of corners far from each other that was not touched.
     pub(super) fn next_corner(&self) -> Option<u32> {
         self.may_touch().ok()?;
-        let touched: BTreeSet<u32> = self.folder.touches.iter().map(|t| t.corner).collect();
+        let here = self.newest_placement().map(|p| &p.id);
+        let here = self.folder.touches.iter().filter(|t| t.placement.as_ref() == here);
+        let touched: BTreeSet<u32> = here.map(|t| t.corner).collect();
         let spread = spread_corners(&self.settings().target, touched.len() + 1);
         // once all were touched, from the first one again
         spread.iter().find(|corner| !touched.contains(corner)).or(spread.first()).copied()
@@ -67,6 +78,7 @@ impl Engine {
         if self.settings().tip_mm.is_none() {
             return Err(later("first say where the tool's tip is in the flange".into()));
         }
+        self.may_touch_board()?;
         let corner = corner.or_else(|| self.next_corner()).ok_or_else(|| wrong("which corner?"))?;
         if self.settings().target.corner(corner).is_none() {
             return Err(wrong(format!("the board has no corner {corner}")));
@@ -75,6 +87,22 @@ impl Engine {
         if self.storing || self.assessing {
             return Err(later("what came before is still being assessed: touch then".into()));
         }
+        if self.wish.is_some() {
+            return Err(later(
+                "the image of the board is waited for: touch it then, or cancel that".into(),
+            ));
+        }
+        let robot = self.touching_pose()?;
+        self.note_touch(robot.time_s);
+        self.tip_to = None;
+        self.storing = true;
+        self.forget_problem();
+        let placement = self.newest_placement().map(|p| p.id.clone());
+        Ok(vec![Effect::StoreTouch { corner, placement, robot }])
+    }
+
+    /// The pose with the tip at a corner: the robot stands, and where no touch was made before.
+    fn touching_pose(&self) -> Result<RobotSample, Refusal> {
         if let (Flow::Stream, Motion::Moves(why)) = (self.sources.robot, &self.rest.robot) {
             return Err(later(format!("no touch was taken: {why}")));
         }
@@ -96,11 +124,7 @@ impl Engine {
                 before.corner
             )));
         }
-        self.note_touch(robot.time_s);
-        self.tip_to = None;
-        self.storing = true;
-        self.forget_problem();
-        Ok(vec![Effect::StoreTouch { corner, robot }])
+        Ok(robot)
     }
 
     /// Whether the tip of a virtual cell's tool was led to a corner, and stands there.
@@ -115,7 +139,7 @@ impl Engine {
     pub(super) fn untouch(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
         match self.folder.touches.iter().any(|touch| touch.id == id) {
             true => {
-                self.changes.retain(|change| *change != Change::Touched(id.clone()));
+                self.changes.push(Change::Untouched(id.clone()));
                 Ok(vec![Effect::Untouch(id)])
             }
             false => Err(wrong(format!("there is no touch {id}"))),
@@ -135,6 +159,9 @@ impl Engine {
         let count = self.folder.touches.len();
         match (self.touch_view(), count) {
             (None, _) => proof(true, "corners are not touched in this cell"),
+            (Some(view), 0) if view.lays && view.placement.is_none() => {
+                proof(false, "no board was laid into the view to be touched; this step is optional")
+            }
             (Some(_), 0) => proof(false, "no corner was touched; this step is optional"),
             (Some(view), _) => match view.rms_mm {
                 Some(rms) => {
@@ -164,6 +191,9 @@ impl Engine {
                 "The touch of corner {corner} is rejected as an outlier: the tip was {mm:.1} mm from where the captures put it. Was it this corner, and did the tip slip? Delete it, and touch again."
             );
         }
+        if let Some(what) = self.say_placement(view.corner) {
+            return what;
+        }
         let go_on = match view.touches.len() < FEWEST {
             true => "",
             false => " Or finish.",
@@ -176,15 +206,21 @@ impl Engine {
         let corner = self.next_corner()?;
         let result = self.assessed.as_ref().filter(|_| !self.assessing).map(|a| &a.calibration);
         // of a corner that was touched several times, in that order
-        let of = |k: usize, corner: u32| {
-            let before = self.folder.touches[..k].iter().filter(|t| t.corner == corner).count();
-            result?.touches.iter().filter(|found| found.corner == corner).nth(before)
+        let of = |k: usize, t: &StoredTouch| {
+            let same =
+                |other: &&StoredTouch| (other.corner, &other.placement) == (t.corner, &t.placement);
+            let before = self.folder.touches[..k].iter().filter(same).count();
+            let on_it = |found: &&TouchResult| {
+                found.corner == t.corner && t.placement.as_ref().is_none_or(|p| *p == found.capture)
+            };
+            result?.touches.iter().filter(on_it).nth(before)
         };
         let shown = self.folder.touches.iter().enumerate().map(|(k, t)| TouchShown {
             id: t.id.clone(),
+            placement: t.placement.clone(),
             corner: t.corner,
-            residual_mm: of(k, t.corner).map(|found| found.residual_mm),
-            used: of(k, t.corner).is_some_and(|found| found.used),
+            residual_mm: of(k, t).map(|found| found.residual_mm),
+            used: of(k, t).is_some_and(|found| found.used),
         });
         let touches: Vec<TouchShown> = shown.collect();
         let all: Vec<f64> =
@@ -193,6 +229,17 @@ impl Engine {
         let rms_mm = (!all.is_empty()).then(|| mean.sqrt());
         let (columns, _) = self.settings().target.grid();
         let (tip_mm, at_corner) = (self.settings().tip_mm, self.is_tip_there(corner));
-        Some(TouchView { tip_mm, corner, columns, touches, rms_mm, at_corner })
+        Some(TouchView {
+            tip_mm,
+            corner,
+            columns,
+            lays: self.lays_boards(),
+            placements: self.placements_shown(),
+            placement: self.newest_placement().map(|p| p.id.clone()),
+            lying: (self.sources.is_virtual && self.lays_boards()).then(|| self.lying()),
+            touches,
+            rms_mm,
+            at_corner,
+        })
     }
 }

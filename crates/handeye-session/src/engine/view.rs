@@ -1,6 +1,8 @@
 //! From the engine's state to what is shown.
 
-use handeye::{Calibration, Setup, Verdict, model::residual::Residual};
+use std::sync::Arc;
+
+use handeye::{Calibration, Verdict, model::residual::Residual};
 use handeye_io::{StoredCapture, Writing};
 
 use super::{
@@ -57,6 +59,8 @@ impl Engine {
                 Change::Deleted(id) => format!("delete {id}"),
                 Change::Restored(id) => format!("restore {id}"),
                 Change::Touched(id) => format!("touch {id}"),
+                Change::Untouched(id) => format!("untouch {id}"),
+                Change::Placed(id) => format!("place {id}"),
             }),
             assessing: self.assessing,
             assessed: self.assessments,
@@ -81,11 +85,8 @@ impl Engine {
         })
     }
 
-    /// The steps of this cell: a robot that carries the board cannot touch it.
     fn steps(&self) -> Vec<StepView> {
-        let can_touch = self.folder.settings.setup == Setup::EyeInHand;
-        let all = Step::ALL.into_iter().filter(|step| *step != Step::Touch || can_touch);
-        all.map(|step| self.step_view(step)).collect()
+        Step::ALL.into_iter().map(|step| self.step_view(step)).collect()
     }
 
     fn step_view(&self, step: Step) -> StepView {
@@ -204,7 +205,9 @@ impl Engine {
             points: m.corners.iter().map(|c| pixel(&c.pixel)).collect(),
             arrows: (!m.residuals.is_empty()).then(|| m.residuals.iter().map(arrow).collect()),
         };
-        self.assessed.as_ref().map_or(vec![], |a| a.measured.iter().map(one).collect())
+        let measured =
+            |a: &Arc<Assessment>| a.measured.iter().chain(&a.placements).map(one).collect();
+        self.assessed.as_ref().map_or(vec![], measured)
     }
 
     fn progress(&self, assessed: &Assessment) -> Progress {

@@ -237,10 +237,11 @@ async fn capture(State(app): State<App>, Path(name): Path<String>) -> Response {
 
 /// A capture's image, whether it stands or was deleted.
 fn capture_image(folder: &std::path::Path, id: &str) -> Option<handeye::GrayImage> {
-    let places = ["images", "verification", "deleted/images", "deleted/verification"];
-    let mut files = places
-        .iter()
-        .filter_map(|name| std::fs::read_dir(folder.join(name)).ok())
+    let places = ["images", "verification", "placements"];
+    let deleted = places.map(|name| folder.join("deleted").join(name));
+    let places = places.map(|name| folder.join(name));
+    let mut files = { places.iter().chain(&deleted) }
+        .filter_map(|path| std::fs::read_dir(path).ok())
         .flatten()
         .flatten();
     let is_own = |file: &std::fs::DirEntry| file.path().file_stem().is_some_and(|stem| stem == id);
@@ -248,7 +249,7 @@ fn capture_image(folder: &std::path::Path, id: &str) -> Option<handeye::GrayImag
 }
 
 fn is_id(id: &str) -> bool {
-    let id = id.strip_prefix('v').unwrap_or(id);
+    let id = id.strip_prefix(['v', 'p']).unwrap_or(id);
     (1..=4).contains(&id.len()) && id.bytes().all(|byte| byte.is_ascii_digit())
 }
 

@@ -37,7 +37,17 @@ pub struct VirtualCell {
     guess: CameraGuess,
     robot: Mutex<Robot>,
     places: Mutex<HandEye>,
+    laid: Mutex<Laid>,
     start: Pose<Base, Flange>,
+}
+
+/// A board that lies in the view of the camera.
+#[derive(Default)]
+struct Laid {
+    /// How often one was laid down.
+    count: usize,
+    /// Where it lies, and since when, s; `None` after it was taken away.
+    there: Option<(Pose<Base, Target>, f64)>,
 }
 
 /// The robot's motions: true poses, and what it errs by at their ends.
@@ -107,7 +117,8 @@ impl VirtualCell {
         let leg = Leg { starts_s: f64::NEG_INFINITY, takes_s: 0.0, from: start, to: start, errors };
         let places = Mutex::new(cell.hand_eye);
         let robot = Mutex::new(Robot { legs: vec![leg], random });
-        Ok(Self { cell, faults, guess, robot, places, start })
+        let laid = Mutex::default();
+        Ok(Self { cell, faults, guess, robot, places, laid, start })
     }
 
     /// What a person would know of it, or declare of it.
@@ -172,11 +183,38 @@ impl VirtualCell {
         }
     }
 
-    /// Somebody leads the tip of its tool to a corner of the board, by hand: to two tenths of a millimetre.
+    /// Somebody lays a board into the view of the camera, where the robot reaches it; each time elsewhere.
+    pub fn lay(&self, now: f64) {
+        let places = self.truth();
+        let mut laid = self.laid.lock().unwrap_or_else(PoisonError::into_inner);
+        let placements = laid.count + 1;
+        let cell = Cell { hand_eye: places, captures: 1, placements, ..self.cell.clone() };
+        let Ok(recording) = cell.record(0) else { return };
+        let Some(seen) = recording.truth.camera_from_target.last() else { return };
+        let base_from_camera: Pose<Base, Camera> = places.mount_from_camera.rename();
+        *laid = Laid { count: placements, there: Some((base_from_camera * *seen, now)) };
+    }
+
+    /// The board that lies in the view is taken away.
+    pub fn take_away(&self) {
+        self.laid.lock().unwrap_or_else(PoisonError::into_inner).there = None;
+    }
+
+    /// Where a board lies in the view at this moment.
+    fn lying(&self, now: f64) -> Option<Pose<Base, Target>> {
+        let laid = self.laid.lock().unwrap_or_else(PoisonError::into_inner);
+        laid.there.filter(|(_, since)| *since <= now).map(|(there, _)| there)
+    }
+
+    /// Somebody leads the tip of its tool to a corner of the board that lies there, by hand: to two tenths of a millimetre.
     pub fn drive_tip(&self, corner: u32, now: f64) {
         let places = self.truth();
         let Some(there) = self.cell.target.corner(corner) else { return };
-        let base_from_target: Pose<Base, Target> = Pose::claim(*places.anchor_from_target.iso());
+        let base_from_target: Pose<Base, Target> = match (self.cell.setup, self.lying(now)) {
+            (Setup::EyeInHand, _) => Pose::claim(*places.anchor_from_target.iso()),
+            (Setup::EyeToHand, Some(there)) => there,
+            (Setup::EyeToHand, None) => return,
+        };
         let by_hand = {
             let mut robot = self.robot.lock().unwrap_or_else(PoisonError::into_inner);
             robot.random.normal3() * TOUCH_M
@@ -248,7 +286,11 @@ impl VirtualCell {
     }
 
     fn scene(&self, now: f64) -> Scene {
-        let seen = self.truth().camera_from_target(self.cell.setup, &self.flange_in_image(now));
+        let places = self.truth();
+        let seen = match self.lying(now - self.faults.image_delay_s) {
+            Some(there) => places.mount_from_camera.inverse().rename::<Camera, Base>() * there,
+            None => places.camera_from_target(self.cell.setup, &self.flange_in_image(now)),
+        };
         let (target, intrinsics) = (self.cell.target.clone(), self.cell.intrinsics);
         Scene { target, camera_from_target: seen, intrinsics }
     }

@@ -31,6 +31,7 @@ impl Bench {
             verification: vec![],
             deleted: vec![],
             refused: vec![],
+            placements: vec![],
             touches: vec![],
         };
         let by_hand =
@@ -173,6 +174,7 @@ fn nothing_is_finished_while_a_capture_may_still_say_that_something_moved() {
         verification: vec![],
         deleted: vec![],
         refused: vec![],
+        placements: vec![],
         touches: vec![],
     };
     let effects = bench.engine.step(Input::Folder(Box::new(folder))).unwrap();
@@ -198,6 +200,71 @@ fn poses_wait_until_those_before_them_are_read_again() {
     assert!(bench.engine.step(pose).is_ok());
 }
 
+/// With a camera beside the robot and a capture, at the step of the touches.
+fn at_touches(takes_images: bool) -> Bench {
+    let mut bench = Bench::new(takes_images);
+    let capture = handeye_io::StoredCapture {
+        id: "001".into(),
+        image: None,
+        scan: None,
+        base_from_flange: bench.cell.standing(0.0),
+        typed: vec![],
+        joints: vec![],
+        robot_time_s: None,
+        image_time_s: None,
+    };
+    let folder = FolderState {
+        settings: CellSettings { setup: Setup::EyeToHand, ..bench.engine.settings().clone() },
+        captures: vec![capture],
+        verification: vec![],
+        deleted: vec![],
+        refused: vec![],
+        placements: vec![],
+        touches: vec![],
+    };
+    let sources =
+        Sources { robot: Flow::Single, camera: Flow::Single, takes_images, is_virtual: false };
+    let (engine, effects) = Engine::new(folder, sources);
+    bench.engine = engine;
+    let [Effect::Assess { generation, .. }] = effects[..] else { panic!("{effects:?}") };
+    let assessment = Err("too few".into());
+    bench.engine.step(Input::Assessed { generation, assessment }).unwrap();
+    bench.ask(Command::Go { step: Step::Touch });
+    bench
+}
+
+fn is_placement(effects: &[Effect]) -> bool {
+    matches!(effects, [Effect::StorePlacement { .. }])
+}
+
+#[test]
+fn the_image_of_a_board_that_was_laid_down_is_waited_for_and_is_none_that_was_used() {
+    let mut bench = at_touches(false);
+    assert!(bench.ask(Command::Place).is_empty());
+    assert!(bench.image(false).is_empty());
+    let state = bench.engine.view("", "");
+    assert!(state.taking.is_none());
+    let problem = state.problem.unwrap();
+    assert!(problem.code == "not-placed" && problem.message.contains("too dark"), "{problem:?}");
+    // no pose need be typed for it
+    assert!(bench.ask(Command::Place).is_empty());
+    assert!(is_placement(&bench.image(true)));
+    bench.engine.step(Input::Stored(Ok("p01".into()))).unwrap();
+    // another placement needs another image
+    assert!(bench.ask(Command::Place).is_empty());
+    let why = bench.engine.view("", "").say;
+    assert!(why.contains("waiting for an image of the board as it lies"), "{why}");
+    assert!(is_placement(&bench.image(true)));
+}
+
+#[test]
+fn a_command_takes_the_image_of_a_board_that_was_laid_down() {
+    let mut bench = at_touches(true);
+    bench.image(true); // that was not asked for
+    assert_eq!(bench.ask(Command::Place), [Effect::Grab]);
+    assert!(is_placement(&bench.image(true)));
+}
+
 /// A robot that streams, and images one by one.
 struct Streaming {
     bench: Bench,
@@ -214,6 +281,7 @@ impl Streaming {
             verification: vec![],
             deleted: vec![],
             refused: vec![],
+            placements: vec![],
             touches: vec![],
         };
         let sources =

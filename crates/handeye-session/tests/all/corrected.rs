@@ -100,7 +100,7 @@ fn a_board_with_touched_corners_keeps_its_corners() {
     let root = new_folder();
     let cell = VirtualCell::new(Setup::EyeInHand, 6, Faults::default()).unwrap();
     let mut folder = SessionFolder::open(&root, Some(&cell.settings())).unwrap();
-    folder.touch(3, (cell.sample(0.0).base_from_flange, &[]), 1.0).unwrap();
+    folder.touch((None, 3), (cell.sample(0.0).base_from_flange, &[]), 1.0).unwrap();
     let other = TargetModel::Checkerboard { columns: 7, rows: 5, square_mm: 30.0 };
     let why = folder.set(&CellSettings { target: other, ..cell.settings() }).unwrap_err();
     assert!(why.to_string().contains("delete the touches first"), "{why}");

@@ -14,6 +14,7 @@ mod line_programs;
 mod long;
 mod mistakes;
 mod openapi;
+mod placements;
 mod push;
 mod scans;
 mod standstill;

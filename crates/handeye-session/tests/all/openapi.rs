@@ -39,8 +39,8 @@ const COMMANDS: &str = r#"[
     {"do": "automatic", "on": true}, {"do": "cancel"}, {"do": "grab"}, {"do": "pose", "text": "1 2 3 4 5 6"},
     {"do": "delete", "id": "001"}, {"do": "restore", "id": "001"}, {"do": "retake", "id": "001"}, {"do": "undo"},
     {"do": "skip"}, {"do": "skip", "why": "cannot reach"}, {"do": "tip", "in_flange_mm": [0, 0, 150.5]},
-    {"do": "touch"}, {"do": "touch", "corner": 8}, {"do": "untouch", "id": "t01"}, {"do": "finish"},
-    {"do": "drive", "to": "next"}, {"do": "jog", "move_mm": [0, 0, 5]}
+    {"do": "touch"}, {"do": "touch", "corner": 8}, {"do": "place"}, {"do": "untouch", "id": "t01"}, {"do": "finish"},
+    {"do": "drive", "to": "next"}, {"do": "drive", "to": "placement"}, {"do": "jog", "move_mm": [0, 0, 5]}
 ]"#;
 
 fn document() -> &'static Value {

@@ -30,6 +30,7 @@ impl Trial {
             verification: vec![],
             deleted: vec![],
             refused: vec![],
+            placements: vec![],
             touches: vec![],
         };
         let engine = Engine::new(folder, Sources::VIRTUAL).0;

@@ -2,7 +2,7 @@
 
 import { selectedCapture, type App } from "./app";
 import type { Icon } from "./icons";
-import { isOutlier, takesCaptures, type State, type StepName } from "./state";
+import { isOutlier, isPlaced, takesCaptures, type State, type StepName } from "./state";
 import type { Key } from "./words";
 
 export interface Action {
@@ -42,7 +42,7 @@ let asked: { outcomes: number; problem: string; at: number } | null = null;
 const ASKED_FOR = 20_000; // ms after which this is over in any case
 
 const outcomes = (state: State): number =>
-  (state.captures?.length ?? 0) + (state.deleted?.length ?? 0) + (state.refused?.length ?? 0) + (state.verify?.views?.length ?? 0);
+  [state.captures, state.deleted, state.refused, state.verify?.views, state.touch?.placements].reduce((sum, all) => sum + (all?.length ?? 0), 0);
 
 const problemOf = ({ problem }: State): string => (problem && problem.code !== "image-late" ? problem.message : "");
 
@@ -71,9 +71,14 @@ export async function sendTyped(app: App): Promise<boolean> {
 
 /** Takes a capture, of the pose that was typed where poses are. */
 export async function take(app: App): Promise<void> {
-  if (!(await sendTyped(app)) || !app.state || app.state.taking) return;
+  if (await sendTyped(app)) await ask(app, "take");
+}
+
+/** Asks for an image that is stored. */
+async function ask(app: App, command: "take" | "place"): Promise<void> {
+  if (!app.state || app.state.taking) return;
   asked = { outcomes: outcomes(app.state), problem: problemOf(app.state), at: performance.now() };
-  if (!(await app.send({ do: "take" }))) asked = null;
+  if (!(await app.send({ do: command }))) asked = null;
 }
 
 /** No longer waits for a standstill. */
@@ -111,11 +116,19 @@ function inVerify(app: App, state: State): Action {
 
 const DONE_TOUCHES = 6; // then finishing is the next thing
 
+/** Takes the image of a board that was laid into the view; in a virtual cell somebody lays it there first. */
+export function placeAction(app: App, state: State): Action {
+  if (state.taking) return { label: "waiting_for_board", enabled: false, run: () => cancel(app) };
+  if (state.virtual_cell && state.touch?.lying !== "new") return act(app, "lay_board", { do: "drive", to: "placement" });
+  return { label: "place", enabled: !isStoring(state), run: () => void ask(app, "place") };
+}
+
 function inTouch(app: App, state: State): Action {
   const count = state.touch?.touches?.length ?? 0;
   if (state.virtual_cell?.driving) return act(app, "driving", { do: "cancel" }, false);
   if (state.assessing) return act(app, "assessing_now", { do: "cancel" }, false);
   if (!state.touch?.tip_mm) return act(app, "touch_it", { do: "touch" }, false);
+  if (state.touch.lays && (state.taking || !isPlaced(state.touch))) return placeAction(app, state);
   if (count >= DONE_TOUCHES) return act(app, "finish", { do: "finish" });
   if (state.virtual_cell && state.touch.at_corner !== true) return act(app, "drive_tip", { do: "drive", to: "touch" });
   return { label: "touch_it", enabled: true, run: () => void touch(app) };
@@ -172,6 +185,7 @@ export function secondary(app: App, state: State): Action[] {
       ];
     case "touch":
       return [
+        ...stop,
         ...(primary(app, state).label === "finish" ? [] : [act(app, "finish", { do: "finish" })]),
         act(app, "back_to_captures", { do: "go", step: "capture" }),
       ];

@@ -97,7 +97,7 @@ export function makeCaptures(app: App): Part {
       show(undo, Boolean(state.can_undo));
       attribute(undo, "title", state.can_undo);
       draw([...captures].reverse());
-      drawDeleted(state.deleted ?? []);
+      drawDeleted((state.deleted ?? []).filter(({ id }) => !/^[pt]/.test(id)));
     },
   };
 }

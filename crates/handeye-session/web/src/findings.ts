@@ -31,6 +31,9 @@ function severity(finding: Finding, state: State): NonNullable<Finding["severity
   return finding.severity === "rejects" && !isOver ? "info" : (finding.severity ?? "info");
 }
 
+/** Not worth a word as long as corners are being touched. */
+const FEW_TOUCHES = "touches-not-enough";
+
 /** The findings of one severity. */
 export function makeFindings(_app: App, which: NonNullable<Finding["severity"]>): Part {
   const rows = h("ul", { class: "findings" });
@@ -40,7 +43,8 @@ export function makeFindings(_app: App, which: NonNullable<Finding["severity"]>)
   return {
     element,
     update(state) {
-      const all = (state.progress?.findings ?? []).map((finding) => ({ ...finding, severity: severity(finding, state) }));
+      const found = (state.progress?.findings ?? []).filter(({ code }) => state.step !== "touch" || code !== FEW_TOUCHES);
+      const all = found.map((finding) => ({ ...finding, severity: severity(finding, state) }));
       const wanted = all.filter((finding) => finding.severity === which);
       draw(wanted);
       show(element, wanted.length > 0);

@@ -8,7 +8,7 @@ import { h, kind, show, text } from "./dom";
 import { frameFor } from "./live";
 import { mm } from "./numbers";
 import { drawEarlier, drawFound, drawGhost, drawResiduals, drawWay, type Colours, type Fit } from "./overlay";
-import { isOutlier, takesCaptures, type Capture, type State } from "./state";
+import { isOutlier, isPlaced, takesCaptures, type Capture, type State } from "./state";
 import { named, sentence, t } from "./words";
 
 const COLOURS: Colours = {
@@ -135,11 +135,17 @@ export function makePicture(app: App): Part & { draw(): void } {
     const late = capture === null && (state.camera?.connected === false || (!state.camera?.single && (age ?? 0) > LATE));
     text(tag, capture ? captureTag(capture) : liveTag(state));
     kind(tag, "bad", late || (capture !== null && isOutlier(capture)));
-    const trouble = capture ? capture.reason : state.camera?.missing;
+    const trouble = capture ? capture.reason : needsBoard(state) ? state.camera?.missing : null;
     text(missing, trouble && sentence(trouble));
     show(missing, Boolean(trouble));
     named(overlay, capture ? "captured_picture" : "live_picture");
   }
+}
+
+/** Whether the next image is to show the board: while corners are touched, the camera sees whatever part of it. */
+function needsBoard({ step, touch, taking }: State): boolean {
+  if (step !== "touch") return true;
+  return touch?.lays === true && (Boolean(taking) || !isPlaced(touch));
 }
 
 function captureTag(capture: Capture): string {

@@ -212,6 +212,17 @@ export const SENTENCES = {
   touches: ["Touches", "Angetastet"],
   corner_number: ["Corner {number}", "Ecke {number}"],
   touch_it: ["The tip is at the corner", "Die Spitze ist an der Ecke"],
+  placements: ["Boards laid down", "Hingelegte Tafeln"],
+  placement_what: [
+    "The robot cannot touch the board that it carries. Lay that one, once all captures are taken, or another of the same kind into the view, so that the tool reaches it; take its image; then touch its corners, and do not move it. Three of them at two heights tell most.",
+    "Die Tafel, die der Roboter trägt, kann er nicht antasten. Diese, wenn alle Aufnahmen gemacht sind, oder eine gleiche so ins Bild legen, dass das Werkzeug hinkommt; ihr Bild aufnehmen; dann ihre Ecken antasten und sie nicht bewegen. Drei davon in zwei Höhen sagen am meisten.",
+  ],
+  placement_touches: ["{id}: {count} touched", "{id}: {count} angetastet"],
+  placed_corner: ["{id}, corner {number}", "{id}, Ecke {number}"],
+  place: ["Take the board's image", "Bild der Tafel aufnehmen"],
+  place_again: ["It lies elsewhere now: take its image", "Sie liegt jetzt woanders: Bild aufnehmen"],
+  lay_board: ["Lay a board into the view", "Tafel ins Bild legen"],
+  waiting_for_board: ["Waiting for the board's image", "Warte auf das Bild der Tafel"],
   drive_tip: ["Bring the tip there", "Spitze hinführen"],
   go_touch: ["Touch corners", "Ecken antasten"],
 

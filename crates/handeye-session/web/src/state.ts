@@ -170,13 +170,27 @@ export interface Touching {
   tip_mm?: Maybe<[number, number, number]>;
   corner: number; // to be touched next
   columns?: number;
+  lays?: boolean; // boards are laid into the view to be touched
+  placements?: Placement[];
+  placement?: Maybe<string>; // the one whose corners are touched now
+  lying?: Maybe<"nothing" | "new" | "placed">; // in the view of a virtual cell's camera
   touches?: Touch[];
   rms_mm?: Maybe<number>;
   at_corner?: Maybe<boolean>; // whether a virtual robot's tip is there
 }
 
+/** Whether the board whose corners are touched lies where its image shows it. */
+export const isPlaced = ({ placement, lying }: Touching): boolean => Boolean(placement) && (lying ?? "placed") === "placed";
+
+/** A board that was laid into the view to be touched. */
+export interface Placement {
+  id: string;
+  touches?: number;
+}
+
 export interface Touch {
   id: string;
+  placement?: Maybe<string>;
   corner: number;
   residual_mm?: Maybe<number>;
   used?: boolean;

@@ -1,12 +1,13 @@
-// The step "touch": where the tip is in the flange, which corner of the board it touches next, and how far the touches are
-// from the answer.
+// The step "touch": where the tip is in the flange, which boards were laid down to be touched, which corner the tip touches
+// next, and how far the touches are from the answer.
 
+import { placeAction } from "./actions";
 import type { App, Part } from "./app";
 import { button, card } from "./controls";
 import { h, list, show, svg, text } from "./dom";
 import { numberField } from "./number_field";
 import { mm } from "./numbers";
-import type { Maybe, Target, Touch, Touching } from "./state";
+import { isPlaced, type Maybe, type Placement, type State, type Target, type Touch, type Touching } from "./state";
 import { said, t } from "./words";
 
 const SIDE = 20; // of a square in the drawing
@@ -28,7 +29,8 @@ function drawing(target: Maybe<Target>, touch: Touching): SVGSVGElement | null {
   }
   const inRow = columns - 1;
   const at = (corner: number) => ({ cx: ((corner % inRow) + 1) * SIDE, cy: (Math.floor(corner / inRow) + 1) * SIDE });
-  const touched = (touch.touches ?? []).map(({ corner }) => svg("circle", { ...at(corner), r: 6, class: "touched" }));
+  const here = (touch.touches ?? []).filter(({ placement }) => (placement ?? null) === (touch.placement ?? null));
+  const touched = here.map(({ corner }) => svg("circle", { ...at(corner), r: 6, class: "touched" }));
   const next = svg("circle", { ...at(touch.corner), r: 11, class: "mark" });
   return svg(
     "svg",
@@ -47,10 +49,59 @@ function touchRow(app: App, id: string) {
   return {
     element: h("li", {}, corner, error, remove),
     update(touch: Touch): void {
-      text(corner, t("corner_number", { number: String(touch.corner) }));
+      const number = String(touch.corner);
+      text(corner, touch.placement ? t("placed_corner", { id: touch.placement, number }) : t("corner_number", { number }));
       text(error, typeof touch.residual_mm === "number" ? `${mm(touch.residual_mm)} mm` : t("no_residual"));
     },
   };
+}
+
+function placementRow(app: App, id: string) {
+  const name = h("span");
+  const remove = button("delete", () => void app.send({ do: "delete", id }), { icon: "bin" });
+  return {
+    element: h("li", {}, name, h("b"), remove),
+    update: ({ touches }: Placement) => text(name, t("placement_touches", { id, count: String(touches ?? 0) })),
+  };
+}
+
+/** The boards that were laid into the view of a camera beside the robot. */
+function placementsCard(app: App) {
+  const rows = h("ol", { class: "placements" });
+  const draw = list<Placement>(
+    rows,
+    ({ id }) => id,
+    ({ id }) => placementRow(app, id),
+  );
+  const place = () => app.state && placeAction(app, app.state).run();
+  const [again, lay] = [button("place_again", place), button("lay_board", place)];
+  const element = card("placements", said(h("p", { class: "hint" }), "placement_what"), rows, again, lay);
+  return {
+    element,
+    update(touch: Touching, state: State): void {
+      show(element, touch.lays === true);
+      // before that it is the primary action
+      const isNext = isPlaced(touch) && !state.taking;
+      show(again, isNext && !state.virtual_cell);
+      show(lay, isNext && Boolean(state.virtual_cell));
+      draw([...(touch.placements ?? [])].reverse());
+    },
+  };
+}
+
+/** What was deleted of placements and touches, to take it in again. */
+function deletedHere(app: App) {
+  const element = h("ul", { class: "deleted" });
+  const draw = list<{ id: string }>(
+    element,
+    ({ id }) => id,
+    ({ id }) => {
+      const name = h("span");
+      const restore = button("restore", () => void app.send({ do: "restore", id }), { icon: "undo" });
+      return { element: h("li", {}, name, restore), update: () => text(name, t("deleted_id", { id })) };
+    },
+  );
+  return { element, update: (all: { id: string }[]) => draw(all.filter(({ id }) => /^[pt]/.test(id))) };
 }
 
 export function makeStepTouch(app: App): Part {
@@ -65,12 +116,17 @@ export function makeStepTouch(app: App): Part {
     ({ id }) => id,
     ({ id }) => touchRow(app, id),
   );
-  const made = card("touches", rows);
+  const deleted = deletedHere(app);
+  const undo = button("undo", () => void app.send({ do: "undo" }), { icon: "undo" });
+  const made = card("touches", rows, deleted.element, undo);
+  const placements = placementsCard(app);
+  const next = card("touch_next", which, place, said(h("p", { class: "hint" }), "touch_why"));
   const element = h(
     "div",
     { class: "stack" },
     card("tip", said(h("p", { class: "hint" }), "tip_hint"), h("div", { class: "grid" }, ...axes.map((axis) => axis.element))),
-    card("touch_next", which, place, said(h("p", { class: "hint" }), "touch_why")),
+    placements.element,
+    next,
     made,
   );
   let drawn = "";
@@ -87,11 +143,16 @@ export function makeStepTouch(app: App): Part {
       const touch = state.touch;
       if (!touch) return;
       axes.forEach((axis, k) => axis.set(touch.tip_mm?.[k]));
+      placements.update(touch, state);
       text(which, t("corner_number", { number: String(touch.corner) }));
+      show(next, !touch.lays || isPlaced(touch));
       const touches = touch.touches ?? [];
       draw([...touches].reverse());
-      show(made, touches.length > 0);
-      const name = JSON.stringify([state.cell?.target, touch.corner, touches.map(({ corner }) => corner)]);
+      const gone = state.deleted ?? [];
+      deleted.update(gone);
+      show(undo, Boolean(state.can_undo));
+      show(made, touches.length > 0 || gone.some(({ id }) => /^[pt]/.test(id)));
+      const name = JSON.stringify([state.cell?.target, touch.corner, touch.placement, touches.map(({ corner }) => corner)]);
       if (name === drawn) return;
       drawn = name;
       const board = drawing(state.cell?.target, touch);
