@@ -318,8 +318,8 @@ impl Declared {
             return Err(refused("a new session needs to know setup and target".into()));
         };
         let (tolerance_mm, notation) = (TOLERANCE_MM, NOTATION.into());
-        let (intrinsics, guess, tip_mm) = (None, None, None);
-        Ok(CellSettings { setup, target, intrinsics, tolerance_mm, notation, guess, tip_mm })
+        let (intrinsics, guess, tip_mm, arm) = (None, None, None, None);
+        Ok(CellSettings { setup, target, intrinsics, tolerance_mm, notation, guess, tip_mm, arm })
     }
 
     /// Settings with what is declared; `size` is that of the images, where it is known.

@@ -12,7 +12,7 @@ use crate::{
             TipSpec, TouchKind, TouchesSpec,
         },
     },
-    robot::Notation,
+    robot::{Notation, UrdfSpec},
     units::LengthUnit,
 };
 
@@ -34,14 +34,26 @@ pub struct CellSettings {
     /// Where the tip of the tool that touches corners is in the flange, mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_mm: Option<[f64; 3]>,
+    /// The robot's model, a URDF in the folder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arm: Option<ArmLinks>,
+}
+
+/// The links of a URDF between which the arm is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ArmLinks {
+    /// The link that is the robot's base.
+    pub base: String,
+    /// The link that is its flange.
+    pub flange: String,
 }
 
 impl CellSettings {
-    /// Whether captures of the one are captures of the other: all but what is tolerated, how poses are written, and the
-    /// tool that touches corners.
+    /// Whether captures of the one are captures of the other: all but what is tolerated, how poses are written, the
+    /// tool that touches corners, and the robot's model.
     pub fn is_of_same_cell(&self, other: &Self) -> bool {
-        let Self { tolerance_mm, notation, tip_mm, .. } = self.clone();
-        *self == Self { tolerance_mm, notation, tip_mm, ..other.clone() }
+        let Self { tolerance_mm, notation, tip_mm, arm, .. } = self.clone();
+        *self == Self { tolerance_mm, notation, tip_mm, arm, ..other.clone() }
     }
 }
 
@@ -60,6 +72,8 @@ pub struct CameraGuess {
 pub(super) struct Held {
     pub(super) has_scans: bool,
     pub(super) has_touches: bool,
+    /// Whether joint values stand beside the poses.
+    pub(super) has_joints: bool,
 }
 
 /// The text of the manifest.
@@ -76,6 +90,12 @@ pub(super) fn text(settings: &CellSettings, held: &Held) -> String {
         direction: Some(RobotDirection::BaseFromFlange),
         notation: Some(settings.notation.clone()),
         length_unit: units.map(|units| units.length),
+        angle_unit: units.filter(|_| held.has_joints).map(|units| units.angle),
+        urdf: settings.arm.as_ref().map(|links| UrdfSpec {
+            file: super::URDF.into(),
+            base: links.base.clone(),
+            flange: links.flange.clone(),
+        }),
         ..RobotSpec::default()
     });
     // both are paired by the number in their names: a capture that is half there is not used

@@ -31,6 +31,7 @@ fn settings(cell: &Cell) -> CellSettings {
         notation: "ur".into(),
         guess: None,
         tip_mm: None,
+        arm: None,
     }
 }
 

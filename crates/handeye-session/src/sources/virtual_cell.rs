@@ -10,8 +10,9 @@ use handeye::{
     math::random::Random,
     nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3},
     simulate::{Cell, CellNoise, Optics, Scene},
+    tools::plan::ArmReach,
 };
-use handeye_io::{CameraGuess, CellSettings};
+use handeye_io::{CameraGuess, CellSettings, Urdf};
 
 use super::mistakes::{Event, Mistake};
 use crate::engine::rest::RobotSample;
@@ -37,6 +38,14 @@ pub struct VirtualCell {
     robot: Mutex<Robot>,
     places: Mutex<HandEye>,
     start: Pose<Base, Flange>,
+    arm: Option<Mutex<VirtualArm>>,
+}
+
+/// The arm of a robot that gives joint values.
+struct VirtualArm {
+    urdf: Arc<Urdf>,
+    /// The last ones, rad or m.
+    joints: Vec<f64>,
 }
 
 /// The robot's motions: true poses, and what it errs by at their ends.
@@ -106,7 +115,28 @@ impl VirtualCell {
         let leg = Leg { starts_s: f64::NEG_INFINITY, takes_s: 0.0, from: start, to: start, errors };
         let places = Mutex::new(cell.hand_eye);
         let robot = Mutex::new(Robot { legs: vec![leg], random });
-        Ok(Self { cell, faults, guess, robot, places, start })
+        Ok(Self { cell, faults, guess, robot, places, start, arm: None })
+    }
+
+    /// The same with a robot that gives joint values: those of this arm, where it reaches its poses.
+    #[must_use]
+    pub fn with_arm(self, urdf: Arc<Urdf>) -> Self {
+        let joints = ArmReach::joints_somewhere(urdf.arm(), urdf.limits(), &self.start);
+        Self {
+            arm: Some(Mutex::new(VirtualArm { urdf, joints: joints.unwrap_or_default() })),
+            ..self
+        }
+    }
+
+    /// Joint values (rad, m) at a pose, near those of before; none where the arm does not reach it, or there is none.
+    fn joints(&self, there: &Pose<Base, Flange>) -> Vec<f64> {
+        let Some(arm) = &self.arm else { return vec![] };
+        let mut arm = arm.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = arm.urdf.arm().inverse(there, &arm.joints);
+        if let Some(found) = &found {
+            arm.joints.clone_from(found);
+        }
+        found.unwrap_or_default()
     }
 
     /// What a person would know of it, or declare of it.
@@ -119,6 +149,7 @@ impl VirtualCell {
             notation: "ur".into(),
             guess: Some(self.guess),
             tip_mm: Some((self.cell.tip_in_flange.vector() * 1e3).into()),
+            arm: None,
         };
         match &self.faults.mistake {
             Some(mistake) => mistake.declared(settings),
@@ -218,7 +249,8 @@ impl VirtualCell {
         let noisy = reported * noise;
         let base_from_flange =
             self.faults.mistake.as_ref().map_or(noisy, |mistake| mistake.reported(&noisy));
-        RobotSample { time_s: now, base_from_flange, typed: vec![], joints: vec![] }
+        let joints = self.joints(&base_from_flange);
+        RobotSample { time_s: now, base_from_flange, typed: vec![], joints }
     }
 
     /// Where the robot stood before it came here.

@@ -32,6 +32,7 @@ impl Bench {
             deleted: vec![],
             refused: vec![],
             touches: vec![],
+            arm: None,
         };
         let by_hand =
             Sources { robot: Flow::Single, camera: Flow::Single, takes_images, is_virtual: false };
@@ -174,6 +175,7 @@ fn nothing_is_finished_while_a_capture_may_still_say_that_something_moved() {
         deleted: vec![],
         refused: vec![],
         touches: vec![],
+        arm: None,
     };
     let effects = bench.engine.step(Input::Folder(Box::new(folder))).unwrap();
     bench.stored();
@@ -215,6 +217,7 @@ impl Streaming {
             deleted: vec![],
             refused: vec![],
             touches: vec![],
+            arm: None,
         };
         let sources =
             Sources { robot: Flow::Stream, camera: Flow::Single, takes_images, is_virtual: false };

@@ -31,6 +31,7 @@ impl Trial {
             deleted: vec![],
             refused: vec![],
             touches: vec![],
+            arm: None,
         };
         let engine = Engine::new(folder, Sources::VIRTUAL).0;
         let mut trial = Self { cell, engine, random: Random::new(seed), now: 0.0, frame: 0 };
