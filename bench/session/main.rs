@@ -79,10 +79,10 @@ fn assessment_s(setup: Setup, seed: u64) -> f64 {
         .map(|_| {
             let mut before = Measured::default();
             folder.delete(&newest).expect("a capture that is deleted");
-            assess(&folder, &mut before, (&[], false)).expect("an assessment");
+            assess(&folder, &mut before, (&[], false, None)).expect("an assessment");
             folder.restore(&newest).expect("a capture that is restored");
             let begin = Instant::now();
-            assess(&folder, &mut before, (&[], false)).expect("an assessment");
+            assess(&folder, &mut before, (&[], false, None)).expect("an assessment");
             begin.elapsed().as_secs_f64()
         })
         .collect();

@@ -9,8 +9,8 @@ use std::{
 use clap::Args;
 use handeye::{Setup, TargetModel};
 use handeye_io::{
-    CellSettings, Place, ScanSettings, SessionFolder, Writing, process, read_intrinsics,
-    read_target, temporary_folder,
+    CellSettings, Place, ScanSettings, SessionFolder, Writing, plan::UrdfOption, process,
+    read_intrinsics, read_target, temporary_folder,
 };
 use handeye_session::{
     engine::shown::State,
@@ -40,6 +40,7 @@ use crate::{
 \x20 handeye session cell/ --camera-command 'python grab.py {out}' --intrinsics camera.yaml\n\
 \x20 handeye session cell/ --upload --notation abb\n\
 \x20 handeye session cell/ --ur 192.168.1.5 --images-from /mnt/camera --target board.toml\n\
+\x20 handeye session cell/ --ur 192.168.1.5 --urdf ur10e.urdf --base-link base --images-from /mnt/camera\n\
 \x20 handeye session cell/ --virtual 7 --headless --script steps.json --json\n\
 \n\
 The folder is an ordinary dataset at any moment: `handeye calibrate FOLDER` gives the same result. Exit code of a script: \
@@ -102,6 +103,15 @@ pub struct SessionArgs {
     /// 233 10 20 -170`.
     #[arg(long, value_name = "ADDRESS:PORT", conflicts_with = "seed")]
     pub robot: Option<SocketAddr>,
+    /// The robot's URDF: next views are within joint limits and without collisions of links; it is copied into the folder.
+    #[arg(long, value_name = "FILE")]
+    pub urdf: Option<PathBuf>,
+    /// The URDF's link that is the robot's base.
+    #[arg(long, value_name = "LINK", default_value = "base_link", requires = "urdf")]
+    pub base_link: String,
+    /// The URDF's link that is the robot's flange.
+    #[arg(long, value_name = "LINK", default_value = "tool0", requires = "urdf")]
+    pub flange_link: String,
     /// Do not open a browser.
     #[arg(long)]
     pub no_open: bool,
@@ -126,6 +136,9 @@ pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
         .folder
         .clone()
         .unwrap_or_else(|| temporary_folder().join(format!("handeye-session-{}", process())));
+    let urdf = urdf(args);
+    // what is wrong in it is said before a folder is begun
+    urdf.as_ref().map(UrdfOption::read).transpose()?;
     let cell = cell(args)?;
     let usual = match &cell {
         Cell::Virtual(cell) => cell.settings(),
@@ -142,6 +155,13 @@ pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
         folder.is_of_cell(&settings)?;
         folder.set(&settings)?;
     }
+    if let Some(urdf) = &urdf {
+        folder.use_urdf(urdf)?;
+    }
+    let cell = match (cell, folder.urdf()) {
+        (Cell::Virtual(cell), Some(urdf)) => Cell::Virtual(Box::new(cell.with_arm(urdf.clone()))),
+        (cell, _) => cell,
+    };
     let host = Host::new(folder);
     scans_fit(args, &host)?;
     match (&args.script, cell) {
@@ -172,6 +192,15 @@ fn scans_fit(args: &SessionArgs, host: &Host) -> Result<(), Failure> {
             _ => Ok(()),
         },
     }
+}
+
+/// The robot's model.
+fn urdf(args: &SessionArgs) -> Option<UrdfOption> {
+    args.urdf.clone().map(|file| UrdfOption {
+        file,
+        base: args.base_link.clone(),
+        flange: args.flange_link.clone(),
+    })
 }
 
 /// Where poses and images come from.
@@ -214,6 +243,7 @@ fn usual() -> CellSettings {
         guess: None,
         tip_mm: None,
         scans: None,
+        arm: None,
     }
 }
 

@@ -72,7 +72,7 @@ pub use result_folder::ResultFolder;
 pub use robot::Urdf;
 pub use scan::{ScanOptions, read_scan, scan_size, scan_unit};
 pub use session_folder::{
-    CameraGuess, CellSettings, NewCapture, NewPlacement, RefusedCapture, ScanSettings,
+    ArmLinks, CameraGuess, CellSettings, NewCapture, NewPlacement, RefusedCapture, ScanSettings,
     SessionFolder, StoredCapture, StoredPlacement, StoredTouch,
 };
 pub use target_file::{NamedTarget, Targets, read_target, read_targets, target_toml};

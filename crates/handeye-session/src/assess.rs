@@ -13,7 +13,7 @@ use handeye::{
     },
 };
 use handeye_io::{
-    CellSettings, Error, SessionFolder,
+    CellSettings, Error, SessionFolder, Urdf,
     calibrate::calibrate_measured,
     measure::{self, Measurements},
     plan::{self, PlanOptions},
@@ -81,14 +81,15 @@ pub struct ProposedView {
 }
 
 /// Assesses a folder with captures; `not_near` are poses that nobody goes to (again). Where another view is wanted although
-/// the captures are enough, as one that verifies them, `goes_on` is set.
+/// the captures are enough, as one that verifies them, `goes_on` is set. With the joint values of now (rad, m) the next view is
+/// one that the arm of the folder's model reaches; without them it is near poses that were reached.
 ///
 /// # Errors
 /// A folder that cannot be read.
 pub fn assess(
     folder: &SessionFolder,
     before: &mut Measured,
-    (not_near, goes_on): (&[Pose<Base, Flange>], bool),
+    (not_near, goes_on, joints): (&[Pose<Base, Flange>], bool, Option<&[f64]>),
 ) -> Result<Assessment, Error> {
     let dataset = folder.dataset()?;
     let measured = measure::measure_again(&dataset, &mut before.captures, &|_, _| {})?;
@@ -96,7 +97,16 @@ pub fn assess(
     let session = &measured.session;
     let plan = |tolerance_mm| {
         let failed = not_near.to_vec();
-        let options = PlanOptions { count: 1, tolerance_mm, failed, ..PlanOptions::default() };
+        let now = joints.zip(folder.urdf()).map(|(values, urdf)| joint_numbers(values, urdf));
+        let without_arm = now.is_none();
+        let options = PlanOptions {
+            count: 1,
+            tolerance_mm,
+            failed,
+            now,
+            without_arm,
+            ..PlanOptions::default()
+        };
         match plan::plan_after(&dataset, calibration.clone(), session, &options) {
             Ok(plan) => (plan.route.views.into_iter().next(), plan.route.stopped, plan.enough),
             Err(error) => (None, Some(error.without_place()), false),
@@ -121,6 +131,15 @@ pub fn assess(
         enough,
         verification,
     })
+}
+
+/// Joint values (rad, m) in degrees, and millimetres of those that slide.
+pub fn joint_numbers(values: &[f64], urdf: &Urdf) -> Vec<f64> {
+    let number = |(value, slides): (&f64, bool)| match slides {
+        true => value * 1e3,
+        false => value.to_degrees(),
+    };
+    values.iter().zip(urdf.prismatic()).map(number).collect()
 }
 
 /// What the verification views say of the captures' calibration, or why they say nothing.

@@ -56,6 +56,7 @@ impl Host {
             refused: self.folder.refused().into_iter().cloned().collect(),
             placements: self.folder.placements().into_iter().cloned().collect(),
             touches: self.folder.touches().into_iter().cloned().collect(),
+            arm: self.folder.urdf().cloned(),
         }
     }
 
@@ -102,8 +103,9 @@ impl Host {
                 let done = self.folder.reread(&notation);
                 self.changed(done)
             }
-            Effect::Assess { generation, not_near, goes_on } => {
-                let assessment = assess(&self.folder, &mut self.measured, (&not_near, goes_on));
+            Effect::Assess { generation, not_near, goes_on, joints } => {
+                let wanted = (&not_near[..], goes_on, joints.as_deref());
+                let assessment = assess(&self.folder, &mut self.measured, wanted);
                 let assessment = assessment.map(Arc::new).map_err(|e| e.to_string());
                 vec![Input::Assessed { generation, assessment }]
             }

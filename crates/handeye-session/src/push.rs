@@ -323,9 +323,17 @@ impl Declared {
         let (Some(setup), Some(target)) = (self.setup, self.target.clone()) else {
             return Err(refused("a new session needs to know setup and target".into()));
         };
-        let (tolerance_mm, notation) = (TOLERANCE_MM, NOTATION.into());
-        let (intrinsics, guess, tip_mm, scans) = (None, None, None, None);
-        Ok(CellSettings { setup, target, intrinsics, tolerance_mm, notation, guess, tip_mm, scans })
+        Ok(CellSettings {
+            setup,
+            target,
+            intrinsics: None,
+            tolerance_mm: TOLERANCE_MM,
+            notation: NOTATION.into(),
+            guess: None,
+            tip_mm: None,
+            scans: None,
+            arm: None,
+        })
     }
 
     /// Settings with what is declared; `size` is that of the images, where it is known.

@@ -169,7 +169,8 @@ pub(crate) struct RobotSpec {
     pub(crate) tool: Option<ToolSpec>,
     /// The arm that joint values are of: Denavit-Hartenberg parameters, or a file of them.
     pub(crate) dh: Option<FileOr<DhSpec>>,
-    /// The arm that joint values are of, in place of dh.
+    /// The arm that joint values are of, in place of dh; or, with poses, the arm that has them: a table of poses may have its
+    /// joint values beside them, in columns that are called as the joints.
     pub(crate) urdf: Option<UrdfSpec>,
 }
 

@@ -103,7 +103,7 @@ pub struct Dataset {
     pub known_position: Option<KnownPosition>,
     /// Roughly where the camera sits, and how well that is known.
     pub guess: Option<Guess>,
-    /// The robot's arm, where its poses come from joint values.
+    /// The robot's arm, where its poses come from joint values or a URDF is given.
     pub arm: Option<Arm>,
     /// The file that describes it, where that is a URDF.
     pub urdf: Option<Urdf>,

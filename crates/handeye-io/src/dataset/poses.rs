@@ -177,6 +177,44 @@ fn joints(table: &PoseTable, at: &str, source: &Source, root: &Path) -> Result<R
     Ok(Reading::Joints(model, unit))
 }
 
+/// Joint values that stand beside poses, in columns that are called as the joints of the arm's URDF.
+struct JointsBeside<'a> {
+    urdf: Urdf,
+    angle_unit: Option<AngleUnit>,
+    /// What asks for the unit where it is not declared.
+    undeclared: Box<dyn Fn() -> Error + 'a>,
+}
+
+impl<'a> JointsBeside<'a> {
+    /// `None` where the numbers are joint values themselves, or no URDF is given.
+    fn of(
+        reading: &Reading,
+        table: &PoseTable,
+        at: &'a str,
+        (source, root): (&'a Source, &Path),
+    ) -> Result<Option<Self>, Error> {
+        let (Reading::Notation(..), Some(ArmSpec::Urdf(spec))) = (reading, &table.arm) else {
+            return Ok(None);
+        };
+        let undeclared = Box::new(move || {
+            let question = "in which unit are the angles of the table, those of the joints as well: \"deg\" or \"rad\"?";
+            source.undeclared(&format!("{at}.angle_unit"), question)
+        });
+        let urdf = Urdf::read(&root.join(&spec.file), &spec.base, &spec.flange)?;
+        Ok(Some(Self { urdf, angle_unit: table.angle_unit, undeclared }))
+    }
+
+    /// Those of a record, rad or m; none where it has no column of a joint.
+    fn values(&self, record: &Record) -> Result<Vec<f64>, Error> {
+        if !self.urdf.joint_names().iter().any(|name| record.named(&[name]).is_some()) {
+            return Ok(vec![]);
+        }
+        let unit = self.angle_unit.ok_or_else(|| (self.undeclared)())?;
+        let model = ArmModel::of_urdf(&self.urdf);
+        Ok(model.in_si(&model.values(record)?, unit))
+    }
+}
+
 /// The records of a file, or one record of each file of a pattern.
 pub(super) fn records(
     pattern: &str,
@@ -203,9 +241,13 @@ fn read(
     let records = records(&table.poses, &layout, root, &place)?;
     let numbers: Vec<Vec<f64>> =
         records.iter().map(|r| reading.numbers(r)).collect::<Result<_, _>>()?;
+    let beside = JointsBeside::of(&reading, table, at, (source, root))?;
     let pose = |(record, numbers): (Record, &Vec<f64>)| {
         let value = reading.pose(numbers, &record.place)?;
-        let joints = reading.joints(numbers);
+        let joints = match &beside {
+            Some(beside) => beside.values(&record)?,
+            None => reading.joints(numbers),
+        };
         let time_s = record.number_named(&TIME_NAMES);
         Ok(Named { id: record.id, place: record.place, value, joints, time_s })
     };
@@ -390,10 +432,10 @@ impl Writing {
     }
 }
 
-/// The arm, where the robot's poses are those of its flange by its own joints.
+/// The arm, where the robot's poses are those of its flange by its own joints, or a URDF is given beside them.
 pub(super) fn arm(spec: &RobotSpec, source: &Source, root: &Path) -> Result<Option<Arm>, Error> {
     if !by_joints(spec) {
-        return Ok(None);
+        return Ok(urdf(spec, root)?.map(|urdf| urdf.arm().clone()));
     }
     let table = spec.with_arm(source)?;
     Ok(Reading::of(&table, "robot", source, root)?.arm().cloned())
@@ -401,14 +443,19 @@ pub(super) fn arm(spec: &RobotSpec, source: &Source, root: &Path) -> Result<Opti
 
 /// The file in which that arm is described, where it is a URDF.
 pub(super) fn urdf(spec: &RobotSpec, root: &Path) -> Result<Option<Urdf>, Error> {
-    let Some(urdf) = spec.urdf.as_ref().filter(|_| by_joints(spec)) else { return Ok(None) };
+    let is_of_flange = by_joints(spec) || !has_joints_for_poses(spec);
+    let Some(urdf) = spec.urdf.as_ref().filter(|_| is_of_flange) else { return Ok(None) };
     Urdf::read(&root.join(&urdf.file), &urdf.base, &urdf.flange).map(Some)
 }
 
 fn by_joints(spec: &RobotSpec) -> bool {
     spec.direction == Some(RobotDirection::BaseFromFlange)
         && spec.frame != Some(PoseFrame::Tool)
-        && spec.table().notation.as_deref() == Some("joints")
+        && has_joints_for_poses(spec)
+}
+
+fn has_joints_for_poses(spec: &RobotSpec) -> bool {
+    spec.notation.as_deref() == Some("joints")
 }
 
 /// The tool whose poses are recorded; the flange itself unless the manifest says otherwise.

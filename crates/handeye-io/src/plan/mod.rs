@@ -43,6 +43,8 @@ pub struct PlanOptions {
     pub distances_m: Option<(f64, f64)>,
     /// Whether corners to touch are planned as well.
     pub touches: bool,
+    /// Whether views are planned near poses that were reached, although the manifest names a model of the arm.
+    pub without_arm: bool,
     /// Poses that nobody goes to (again): nothing near them is planned.
     pub failed: Vec<Pose<Base, Flange>>,
 }
@@ -56,6 +58,16 @@ pub struct UrdfOption {
     pub base: String,
     /// The link that is its flange.
     pub flange: String,
+}
+
+impl UrdfOption {
+    /// The arm.
+    ///
+    /// # Errors
+    /// As [`Urdf::read`].
+    pub fn read(&self) -> Result<Urdf, Error> {
+        Urdf::read(&self.file, &self.base, &self.flange)
+    }
 }
 
 /// A plan, and what it rests on.
@@ -330,12 +342,10 @@ fn reach(
         clearance_m: avoided.clearance_m,
         ignored: vec![],
     };
-    let read =
-        |o: &UrdfOption| Urdf::read(&o.file, &o.base, &o.flange).map(|urdf| (urdf, o.file.clone()));
-    let named = options.urdf.as_ref().map(read).transpose()?;
-    let own = dataset.urdf.clone().map(|urdf| (urdf, dataset.manifest.clone()));
-    if let Some((urdf, file)) = named.or(own) {
-        let (parts, notes) = robot::parts(&urdf, &file);
+    let named = options.urdf.as_ref().map(UrdfOption::read).transpose()?;
+    let own = dataset.urdf.clone().filter(|_| !options.without_arm);
+    if let Some(urdf) = named.or(own) {
+        let (parts, notes) = robot::parts(&urdf, urdf.path());
         let surroundings =
             Surroundings { parts: [surroundings.parts, parts].concat(), ..surroundings };
         let names = urdf.joint_names().to_vec();
@@ -343,7 +353,7 @@ fn reach(
             arm_reach(urdf.arm().clone(), urdf.limits().to_vec(), surroundings, session, options)?;
         return Ok((Reach::Arm(arm), names, notes));
     }
-    if let Some(arm) = &dataset.arm {
+    if let Some(arm) = dataset.arm.as_ref().filter(|_| !options.without_arm) {
         let turn = std::f64::consts::TAU;
         let limits = vec![(-turn, turn); arm.joints.len()];
         let notes = vec!["the arm's limits and shapes are not known (no URDF): only joint values are found, no collisions of links".into()];

@@ -28,6 +28,7 @@ pub use rotation::{Rotation, rotation_near};
 pub(crate) use suspicion::suspicious_values;
 pub use urdf::Urdf;
 pub(crate) use urdf::{UrdfSpec, rigid};
+pub(crate) use urdf_shapes::meshes;
 pub use urdf_shapes::parts;
 
 /// What a number of a notation measures.

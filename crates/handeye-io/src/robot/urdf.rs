@@ -3,10 +3,13 @@
 //! `<origin xyz rpy>` places a joint in its parent link, `R = Rz(yaw) Ry(pitch) Rx(roll)`; the joint turns or slides
 //! about its `<axis>`, given in its own frame.
 
-use std::{collections::BTreeMap, path::Path};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 use handeye::{
-    Pose,
+    Base, Flange, Pose,
     model::kinematics::{Arm, Axis, MOST_JOINTS},
 };
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
@@ -39,6 +42,7 @@ pub struct Urdf {
     origins: Vec<Origin>,
     limits: Vec<(f64, f64)>,
     text: String,
+    path: PathBuf,
     links: (String, String),
 }
 
@@ -97,7 +101,7 @@ impl Urdf {
         let limits = chain.iter().filter(|j| j.kind != "fixed").map(|j| j.limits).collect();
         let (arm, joints, origins) = arm(start, &chain, path)?;
         let links = (base.to_owned(), flange.to_owned());
-        Ok(Urdf { arm, joints, origins, limits, text: text.into(), links })
+        Ok(Urdf { arm, joints, origins, limits, text: text.into(), path: path.into(), links })
     }
 
     /// The arm; joint values are in rad and m.
@@ -113,6 +117,50 @@ impl Urdf {
     /// Lowest and highest value of each joint, rad or m.
     pub fn limits(&self) -> &[(f64, f64)] {
         &self.limits
+    }
+
+    /// Which of its joints slide.
+    pub fn prismatic(&self) -> Vec<bool> {
+        self.arm.joints.iter().map(|joint| joint.prismatic).collect()
+    }
+
+    /// Where base, joints and flange are for joint values (rad, m), in the base, m.
+    pub fn points(&self, values: &[f64]) -> Vec<Vector3<f64>> {
+        let (zero, moved) = (self.arm.link_frames(&[]), self.arm.link_frames(values));
+        let mut points = vec![Vector3::zeros()];
+        for (k, origin) in self.origins.iter().enumerate() {
+            let at = Point3::from(origin.base_from_joint.translation.vector);
+            // what the joint before it moves
+            let by = k.checked_sub(1).map(|before| moved[before] * zero[before].inverse());
+            points.push(by.map_or(at, |by| by * at).coords);
+        }
+        points.push(self.arm.base_from_flange(values).translation());
+        points
+    }
+
+    /// The links as base and flange between which the same joints bring the flange to a pose, where those that were chosen
+    /// do not: `base` and `tool0`, for example.
+    pub fn links_that_agree(
+        &self,
+        values: &[f64],
+        agree: impl Fn(&Pose<Base, Flange>) -> bool,
+    ) -> Option<(String, String)> {
+        let bodies = self.bodies();
+        let moved_by = |joint: Option<usize>| bodies.iter().filter(move |body| body.joint == joint);
+        let last = self.joints.len().checked_sub(1);
+        moved_by(None).flat_map(|base| moved_by(last).map(move |flange| (base, flange))).find_map(
+            |(base, flange)| {
+                let other = Self::parse(&self.text, &self.path, &base.link, &flange.link).ok()?;
+                let is_same_chain = other.joints == self.joints;
+                (is_same_chain && agree(&other.arm.base_from_flange(values)))
+                    .then(|| (base.link.clone(), flange.link.clone()))
+            },
+        )
+    }
+
+    /// Its file.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// All links with what moves them, all joint values zero: which joint of the arm, or none, and where they are in the
@@ -394,6 +442,29 @@ mod tests {
         let turned = read(&ARM.replace("</robot>", side), "base", "tool0").unwrap();
         let pose = turned.arm().base_from_flange(&[std::f64::consts::FRAC_PI_2, 0.3]);
         assert!((pose.translation() - Vector3::new(0.0, -0.6, 0.3)).norm() < 1e-12, "{pose:?}");
+    }
+
+    #[test]
+    fn joints_stand_where_a_ruler_says() {
+        let urdf = read(ARM, "base_link", "tool0").unwrap();
+        let points = urdf.points(&[std::f64::consts::FRAC_PI_2, 0.3]);
+        let expected = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.5], [0.0, 0.2, 0.5], [0.0, 0.6, 0.5]];
+        assert_eq!(points.len(), expected.len());
+        for (point, there) in points.iter().zip(expected) {
+            assert!((point - Vector3::from(there)).norm() < 1e-12, "{points:?}");
+        }
+        assert_eq!(urdf.prismatic(), [false, true]);
+    }
+
+    #[test]
+    fn links_are_found_between_which_the_model_agrees() {
+        let urdf = read(ARM, "base_link", "tool0").unwrap();
+        let values = [0.4, 0.1];
+        let higher = read(ARM, "world", "tool0").unwrap().arm().base_from_flange(&values);
+        let is_there = |pose: &Pose<Base, Flange>| pose.distance_to(&higher) < 1e-9;
+        let found = urdf.links_that_agree(&values, is_there);
+        assert_eq!(found, Some(("world".into(), "tool0".into())));
+        assert_eq!(urdf.links_that_agree(&values, |_| false), None);
     }
 
     #[test]

@@ -3,7 +3,10 @@
 //! A capsule about a cylinder has its axis and radius, and is longer by a cap at both ends: what is kept apart from it, is
 //! apart from the link.
 
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeSet,
+    path::{Component, Path, PathBuf},
+};
 
 use handeye::tools::plan::{Capsule, Cuboid, On, Part};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -16,6 +19,22 @@ use crate::mesh;
 const USUAL_RADIUS: f64 = 0.07;
 /// How many folders above the URDF's own a mesh is looked for in.
 const FOLDERS_ABOVE: usize = 4;
+
+/// The meshes of its links' shapes that are found: what the URDF calls them, below its own folder, and where they are.
+pub(crate) fn meshes(urdf: &Urdf) -> Vec<(PathBuf, PathBuf)> {
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    let Ok(document) = Document::parse_with_options(urdf.text(), options) else { return vec![] };
+    let is_shape = |node: &Node| node.ancestors().any(|a| a.has_tag_name("collision"));
+    let nodes = document.descendants().filter(|n| n.has_tag_name("mesh") && is_shape(n));
+    let names: BTreeSet<&str> = nodes.filter_map(|node| node.attribute("filename")).collect();
+    let is_below = |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_)));
+    let one = |name: &str| {
+        let below = PathBuf::from(bare(name));
+        is_below(&below).then_some(())?;
+        Some((below, found(name, urdf.path())?))
+    };
+    names.into_iter().filter_map(one).collect()
+}
 
 /// The parts of a robot, and what is to be known of how they were found.
 pub fn parts(urdf: &Urdf, file: &Path) -> (Vec<Part>, Vec<String>) {
@@ -143,10 +162,13 @@ fn of_mesh(node: &Node, file: &Path) -> Result<Capsule, String> {
     Capsule::holding(&points).ok_or_else(|| format!("{name} has no points"))
 }
 
+fn bare(name: &str) -> &str {
+    name.strip_prefix("package://").or_else(|| name.strip_prefix("file://")).unwrap_or(name)
+}
+
 /// `package://robot/meshes/a.stl` in the URDF's folder, or in one of those above it.
 fn found(name: &str, file: &Path) -> Option<PathBuf> {
-    let bare =
-        name.strip_prefix("package://").or_else(|| name.strip_prefix("file://")).unwrap_or(name);
+    let bare = bare(name);
     let mut tails = vec![bare];
     if let Some((_, tail)) = bare.split_once('/') {
         tails.push(tail);

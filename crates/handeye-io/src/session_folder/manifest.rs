@@ -13,7 +13,7 @@ use crate::{
             ScansSpec, TipSpec, TouchKind, TouchesSpec,
         },
     },
-    robot::Notation,
+    robot::{Notation, UrdfSpec},
     units::LengthUnit,
 };
 
@@ -38,6 +38,18 @@ pub struct CellSettings {
     /// How the scans are read that come with the images; `None` where none come, or their files are metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scans: Option<ScanSettings>,
+    /// The robot's model, a URDF in the folder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arm: Option<ArmLinks>,
+}
+
+/// The links of a URDF between which the arm is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ArmLinks {
+    /// The link that is the robot's base.
+    pub base: String,
+    /// The link that is its flange.
+    pub flange: String,
 }
 
 /// What the files of scans do not say.
@@ -57,14 +69,14 @@ impl ScanSettings {
 }
 
 impl CellSettings {
-    /// Whether captures of the one are captures of the other: all but what is tolerated, how poses are written, and the
-    /// tool that touches corners.
+    /// Whether captures of the one are captures of the other: all but what is tolerated, how poses are written, the
+    /// tool that touches corners, and the robot's model.
     pub fn is_of_same_cell(&self, other: &Self) -> bool {
         let metres = |of: &Self| Some(of.scans.unwrap_or(ScanSettings::METRES));
-        let Self { tolerance_mm, notation, tip_mm, .. } = self.clone();
+        let Self { tolerance_mm, notation, tip_mm, arm, .. } = self.clone();
         let (own, of_other) = (metres(self), metres(other));
         Self { scans: own, ..self.clone() }
-            == Self { tolerance_mm, notation, tip_mm, scans: of_other, ..other.clone() }
+            == Self { tolerance_mm, notation, tip_mm, arm, scans: of_other, ..other.clone() }
     }
 }
 
@@ -84,6 +96,8 @@ pub(super) struct Held<'a> {
     pub(super) has_scans: bool,
     pub(super) has_touches: bool,
     pub(super) placements: Vec<&'a StoredPlacement>,
+    /// Whether joint values stand beside the poses.
+    pub(super) has_joints: bool,
 }
 
 /// The text of the manifest.
@@ -100,6 +114,12 @@ pub(super) fn text(settings: &CellSettings, held: &Held) -> String {
         direction: Some(RobotDirection::BaseFromFlange),
         notation: Some(settings.notation.clone()),
         length_unit: units.map(|units| units.length),
+        angle_unit: units.filter(|_| held.has_joints).map(|units| units.angle),
+        urdf: settings.arm.as_ref().map(|links| UrdfSpec {
+            file: super::URDF.into(),
+            base: links.base.clone(),
+            flange: links.flange.clone(),
+        }),
         ..RobotSpec::default()
     });
     // both are paired by the number in their names: a capture that is half there is not used

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! handeye.toml        the manifest
-//! robot.csv           the flange's pose in each capture, in the robot's notation
+//! robot.csv           the flange's pose in each capture, in the robot's notation, and its joint values
+//! robot/robot.urdf    the robot's model, where one was given, and the meshes of its links
 //! touches.csv         the same for each corner that was touched
 //! images/001.png      scans/001.ply
 //! placements/p01.png  boards that lie in the view, to be touched
@@ -15,27 +16,32 @@
 //! and the table of poses is written anew. A program that is killed in between leaves a capture that is whole, or one
 //! that was never confirmed: [`SessionFolder::open`] makes the folder agree with its journal again.
 
+mod arm;
 mod journal;
 mod manifest;
 
 use std::{
     fs::{self, File, TryLockError},
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 use handeye::{Base, Flange, Intrinsics, Pose};
 
 use crate::{
-    CaptureSource, Dataset, Error, MANIFEST, Writing, error::unusable, files::write_atomically,
+    CaptureSource, Dataset, Error, MANIFEST, Urdf, Writing, error::unusable,
+    files::write_atomically,
 };
 use journal::{Journal, Line};
 pub use journal::{RefusedCapture, StoredCapture, StoredPlacement, StoredTouch};
-pub use manifest::{CameraGuess, CellSettings, ScanSettings};
+pub use manifest::{ArmLinks, CameraGuess, CellSettings, ScanSettings};
 
 /// The journal's name.
 const JOURNAL: &str = "journal.jsonl";
 /// The table of touches.
 const TOUCHES: &str = "touches.csv";
+/// The robot's model.
+const URDF: &str = "robot/robot.urdf";
 /// Where files of deleted captures are kept.
 const DELETED: &str = "deleted";
 /// The folder of verification views.
@@ -54,6 +60,7 @@ pub struct SessionFolder {
     root: PathBuf,
     journal: Journal,
     settings: CellSettings,
+    urdf: Option<Arc<Urdf>>,
     _lock: File,
 }
 
@@ -122,7 +129,8 @@ impl SessionFolder {
                 return Err(unusable(root, "is new: a session needs to know the cell (settings)"));
             }
         };
-        let folder = Self { root: root.into(), journal, settings, _lock: lock };
+        let urdf = arm::of(root, settings.arm.as_ref())?;
+        let folder = Self { root: root.into(), journal, settings, urdf, _lock: lock };
         folder.settle()?;
         Ok(folder)
     }
@@ -475,6 +483,7 @@ impl SessionFolder {
             has_scans: self.captures().iter().any(|c| c.scan.is_some()),
             has_touches: !touches.is_empty(),
             placements: self.placements(),
+            has_joints: self.has_joints(),
         };
         self.write_if_changed(MANIFEST, &manifest::text(&self.settings, &held))
     }
@@ -484,7 +493,11 @@ impl SessionFolder {
         let poses = poses.iter().map(|c| (&c.id[..], &c.base_from_flange));
         // as on the pendant: mistakes about these numbers can be found in them
         let writing = Writing::of(&self.settings.notation);
-        writing.map_or_else(|_| String::new(), |writing| writing.table(poses))
+        let table = writing.map_or_else(|_| String::new(), |writing| writing.table(poses));
+        match self.has_joints() {
+            true => self.with_joints(&table),
+            false => table,
+        }
     }
 
     /// The table of touches: that of poses, with placement and corner in front.

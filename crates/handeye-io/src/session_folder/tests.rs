@@ -32,6 +32,7 @@ fn settings(cell: &Cell) -> CellSettings {
         guess: None,
         tip_mm: None,
         scans: None,
+        arm: None,
     }
 }
 

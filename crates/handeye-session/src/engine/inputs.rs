@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use handeye::{Base, Flange, Pose};
-use handeye_io::{CellSettings, RefusedCapture, StoredCapture, StoredPlacement, StoredTouch};
+use handeye_io::{CellSettings, RefusedCapture, StoredCapture, StoredPlacement, StoredTouch, Urdf};
 
 use serde::Serialize;
 
@@ -127,6 +127,8 @@ pub struct FolderState {
     pub placements: Vec<StoredPlacement>,
     /// Corners that were touched.
     pub touches: Vec<StoredTouch>,
+    /// The robot's model.
+    pub arm: Option<Arc<Urdf>>,
 }
 
 /// What a session wants to be done.
@@ -179,6 +181,8 @@ pub enum Effect {
         not_near: Vec<Pose<Base, Flange>>,
         /// Whether a next view is wanted even where the captures are enough.
         goes_on: bool,
+        /// Joint values of now (rad, m), where the robot's model has some that lead to its pose.
+        joints: Option<Vec<f64>>,
     },
     /// Write the result.
     Write,

@@ -7,6 +7,7 @@
 //! What was confirmed lies in the folder already: an effect stores, its answer comes back as an input, and only then the
 //! capture is part of the state.
 
+mod arm;
 mod command;
 mod hand;
 mod inputs;
@@ -43,6 +44,7 @@ pub struct Engine {
     sources: Sources,
     folder: FolderState,
     robot: VecDeque<RobotSample>,
+    arm: arm::ArmNow,
     images: VecDeque<ImageSample>,
     memory: Memory,
     rest: Rest,
@@ -87,6 +89,7 @@ impl Engine {
     /// A session of a folder as it is; with captures it goes on with them.
     pub fn new(folder: FolderState, sources: Sources) -> (Self, Vec<Effect>) {
         let silent = || Motion::Moves("nothing has come yet".into());
+        let arm = arm::ArmNow::of_last_capture(&folder);
         let step = if folder.captures.is_empty() { Step::Cell } else { Step::Capture };
         let mut engine = Self {
             now: 0.0,
@@ -96,6 +99,7 @@ impl Engine {
             sources,
             folder,
             robot: VecDeque::new(),
+            arm,
             images: VecDeque::new(),
             memory: Memory::default(),
             rest: Rest {
@@ -230,7 +234,8 @@ impl Engine {
         let seen = self.folder.verification.iter().map(|view| view.base_from_flange);
         let not_near = self.skipped.iter().copied().chain(refused).chain(seen).collect();
         let goes_on = self.step == Step::Verify;
-        vec![Effect::Assess { generation: self.generation, not_near, goes_on }]
+        let joints = self.joints_now().map(<[f64]>::to_vec);
+        vec![Effect::Assess { generation: self.generation, not_near, goes_on, joints }]
     }
 
     fn assessed(

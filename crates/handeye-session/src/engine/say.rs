@@ -96,6 +96,9 @@ impl Engine {
         if silent > 2.0 && !typed {
             return proof(false, format!("no pose for {silent:.0} s"));
         }
+        if let Some(why) = self.arm_contradicts() {
+            return proof(false, why);
+        }
         let at = last.base_from_flange.translation() * 1e3;
         let place = format!("the flange is at x {:.1}, y {:.1}, z {:.1} mm", at.x, at.y, at.z);
         let far = at.norm() * 1e-3;

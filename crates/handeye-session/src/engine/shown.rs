@@ -33,6 +33,8 @@ pub struct State {
     pub cell: CellView,
     /// The robot.
     pub robot: RobotView,
+    /// Its model, where one was given.
+    pub arm: Option<ArmView>,
     /// The camera.
     pub camera: CameraView,
     /// The view to take next.
@@ -119,6 +121,22 @@ pub struct RobotView {
     pub joints_deg: Option<Vec<f64>>,
     /// Where the flange is.
     pub base_from_flange: Option<Pose<Base, Flange>>,
+}
+
+/// The robot's model.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct ArmView {
+    /// Names of its joints, from the base outwards.
+    pub joints: Vec<String>,
+    /// Their units, `°` or `mm`.
+    pub units: Vec<&'static str>,
+    /// Whether the robot gives its joint values; otherwise they are found by inverse kinematics, near those before.
+    pub measured: bool,
+    /// Where base, joints and flange are now, in the base, m; `None` where no joint values are known.
+    pub points: Option<Vec<[f64; 3]>>,
+    /// And at the next view.
+    pub next_points: Option<Vec<[f64; 3]>>,
 }
 
 /// The camera.

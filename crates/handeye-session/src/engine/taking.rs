@@ -64,6 +64,7 @@ impl Engine {
         }
         self.now = self.now.max(sample.time_s);
         self.problem.take_if(|problem| problem.is_of_robot());
+        self.follow_arm(&sample);
         self.robot.push_back(sample);
         while self.robot.len() > 1 && self.robot[0].time_s < self.now - KEPT_S {
             self.robot.pop_front();

@@ -29,7 +29,11 @@ impl Engine {
             step: self.step,
             steps: self.steps(),
             say: self.say(),
-            problem: self.problem.clone().or_else(|| self.late_images()),
+            problem: self
+                .problem
+                .clone()
+                .or_else(|| self.doubt_of_arm())
+                .or_else(|| self.late_images()),
             cell: CellView {
                 setup: settings.setup,
                 tolerance_mm: settings.tolerance_mm,
@@ -39,6 +43,7 @@ impl Engine {
                 is_virtual: self.sources.is_virtual,
             },
             robot: self.robot_view(writing.as_ref()),
+            arm: self.arm_view(),
             camera: self.camera_view(),
             next: self.next().map(|next| self.next_view(next, writing.as_ref())),
             taking: self
@@ -123,7 +128,9 @@ impl Engine {
             columns: writing.map_or(vec![], Writing::names),
             units: writing.map_or(vec![], Writing::units),
             numbers: writing.zip(pose).map_or(vec![], |(w, pose)| w.numbers(&pose)),
-            joints_deg: last.filter(|s| !s.joints.is_empty()).map(|s| degrees(&s.joints)),
+            joints_deg: last
+                .filter(|s| !s.joints.is_empty())
+                .map(|s| self.joint_numbers(&s.joints)),
             base_from_flange: pose,
         }
     }
@@ -169,7 +176,7 @@ impl Engine {
             columns: writing.map_or(vec![], Writing::names),
             units: writing.map_or(vec![], Writing::units),
             numbers: writing.map_or(vec![], |w| w.numbers(&pose)),
-            joints_deg: next.joints.as_deref().map(degrees),
+            joints_deg: self.joints_at(next).map(|values| self.joint_numbers(&values)),
             base_from_flange: pose,
             camera_from_target: next.camera_from_target,
             ghost: hull(&ghost_corners),
@@ -252,10 +259,6 @@ fn pixel(p: &handeye::nalgebra::Vector2<f64>) -> Pixel {
 
 fn arrow(r: &handeye::nalgebra::Vector2<f64>) -> Pixel {
     [r.x, r.y].map(|v| (v * 1e4).round() / 1e4)
-}
-
-fn degrees(joints: &[f64]) -> Vec<f64> {
-    joints.iter().map(|value| value.to_degrees()).collect()
 }
 
 fn directions(result: &Calibration) -> Vec<Direction> {

@@ -11,8 +11,9 @@ use handeye::{
     math::random::Random,
     nalgebra::{Matrix2, Rotation3, UnitQuaternion, Vector2, Vector3},
     simulate::{Cell, CellNoise, DepthSensor, Optics, Scene},
+    tools::plan::ArmReach,
 };
-use handeye_io::{CameraGuess, CellSettings};
+use handeye_io::{CameraGuess, CellSettings, Urdf};
 
 use super::mistakes::{Event, Mistake};
 use crate::engine::rest::RobotSample;
@@ -39,6 +40,14 @@ pub struct VirtualCell {
     places: Mutex<HandEye>,
     laid: Mutex<Laid>,
     start: Pose<Base, Flange>,
+    arm: Option<Mutex<VirtualArm>>,
+}
+
+/// The arm of a robot that gives joint values.
+struct VirtualArm {
+    urdf: Arc<Urdf>,
+    /// The last ones, rad or m.
+    joints: Vec<f64>,
 }
 
 /// A board that lies in the view of the camera.
@@ -118,7 +127,28 @@ impl VirtualCell {
         let places = Mutex::new(cell.hand_eye);
         let robot = Mutex::new(Robot { legs: vec![leg], random });
         let laid = Mutex::default();
-        Ok(Self { cell, faults, guess, robot, places, laid, start })
+        Ok(Self { cell, faults, guess, robot, places, laid, start, arm: None })
+    }
+
+    /// The same with a robot that gives joint values: those of this arm, where it reaches its poses.
+    #[must_use]
+    pub fn with_arm(self, urdf: Arc<Urdf>) -> Self {
+        let joints = ArmReach::joints_somewhere(urdf.arm(), urdf.limits(), &self.start);
+        Self {
+            arm: Some(Mutex::new(VirtualArm { urdf, joints: joints.unwrap_or_default() })),
+            ..self
+        }
+    }
+
+    /// Joint values (rad, m) at a pose, near those of before; none where the arm does not reach it, or there is none.
+    fn joints(&self, there: &Pose<Base, Flange>) -> Vec<f64> {
+        let Some(arm) = &self.arm else { return vec![] };
+        let mut arm = arm.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = arm.urdf.arm().inverse(there, &arm.joints);
+        if let Some(found) = &found {
+            arm.joints.clone_from(found);
+        }
+        found.unwrap_or_default()
     }
 
     /// What a person would know of it, or declare of it.
@@ -132,6 +162,7 @@ impl VirtualCell {
             guess: Some(self.guess),
             tip_mm: Some((self.cell.tip_in_flange.vector() * 1e3).into()),
             scans: None,
+            arm: None,
         };
         match &self.faults.mistake {
             Some(mistake) => mistake.declared(settings),
@@ -258,7 +289,8 @@ impl VirtualCell {
         let noisy = reported * noise;
         let base_from_flange =
             self.faults.mistake.as_ref().map_or(noisy, |mistake| mistake.reported(&noisy));
-        RobotSample { time_s: now, base_from_flange, typed: vec![], joints: vec![] }
+        let joints = self.joints(&base_from_flange);
+        RobotSample { time_s: now, base_from_flange, typed: vec![], joints }
     }
 
     /// Where the robot stood before it came here.

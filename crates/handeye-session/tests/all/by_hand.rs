@@ -33,6 +33,7 @@ impl Bench {
             refused: vec![],
             placements: vec![],
             touches: vec![],
+            arm: None,
         };
         let by_hand =
             Sources { robot: Flow::Single, camera: Flow::Single, takes_images, is_virtual: false };
@@ -176,6 +177,7 @@ fn nothing_is_finished_while_a_capture_may_still_say_that_something_moved() {
         refused: vec![],
         placements: vec![],
         touches: vec![],
+        arm: None,
     };
     let effects = bench.engine.step(Input::Folder(Box::new(folder))).unwrap();
     bench.stored();
@@ -221,6 +223,7 @@ fn at_touches(takes_images: bool) -> Bench {
         refused: vec![],
         placements: vec![],
         touches: vec![],
+        arm: None,
     };
     let sources =
         Sources { robot: Flow::Single, camera: Flow::Single, takes_images, is_virtual: false };
@@ -283,6 +286,7 @@ impl Streaming {
             refused: vec![],
             placements: vec![],
             touches: vec![],
+            arm: None,
         };
         let sources =
             Sources { robot: Flow::Stream, camera: Flow::Single, takes_images, is_virtual: false };

@@ -33,6 +33,7 @@ fn eight_hours_of_poses_and_images_take_no_memory() {
         refused: vec![],
         touches: vec![],
         placements: vec![],
+        arm: None,
     };
     let mut engine = Engine::new(folder, Sources::VIRTUAL).0;
     let mut random = Random::new(1);

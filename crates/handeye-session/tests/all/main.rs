@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails loudly")]
 #![allow(clippy::result_large_err, reason = "an error ends the test: its size costs nothing")]
 
+mod arm;
 mod by_hand;
 mod corrected;
 mod faults;

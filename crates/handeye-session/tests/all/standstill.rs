@@ -32,6 +32,7 @@ impl Trial {
             refused: vec![],
             placements: vec![],
             touches: vec![],
+            arm: None,
         };
         let engine = Engine::new(folder, Sources::VIRTUAL).0;
         let mut trial = Self { cell, engine, random: Random::new(seed), now: 0.0, frame: 0 };

@@ -1,5 +1,6 @@
-// The cell in 3D: robot, camera, target, the captures so far and the next view. It is an illustration: the arm stands for the
-// robot, whose joints are not known here. Drawn only when something has changed.
+// The cell in 3D: robot, camera, target, the captures so far and the next view. With the robot's model the arm is drawn
+// through its joints, and faintly where the next view is; without it an arm stands for the robot, whose joints are not known.
+// Drawn only when something has changed.
 
 import {
   Color,
@@ -21,14 +22,15 @@ import type { App, Part } from "./app";
 import { button } from "./controls";
 import { h, show } from "./dom";
 import { Orbit } from "./orbit";
-import { axes, boardShape, cameraShape, edgesAt, elbow, halfView, lines, matrix, pyramid, rim, span, tripod } from "./shapes";
-import { takesCaptures, type Maybe, type Pose, type State } from "./state";
+import { ArmShape, axes, boardShape, cameraShape, edgesAt, elbow, halfView, lines, matrix, pyramid, rim, span, tripod } from "./shapes";
+import { takesCaptures, type Maybe, type Point, type Pose, type State } from "./state";
 import { extent } from "./targets";
 import { named, said } from "./words";
 
 const PYRAMID = 0.14; // m
 const SMALL_PYRAMID = 0.07;
 const GRID = 0.1; // m between the lines of the floor
+const GHOST = 0.22; // opacity of the arm at the next view
 
 interface Looks {
   paper: string;
@@ -113,6 +115,9 @@ class Drawing {
   private readonly links: Mesh[];
   private readonly joints: Mesh[];
   private readonly armLook = new MeshLambertMaterial({ color: "#9aa7b8" });
+  private readonly ghostLook = new MeshLambertMaterial({ transparent: true, opacity: GHOST, depthWrite: false });
+  private readonly model = new ArmShape(this.armLook);
+  private readonly ghost = new ArmShape(this.ghostLook);
   private looks: Looks = looks();
   private reach = 1;
   private readonly bend = new Vector3(0, 0, 0.6);
@@ -128,7 +133,7 @@ class Drawing {
     const sun = new DirectionalLight("#ffffff", 2);
     sun.position.set(1, -1.5, 3);
     this.scene.add(new HemisphereLight("#ffffff", "#8a93a0", 2), sun, axes(0.2), this.flange);
-    this.scene.add(...this.links, ...this.joints, ...Object.values(this.pieces).map((piece) => piece.group));
+    this.scene.add(this.model.group, this.ghost.group, ...this.links, ...this.joints, ...Object.values(this.pieces).map((piece) => piece.group));
     new ResizeObserver(() => this.draw()).observe(element);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       this.looks = looks();
@@ -141,7 +146,8 @@ class Drawing {
     const here = placesAt(state, state.robot?.base_from_flange);
     const there = takesCaptures(state) ? placesAt(state, state.next?.base_from_flange) : { camera: null, target: null };
     this.floor();
-    this.arm(state.robot?.base_from_flange);
+    this.arm(state.robot?.base_from_flange, state.arm?.points);
+    this.ghost.update(takesCaptures(state) ? state.arm?.next_points : null);
     this.board(state, here.target);
     this.camera(state, here.camera);
     this.next(state, there);
@@ -157,17 +163,23 @@ class Drawing {
       for (let at = -half; at <= half + 1e-9; at += GRID) grid.push(-half, at, 0, half, at, 0, at, -half, 0, at, half, 0);
       this.scene.background = new Color(this.looks.paper);
       this.armLook.color.set(this.looks.arm);
+      this.ghostLook.color.set(this.looks.next);
       return [lines(grid, this.looks.line)];
     });
   }
 
-  private arm(pose: Maybe<Pose>): void {
-    for (const mesh of [...this.links, ...this.joints]) mesh.visible = Boolean(pose);
+  private arm(pose: Maybe<Pose>, points: Maybe<Point[]>): void {
+    this.model.update(points);
+    for (const mesh of [...this.links, ...this.joints]) mesh.visible = Boolean(pose) && !points;
     this.flange.visible = Boolean(pose);
     if (!pose) return;
     const flange = matrix(pose);
     this.flange.matrixAutoUpdate = false;
     this.flange.matrix.copy(flange);
+    if (points) {
+      this.bend.copy(highest(points));
+      return;
+    }
     const end = new Vector3().setFromMatrixPosition(flange);
     const wrist = new Vector3(0, 0, -0.12).applyMatrix4(flange);
     const shoulder = new Vector3(0, 0, 0.25);
@@ -257,6 +269,10 @@ class Drawing {
       this.renderer.render(this.scene, this.eye);
     });
   }
+}
+
+function highest(points: Point[]): Vector3 {
+  return points.map((point) => new Vector3(...point)).reduce((a, b) => (b.z > a.z ? b : a), new Vector3());
 }
 
 function put(group: Group, place: Matrix4 | null): void {

@@ -57,7 +57,7 @@ function digits(state: State, joints: boolean): Digit[] {
   const now = wanted && !robot?.typed ? (joints ? robot?.joints_deg : robot?.numbers) : null;
   const names = joints ? values.map((_, i) => `J${i + 1}`) : shown.columns;
   const count = values.length || (names?.length ?? 0);
-  const units = joints ? values.map(() => "°") : shown.units;
+  const units = joints ? values.map((_, i) => state.arm?.units?.[i] ?? "°") : shown.units;
   return columns(names, count, cell?.notation, units).map((column, i) => ({
     ...column,
     digits: joints ? 2 : column.digits,
@@ -72,6 +72,7 @@ export function makePosePanel(app: App): Part {
   const gain = h("p", { class: "gain" });
   const numbers = h("dl", { class: "digits" });
   const draw = list<Digit & { key: string }>(numbers, (digit) => digit.key, digitRow);
+  const beside = h("p", { class: "joint-values" });
   const joints = h("button", { type: "button" }, said(h("span"), "joints"));
   joints.addEventListener("click", () => app.choose({ joints: !app.choices.joints }));
   const other = button("other_view", () => skip(app), { icon: "skip" });
@@ -81,6 +82,7 @@ export function makePosePanel(app: App): Part {
     { class: "pose" },
     h("div", { class: "top" }, title, off),
     numbers,
+    beside,
     typing.element,
     h("div", { class: "foot" }, gain, joints, other),
   );
@@ -99,6 +101,7 @@ export function makePosePanel(app: App): Part {
       const shown = digits(state, app.choices.joints && hasJoints);
       draw(shown.map((digit, i) => ({ ...digit, key: `${i} ${digit.name}` })));
       kind(numbers, "many", shown.length > 9);
+      text(beside, hasJoints && !app.choices.joints ? jointText(state) : "");
       show(joints, hasJoints);
       attribute(joints, "aria-pressed", String(app.choices.joints));
       show(other, Boolean(next));
@@ -106,6 +109,15 @@ export function makePosePanel(app: App): Part {
       show(typing.element, state.robot?.typed === true && (takesCaptures(state) || state.step === "touch"));
     },
   };
+}
+
+const JOINT_DIGITS = 1;
+
+/** The joint values of the view, beside its pose. */
+function jointText(state: State): string {
+  const shown = (takesCaptures(state) ? state.next : null) ?? state.robot;
+  const value = (joint: number, i: number) => `J${i + 1} ${joint.toFixed(JOINT_DIGITS)} ${state.arm?.units?.[i] ?? "°"}`;
+  return (shown?.joints_deg ?? []).map(value).join("  ");
 }
 
 function offText(state: State): string {

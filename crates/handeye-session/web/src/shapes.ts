@@ -9,6 +9,7 @@ import {
   Group,
   LineBasicMaterial,
   LineSegments,
+  type Material,
   Matrix4,
   Mesh,
   MeshBasicMaterial,
@@ -148,6 +149,37 @@ export function span(mesh: Mesh, from: Vector3, to: Vector3): void {
   mesh.position.addVectors(from, to).multiplyScalar(0.5);
   mesh.scale.set(1, Math.max(way.length(), 1e-6), 1);
   mesh.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), way.normalize());
+}
+
+const TUBE = 0.035; // m, radius of a link
+const LEAST_LINK = 1e-3; // m between two joints that have a link
+
+/** An arm through the points of its joints: a tube for each link, a ball for each joint. */
+export class ArmShape {
+  readonly group = new Group();
+  private readonly tube = new CylinderGeometry(TUBE, TUBE, 1, 20);
+  private readonly ball = new SphereGeometry(TUBE * 1.25, 20, 14);
+  private readonly parts: { joint: Mesh; link: Mesh }[] = [];
+
+  constructor(private readonly look: Material) {}
+
+  /** Draws it through these points of the base, from the base to the flange; without any it is not drawn. */
+  update(points: Maybe<[number, number, number][]>): void {
+    const at = (points ?? []).map((point) => new Vector3(...point));
+    while (this.parts.length < at.length - 1) {
+      const part = { joint: new Mesh(this.ball, this.look), link: new Mesh(this.tube, this.look) };
+      this.group.add(part.joint, part.link);
+      this.parts.push(part);
+    }
+    this.parts.forEach(({ joint, link }, i) => {
+      const [from, to] = [at[i], at[i + 1]];
+      joint.visible = Boolean(from && to);
+      link.visible = Boolean(from && to && from.distanceTo(to) > LEAST_LINK);
+      if (!from || !to) return;
+      joint.position.copy(from);
+      if (link.visible) span(link, from, to);
+    });
+  }
 }
 
 /** The elbow of two equal links, above the line from shoulder to wrist. */

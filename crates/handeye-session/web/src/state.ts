@@ -72,6 +72,17 @@ export interface Robot {
   base_from_flange?: Maybe<Pose>;
 }
 
+/** The robot's model. */
+export interface Arm {
+  joints?: string[]; // their names
+  units?: string[];
+  measured?: boolean; // whether the robot gives its joint values
+  points?: Maybe<Point[]>; // base, joints and flange, in the base, m
+  next_points?: Maybe<Point[]>; // at the next view
+}
+
+export type Point = [number, number, number];
+
 export interface Camera {
   connected?: boolean;
   single?: boolean; // its pictures come one by one
@@ -220,6 +231,7 @@ export interface State {
   problem?: Maybe<Problem>;
   cell?: Maybe<Cell>;
   robot?: Maybe<Robot>;
+  arm?: Maybe<Arm>;
   camera?: Maybe<Camera>;
   next?: Maybe<Next>;
   taking?: Maybe<{ since_s?: number; why?: Maybe<string> }>;

@@ -22,7 +22,7 @@ use crate::{
     findings::RobotFinding,
     math::lie,
     model::{
-        kinematics::{Arm, Deviation},
+        kinematics::{Arm, CONSISTENT, Deviation},
         residual::Residual,
     },
 };
@@ -55,8 +55,6 @@ const FACTORS: [f64; 3] = [1.0, 4.0, 16.0];
 const GAIN: f64 = 6.0;
 /// What was left out may be missed by this factor more, no more: noise.
 const HELD_OUT_SLACK: f64 = 1.02;
-/// A flange that is farther from where the model puts it belongs to other joint values.
-const CONSISTENT: Residual = Residual { angle: 0.03, distance: 20e-3 };
 /// Rounds of linearising the deviations.
 const ROUNDS: usize = 3;
 /// The deviations are found when none moves by more than this part of its standard deviation.
@@ -269,9 +267,7 @@ fn corrected(flange: &Pose<Base, Flange>, correction: &Pose<Flange, Flange>) -> 
 /// Refuses joint values that do not lead to the flange poses beside them.
 fn consistent(views: &Views, model: &Arm) -> Result<(), RobotFinding> {
     let apart = |joints: &[f64], flange: &Pose<Base, Flange>| {
-        let there = model.base_from_flange(joints);
-        let apart = Residual::between(&there, flange);
-        apart.distance > CONSISTENT.distance || apart.angle > CONSISTENT.angle
+        !Residual::between(&model.base_from_flange(joints), flange).is_within(CONSISTENT)
     };
     let differ = |at: String| RobotFinding::JointsAndPosesDiffer { at };
     let of_view = |o: &&&Observation| apart(&o.joints, &o.base_from_flange);

@@ -22,6 +22,7 @@ use crate::{
     Base, Error, Flange, Pose,
     frame::{FirstJoint, LastLink},
     math::lie,
+    model::residual::Residual,
 };
 
 /// Which of a link's transforms comes first.
@@ -117,6 +118,8 @@ pub struct Deviation {
 
 /// Most joints of an arm.
 pub const MOST_JOINTS: usize = 32;
+/// A flange that is farther from where the model puts it belongs to other joint values, or to another arm.
+pub const CONSISTENT: Residual = Residual { angle: 0.03, distance: 20e-3 };
 /// Axes that differ less in direction count as parallel, rad.
 const PARALLEL: f64 = 0.1;
 
