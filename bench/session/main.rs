@@ -10,7 +10,7 @@ use std::{env, fs, path::PathBuf, time::Instant};
 use handeye::{Camera, Intrinsics, Point, Pose, Setup, Target, simulate::Cell};
 use handeye_io::{SessionFolder, small_jpeg};
 use handeye_session::{
-    assess::{Measured, assess},
+    assess::{Measured, NextWanted, assess},
     engine::{Command, Destination, Step},
     host::Host,
     script::Player,
@@ -79,10 +79,10 @@ fn assessment_s(setup: Setup, seed: u64) -> f64 {
         .map(|_| {
             let mut before = Measured::default();
             folder.delete(&newest).expect("a capture that is deleted");
-            assess(&folder, &mut before, (&[], false, None)).expect("an assessment");
+            assess(&folder, &mut before, NextWanted::default()).expect("an assessment");
             folder.restore(&newest).expect("a capture that is restored");
             let begin = Instant::now();
-            assess(&folder, &mut before, (&[], false, None)).expect("an assessment");
+            assess(&folder, &mut before, NextWanted::default()).expect("an assessment");
             begin.elapsed().as_secs_f64()
         })
         .collect();

@@ -80,16 +80,26 @@ pub struct ProposedView {
     pub after_mm: Option<f64>,
 }
 
-/// Assesses a folder with captures; `not_near` are poses that nobody goes to (again). Where another view is wanted although
-/// the captures are enough, as one that verifies them, `goes_on` is set. With the joint values of now (rad, m) the next view is
-/// one that the arm of the folder's model reaches; without them it is near poses that were reached.
+/// What the next view is to be like.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NextWanted<'a> {
+    /// Poses that nobody goes to (again).
+    pub not_near: &'a [Pose<Base, Flange>],
+    /// Whether one is wanted although the captures are enough, as one that verifies them.
+    pub goes_on: bool,
+    /// The joint values of now (rad, m): it is one then that the arm of the folder's model reaches. Without them it is near
+    /// poses that were reached.
+    pub joints: Option<&'a [f64]>,
+}
+
+/// Assesses a folder with captures.
 ///
 /// # Errors
 /// A folder that cannot be read.
 pub fn assess(
     folder: &SessionFolder,
     before: &mut Measured,
-    (not_near, goes_on, joints): (&[Pose<Base, Flange>], bool, Option<&[f64]>),
+    NextWanted { not_near, goes_on, joints }: NextWanted,
 ) -> Result<Assessment, Error> {
     let dataset = folder.dataset()?;
     let measured = measure::measure_again(&dataset, &mut before.captures, &|_, _| {})?;

@@ -11,7 +11,7 @@ use handeye_io::{
 };
 
 use crate::{
-    assess::{Measured, assess},
+    assess::{Measured, NextWanted, assess},
     engine::{Effect, FolderState, Input, Written, rest::RobotSample},
     sources::{
         outlet::{CameraImage, StoredFile},
@@ -104,7 +104,7 @@ impl Host {
                 self.changed(done)
             }
             Effect::Assess { generation, not_near, goes_on, joints } => {
-                let wanted = (&not_near[..], goes_on, joints.as_deref());
+                let wanted = NextWanted { not_near: &not_near, goes_on, joints: joints.as_deref() };
                 let assessment = assess(&self.folder, &mut self.measured, wanted);
                 let assessment = assessment.map(Arc::new).map_err(|e| e.to_string());
                 vec![Input::Assessed { generation, assessment }]
