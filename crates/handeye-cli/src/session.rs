@@ -63,7 +63,7 @@ pub struct SessionArgs {
     pub upload: bool,
     /// A scan comes with each image, in m, cm, mm or inch: beside it in the folder under the same name, or written by the
     /// command to {scan} (PLY), {scan.pcd} and the like.
-    #[arg(long, value_name = "UNIT", conflicts_with_all = ["seed", "upload"])]
+    #[arg(long, value_name = "UNIT", hide_possible_values = true, conflicts_with_all = ["seed", "upload"])]
     pub scan_unit: Option<Length>,
     /// A depth image comes with each image likewise ({scan.tif}, {scan.npy}): metres per unit of depth.
     #[arg(long, value_name = "METRES", conflicts_with_all = ["seed", "upload"])]

@@ -108,7 +108,8 @@ fn a_session_goes_on_where_it_was() {
     assert_eq!(folder.settings(), &settings(&cell));
     assert_eq!(take(&mut folder, &recording, &[2]), ["003"]);
     let other = CellSettings { setup: Setup::EyeToHand, ..settings(&cell) };
-    assert!(folder.set(&other).unwrap_err().to_string().contains("begin a session in a new"));
+    let why = folder.is_of_cell(&other).unwrap_err().to_string();
+    assert!(why.contains("begin a session in a new folder"), "{why}");
     folder.set(&CellSettings { tolerance_mm: 0.4, ..settings(&cell) }).unwrap();
     assert_eq!(folder.dataset().unwrap().limits.max_error, Some(0.4e-3));
     fs::remove_dir_all(root).unwrap();

@@ -163,7 +163,8 @@ impl Serving {
         let script = r#"[{"do": "confirm", "step": "cell"}, {"do": "confirm", "step": "camera"},
             {"do": "confirm", "step": "robot"}, {"do": "confirm", "step": "board"}, {"do": "take"},
             {"repeat": [{"do": "drive", "to": "next"}, {"do": "take"}], "until": "enough", "most": 30},
-            {"do": "go", "step": "touch"}, {"do": "drive", "to": "touch"}, {"wait_s": 5}, {"do": "touch"},
+            {"do": "cell", "tolerance_mm": 0.2}, {"do": "go", "step": "touch"}, {"do": "drive", "to": "touch"},
+            {"wait_s": 5}, {"do": "touch"},
             {"do": "delete", "id": "002"}, {"do": "restore", "id": "002"}, {"do": "delete", "id": "001"},
             {"do": "restore", "id": "001"}, {"do": "finish"}]"#;
         player.play(&serde_json::from_str::<Vec<Action>>(script).unwrap()).unwrap();

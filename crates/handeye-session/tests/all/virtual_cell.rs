@@ -90,7 +90,7 @@ fn captures_are_deleted_restored_undone_and_skipped() {
         (Command::Restore { id: "001".into() }, "no deleted capture 001"),
         (Command::Go { step: Step::Result }, "not open yet"),
         (Command::Cell { setup: None, tolerance_mm: Some(-1.0) }, "positive"),
-        (Command::Cell { setup: Some(Setup::EyeToHand), tolerance_mm: None }, "new folder"),
+        (Command::Cell { setup: Some(Setup::EyeToHand), tolerance_mm: None }, "its own setup"),
         (Command::Notation { name: "robo".into(), reread: false }, "there are matrix4x4"),
         (Command::Pose { text: "1 2 3".into() }, "none are typed"),
     ] {
