@@ -14,7 +14,7 @@ use std::{
 use handeye::Setup;
 use handeye_io::SessionFolder;
 use handeye_session::{
-    engine::Command,
+    engine::{Command, Step},
     host::Host,
     live::{Cell, Live},
     script::{Action, Player},
@@ -163,8 +163,7 @@ impl Serving {
         let script = r#"[{"do": "confirm", "step": "cell"}, {"do": "confirm", "step": "camera"},
             {"do": "confirm", "step": "robot"}, {"do": "confirm", "step": "board"}, {"do": "take"},
             {"repeat": [{"do": "drive", "to": "next"}, {"do": "take"}], "until": "enough", "most": 30},
-            {"do": "cell", "tolerance_mm": 0.2}, {"do": "go", "step": "touch"}, {"do": "drive", "to": "touch"},
-            {"wait_s": 5}, {"do": "touch"},
+            {"do": "go", "step": "touch"}, {"do": "drive", "to": "touch"}, {"wait_s": 5}, {"do": "touch"},
             {"do": "delete", "id": "002"}, {"do": "restore", "id": "002"}, {"do": "delete", "id": "001"},
             {"do": "restore", "id": "001"}, {"do": "finish"}]"#;
         player.play(&serde_json::from_str::<Vec<Action>>(script).unwrap()).unwrap();
@@ -230,11 +229,16 @@ fn described(operation: &Value, answer: &Answer, at: &str) {
     }
 }
 
-/// Waits until the captures are assessed and an image has come.
+/// Waits until the captures are assessed, an image has come, and there is a next view: one that verifies the captures.
 fn settled(live: &Live) {
+    let state = || -> Value { serde_json::from_str(&live.shown().borrow().json).unwrap() };
+    while live.command_blocking(Command::Go { step: Step::Verify }).is_err() {
+        thread::sleep(Duration::from_millis(50));
+    }
     let is_ready = || {
-        let state: Value = serde_json::from_str(&live.shown().borrow().json).unwrap();
-        state["progress"].is_object() && state["camera"]["found"].is_string()
+        let state = state();
+        let all = ["progress", "next"].iter().all(|part| state[part].is_object());
+        all && state["camera"]["found"].is_string()
     };
     while !is_ready() {
         thread::sleep(Duration::from_millis(50));
