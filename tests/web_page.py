@@ -46,7 +46,8 @@ def same(a, b, path=""):
         return max((same(x, y, f"{path}/{k}") for k, (x, y) in enumerate(zip(a, b))), default=0.0)
     if isinstance(a, float) and isinstance(b, float):
         # in metres and radians; of large numbers, such as a condition, the part that is off
-        unit = 1e-3 if "_mm" in path else math.radians(1.0) if "_deg" in path else 1.0
+        # a probability is of differences of micrometres: what those are off, it is a thousand times
+        unit = 1e-3 if "_mm" in path or path.endswith("/chance") else math.radians(1.0) if "_deg" in path else 1.0
         return unit * abs(a - b) / max(1.0, unit * abs(b)) if math.isfinite(a - b) else float(a != b)
     assert a == b, (path, a, b)
     return 0.0
