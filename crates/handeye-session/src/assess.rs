@@ -143,9 +143,9 @@ pub fn assess(
     })
 }
 
-/// Joint values (rad, m) in degrees, and millimetres of those that slide.
+/// Joint values (rad, m) in degrees, and millimetres of prismatic joints.
 pub fn joint_numbers(values: &[f64], urdf: &Urdf) -> Vec<f64> {
-    let number = |(value, slides): (&f64, bool)| match slides {
+    let number = |(value, is_prismatic): (&f64, bool)| match is_prismatic {
         true => value * 1e3,
         false => value.to_degrees(),
     };

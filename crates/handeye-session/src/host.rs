@@ -130,16 +130,14 @@ impl Host {
         let Some(image) = image else {
             return vec![Input::Stored(Err("the image is gone: take the capture again".into()))];
         };
-        let own = image.file.as_ref().map(file);
-        let made = own.is_none().then(|| simulated::picture(&image.grey));
-        let made = made.as_ref().map(|png| ("png", &png[..]));
+        let picture = stored_picture(&image);
         let capture = NewCapture {
             base_from_flange: robot.base_from_flange,
             typed: &robot.typed,
             joints: &robot.joints,
             robot_time_s: Some(robot.time_s),
             image_time_s: Some(image_time_s),
-            image: own.or(made),
+            image: Some(file(&picture)),
             scan: image.scan.as_ref().map(file),
         };
         let stored = match verifies {
@@ -155,12 +153,10 @@ impl Host {
         let Some(image) = image else {
             return vec![Input::Stored(Err("the image is gone: take it again".into()))];
         };
-        let own = image.file.as_ref().map(file);
-        let made = own.is_none().then(|| simulated::picture(&image.grey));
-        let made = made.as_ref().map(|png| ("png", &png[..]));
+        let picture = stored_picture(&image);
         let stored = self.folder.place(&NewPlacement {
             image_time_s: Some(image_time_s),
-            image: own.or(made),
+            image: Some(file(&picture)),
             scan: image.scan.as_ref().map(file),
         });
         let stored = stored.map_err(|e| e.to_string());
@@ -200,6 +196,12 @@ pub struct Finished {
     pub dataset: Dataset,
     /// What was measured in it.
     pub session: Session,
+}
+
+/// The file of an image: the camera's own, where there is one.
+fn stored_picture(image: &CameraImage) -> StoredFile {
+    let made = || ("png".into(), simulated::picture(&image.grey).into());
+    image.file.clone().unwrap_or_else(made)
 }
 
 /// A file as the folder takes it.

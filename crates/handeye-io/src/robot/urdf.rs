@@ -119,7 +119,7 @@ impl Urdf {
         &self.limits
     }
 
-    /// Which of its joints slide.
+    /// Which of its joints are prismatic.
     pub fn prismatic(&self) -> Vec<bool> {
         self.arm.joints.iter().map(|joint| joint.prismatic).collect()
     }

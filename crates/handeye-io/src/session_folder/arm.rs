@@ -59,7 +59,7 @@ impl SessionFolder {
         let Some(urdf) = &self.urdf else { return poses.into() };
         let Ok(notation) = Notation::named(&self.settings.notation) else { return poses.into() };
         let prismatic = urdf.prismatic();
-        let value = |(value, slides): (&f64, &bool)| match slides {
+        let value = |(value, is_prismatic): (&f64, &bool)| match is_prismatic {
             true => format!(",{value:.9}"),
             false => format!(",{:.9}", notation.angle_unit.from_radians(*value)),
         };

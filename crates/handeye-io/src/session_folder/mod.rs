@@ -224,7 +224,7 @@ impl SessionFolder {
             true => Ok(()),
             false => Err(unusable(
                 &self.root,
-                "has captures of another camera, board or setup: begin a session in a new folder, or change what is wrong on the page of this session",
+                "has captures of another camera, board or setup, or scans in another unit: begin a session in a new folder, or change what is wrong on the page of this session",
             )),
         }
     }

@@ -125,7 +125,7 @@ impl Engine {
 
     pub(super) fn arm_view(&self) -> Option<ArmView> {
         let urdf = self.folder.arm.as_ref()?;
-        let unit = |slides: bool| if slides { "mm" } else { "°" };
+        let unit = |is_prismatic: bool| if is_prismatic { "mm" } else { "°" };
         let points = |values: &[f64]| urdf.points(values).iter().map(point).collect();
         let next = self.next().and_then(|next| self.joints_at(next));
         Some(ArmView {

@@ -15,7 +15,7 @@ use crate::assess::MeasuredCapture;
 
 /// A board nearer than this to where the carried one is expected is the carried one, mm.
 const CARRIED_MM: f64 = 5.0;
-/// So many touches of a placement, then another one tells more.
+/// So many touches of a placement, then another one brings more.
 const ENOUGH_TOUCHES: usize = 4;
 
 /// A board that somebody has laid into the view of a virtual cell's camera.
