@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use handeye_io::units::LengthUnit;
+use handeye_io::{plan::UrdfOption, units::LengthUnit};
 
 use crate::boards::Board;
 
@@ -348,6 +348,31 @@ pub struct ViewArgs {
     /// How the scans are read.
     #[command(flatten)]
     pub reading: Reading,
+}
+
+/// The model of a robot's arm.
+#[derive(Args)]
+pub struct ArmArgs {
+    /// The robot's URDF: joint values within limits, and no collisions of its links.
+    #[arg(long, value_name = "FILE")]
+    pub urdf: Option<PathBuf>,
+    /// The URDF's link that is the robot's base.
+    #[arg(long, value_name = "LINK", default_value = "base_link", requires = "urdf")]
+    pub base_link: String,
+    /// The URDF's link that is the robot's flange.
+    #[arg(long, value_name = "LINK", default_value = "tool0", requires = "urdf")]
+    pub flange_link: String,
+}
+
+impl ArmArgs {
+    /// What it names.
+    pub fn option(&self) -> Option<UrdfOption> {
+        self.urdf.clone().map(|file| UrdfOption {
+            file,
+            base: self.base_link.clone(),
+            flange: self.flange_link.clone(),
+        })
+    }
 }
 
 /// A unit of length.

@@ -9,12 +9,17 @@ use handeye::{
 };
 use handeye_io::{
     Dataset, Writing,
-    plan::{self, CellPlan, Maker, PlanOptions, UrdfOption},
+    plan::{self, CellPlan, Maker, PlanOptions},
     write_atomically,
 };
 use serde_json::{Value, json};
 
-use crate::{args::GlobalArgs, failure::Failure, output, progress::Progress};
+use crate::{
+    args::{ArmArgs, GlobalArgs},
+    failure::Failure,
+    output,
+    progress::Progress,
+};
 
 /// Arguments of `plan`.
 #[derive(Args)]
@@ -45,15 +50,9 @@ pub struct PlanArgs {
     /// Corners to touch as well.
     #[arg(long)]
     pub touches: bool,
-    /// The robot's URDF: joint values within limits, and no collisions of its links.
-    #[arg(long, value_name = "FILE")]
-    pub urdf: Option<PathBuf>,
-    /// The URDF's link that is the robot's base.
-    #[arg(long, value_name = "LINK", default_value = "base_link", requires = "urdf")]
-    pub base_link: String,
-    /// The URDF's link that is the robot's flange.
-    #[arg(long, value_name = "LINK", default_value = "tool0", requires = "urdf")]
-    pub flange_link: String,
+    /// The robot's model.
+    #[command(flatten)]
+    pub arm: ArmArgs,
     /// Joint values now, degrees or mm, separated by commas [default: those of the last capture].
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true, value_name = "DEG")]
     pub joints: Option<Vec<f64>>,
@@ -126,11 +125,7 @@ fn options(args: &PlanArgs, dataset: &Dataset) -> Result<PlanOptions, Failure> {
             "tolerance and distances are positive numbers of millimetres".into(),
         ));
     }
-    let urdf = args.urdf.clone().map(|file| UrdfOption {
-        file,
-        base: args.base_link.clone(),
-        flange: args.flange_link.clone(),
-    });
+    let urdf = args.arm.option();
     let metres = |mm: f64| mm * 1e-3;
     Ok(PlanOptions {
         count: if args.next { 1 } else { args.count.into() },

@@ -26,7 +26,7 @@ use handeye_session::{
 };
 
 use crate::{
-    args::{GlobalArgs, Length},
+    args::{ArmArgs, GlobalArgs, Length},
     browser,
     failure::Failure,
     output,
@@ -103,15 +103,9 @@ pub struct SessionArgs {
     /// 233 10 20 -170`.
     #[arg(long, value_name = "ADDRESS:PORT", conflicts_with = "seed")]
     pub robot: Option<SocketAddr>,
-    /// The robot's URDF: next views are within joint limits and without collisions of links; it is copied into the folder.
-    #[arg(long, value_name = "FILE")]
-    pub urdf: Option<PathBuf>,
-    /// The URDF's link that is the robot's base.
-    #[arg(long, value_name = "LINK", default_value = "base_link", requires = "urdf")]
-    pub base_link: String,
-    /// The URDF's link that is the robot's flange.
-    #[arg(long, value_name = "LINK", default_value = "tool0", requires = "urdf")]
-    pub flange_link: String,
+    /// The robot's model; it is copied into the folder.
+    #[command(flatten)]
+    pub arm: ArmArgs,
     /// Do not open a browser.
     #[arg(long)]
     pub no_open: bool,
@@ -136,7 +130,7 @@ pub fn run(args: &SessionArgs, global: &GlobalArgs) -> Result<u8, Failure> {
         .folder
         .clone()
         .unwrap_or_else(|| temporary_folder().join(format!("handeye-session-{}", process())));
-    let urdf = urdf(args);
+    let urdf = args.arm.option();
     // what is wrong in it is said before a folder is begun
     urdf.as_ref().map(UrdfOption::read).transpose()?;
     let cell = cell(args)?;
@@ -192,15 +186,6 @@ fn scans_fit(args: &SessionArgs, host: &Host) -> Result<(), Failure> {
             _ => Ok(()),
         },
     }
-}
-
-/// The robot's model.
-fn urdf(args: &SessionArgs) -> Option<UrdfOption> {
-    args.urdf.clone().map(|file| UrdfOption {
-        file,
-        base: args.base_link.clone(),
-        flange: args.flange_link.clone(),
-    })
 }
 
 /// Where poses and images come from.

@@ -131,6 +131,22 @@ pub struct FolderState {
     pub arm: Option<Arc<Urdf>>,
 }
 
+impl FolderState {
+    /// A folder in which nothing was done yet.
+    pub fn new(settings: CellSettings) -> Self {
+        Self {
+            settings,
+            captures: vec![],
+            verification: vec![],
+            deleted: vec![],
+            refused: vec![],
+            placements: vec![],
+            touches: vec![],
+            arm: None,
+        }
+    }
+}
+
 /// What a session wants to be done.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Effect {

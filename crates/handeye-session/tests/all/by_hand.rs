@@ -25,16 +25,7 @@ impl Bench {
     fn new(takes_images: bool) -> Self {
         let cell = VirtualCell::new(Setup::EyeInHand, 1, Faults::default()).unwrap();
         let settings = CellSettings { notation: "kuka".into(), ..cell.settings() };
-        let folder = FolderState {
-            settings,
-            captures: vec![],
-            verification: vec![],
-            deleted: vec![],
-            refused: vec![],
-            placements: vec![],
-            touches: vec![],
-            arm: None,
-        };
+        let folder = FolderState::new(settings);
         let by_hand =
             Sources { robot: Flow::Single, camera: Flow::Single, takes_images, is_virtual: false };
         let engine = Engine::new(folder, by_hand).0;
@@ -169,16 +160,8 @@ fn nothing_is_finished_while_a_capture_may_still_say_that_something_moved() {
         robot_time_s: None,
         image_time_s: None,
     };
-    let folder = FolderState {
-        settings: bench.engine.settings().clone(),
-        captures: vec![stored],
-        verification: vec![],
-        deleted: vec![],
-        refused: vec![],
-        placements: vec![],
-        touches: vec![],
-        arm: None,
-    };
+    let folder =
+        FolderState { captures: vec![stored], ..FolderState::new(bench.engine.settings().clone()) };
     let effects = bench.engine.step(Input::Folder(Box::new(folder))).unwrap();
     bench.stored();
     let why = bench.engine.step(finish()).unwrap_err().to_string();
@@ -216,14 +199,11 @@ fn at_touches(takes_images: bool) -> Bench {
         image_time_s: None,
     };
     let folder = FolderState {
-        settings: CellSettings { setup: Setup::EyeToHand, ..bench.engine.settings().clone() },
         captures: vec![capture],
-        verification: vec![],
-        deleted: vec![],
-        refused: vec![],
-        placements: vec![],
-        touches: vec![],
-        arm: None,
+        ..FolderState::new(CellSettings {
+            setup: Setup::EyeToHand,
+            ..bench.engine.settings().clone()
+        })
     };
     let sources =
         Sources { robot: Flow::Single, camera: Flow::Single, takes_images, is_virtual: false };
@@ -278,16 +258,7 @@ struct Streaming {
 impl Streaming {
     fn new(takes_images: bool) -> Self {
         let mut bench = Bench::new(takes_images);
-        let folder = FolderState {
-            settings: bench.cell.settings(),
-            captures: vec![],
-            verification: vec![],
-            deleted: vec![],
-            refused: vec![],
-            placements: vec![],
-            touches: vec![],
-            arm: None,
-        };
+        let folder = FolderState::new(bench.cell.settings());
         let sources =
             Sources { robot: Flow::Stream, camera: Flow::Single, takes_images, is_virtual: false };
         bench.engine = Engine::new(folder, sources).0;

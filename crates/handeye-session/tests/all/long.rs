@@ -25,16 +25,7 @@ fn held_mb() -> Option<f64> {
 #[test]
 fn eight_hours_of_poses_and_images_take_no_memory() {
     let cell = VirtualCell::new(Setup::EyeInHand, 1, Faults::default()).unwrap();
-    let folder = FolderState {
-        settings: cell.settings(),
-        captures: vec![],
-        verification: vec![],
-        deleted: vec![],
-        refused: vec![],
-        touches: vec![],
-        placements: vec![],
-        arm: None,
-    };
+    let folder = FolderState::new(cell.settings());
     let mut engine = Engine::new(folder, Sources::VIRTUAL).0;
     let mut random = Random::new(1);
     let mut after_each_hour = vec![];

@@ -24,16 +24,7 @@ struct Taken {
 impl Trial {
     fn new(faults: Faults, seed: u64) -> Self {
         let cell = VirtualCell::new(Setup::EyeInHand, seed, faults).unwrap();
-        let folder = FolderState {
-            settings: cell.settings(),
-            captures: vec![],
-            verification: vec![],
-            deleted: vec![],
-            refused: vec![],
-            placements: vec![],
-            touches: vec![],
-            arm: None,
-        };
+        let folder = FolderState::new(cell.settings());
         let engine = Engine::new(folder, Sources::VIRTUAL).0;
         let mut trial = Self { cell, engine, random: Random::new(seed), now: 0.0, frame: 0 };
         trial.pass(1.0);
