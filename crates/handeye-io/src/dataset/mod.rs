@@ -6,6 +6,7 @@ mod corners;
 mod draft;
 mod in_memory;
 mod inputs;
+mod joints_beside;
 pub(crate) mod manifest;
 mod motion;
 mod opening;

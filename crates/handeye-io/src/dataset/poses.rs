@@ -5,9 +5,12 @@ use std::path::Path;
 use handeye::{Base, Camera, Flange, Pose, Target, Tool, Warning, model::kinematics::Arm};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
-use super::manifest::{
-    ArmSpec, BoardDirection, BoardPosesSpec, FileOr, PoseFrame, PoseTable, RobotDirection,
-    RobotSpec, Source,
+use super::{
+    joints_beside::JointsBeside,
+    manifest::{
+        ArmSpec, BoardDirection, BoardPosesSpec, FileOr, PoseFrame, PoseTable, RobotDirection,
+        RobotSpec, Source,
+    },
 };
 use crate::{
     error::{Error, Place, malformed},
@@ -177,44 +180,6 @@ fn joints(table: &PoseTable, at: &str, source: &Source, root: &Path) -> Result<R
     Ok(Reading::Joints(model, unit))
 }
 
-/// Joint values that stand beside poses, in columns that are called as the joints of the arm's URDF.
-struct JointsBeside<'a> {
-    urdf: Urdf,
-    angle_unit: Option<AngleUnit>,
-    /// What asks for the unit where it is not declared.
-    undeclared: Box<dyn Fn() -> Error + 'a>,
-}
-
-impl<'a> JointsBeside<'a> {
-    /// `None` where the numbers are joint values themselves, or no URDF is given.
-    fn of(
-        reading: &Reading,
-        table: &PoseTable,
-        at: &'a str,
-        (source, root): (&'a Source, &Path),
-    ) -> Result<Option<Self>, Error> {
-        let (Reading::Notation(..), Some(ArmSpec::Urdf(spec))) = (reading, &table.arm) else {
-            return Ok(None);
-        };
-        let undeclared = Box::new(move || {
-            let question = "in which unit are the angles of the table, those of the joints as well: \"deg\" or \"rad\"?";
-            source.undeclared(&format!("{at}.angle_unit"), question)
-        });
-        let urdf = Urdf::read(&root.join(&spec.file), &spec.base, &spec.flange)?;
-        Ok(Some(Self { urdf, angle_unit: table.angle_unit, undeclared }))
-    }
-
-    /// Those of a record, rad or m; none where it has no column of a joint.
-    fn values(&self, record: &Record) -> Result<Vec<f64>, Error> {
-        if !self.urdf.joint_names().iter().any(|name| record.named(&[name]).is_some()) {
-            return Ok(vec![]);
-        }
-        let unit = self.angle_unit.ok_or_else(|| (self.undeclared)())?;
-        let model = ArmModel::of_urdf(&self.urdf);
-        Ok(model.in_si(&model.values(record)?, unit))
-    }
-}
-
 /// The records of a file, or one record of each file of a pattern.
 pub(super) fn records(
     pattern: &str,
@@ -241,7 +206,12 @@ fn read(
     let records = records(&table.poses, &layout, root, &place)?;
     let numbers: Vec<Vec<f64>> =
         records.iter().map(|r| reading.numbers(r)).collect::<Result<_, _>>()?;
-    let beside = JointsBeside::of(&reading, table, at, (source, root))?;
+    let beside = match (&reading, &table.arm) {
+        (Reading::Notation(..), Some(ArmSpec::Urdf(spec))) => {
+            Some(JointsBeside::of(spec, (table.angle_unit, at), (source, root))?)
+        }
+        _ => None,
+    };
     let pose = |(record, numbers): (Record, &Vec<f64>)| {
         let value = reading.pose(numbers, &record.place)?;
         let joints = match &beside {
