@@ -13,7 +13,7 @@ use crate::{
     error::unusable,
     hash::Hash,
     measure::{self, Measured},
-    origin,
+    origin, parallel,
     result_folder::{RESULT, ResultFolder, RunFiles},
     robot,
 };
@@ -90,6 +90,7 @@ pub(crate) fn configured(dataset: &Dataset, config: &Config) -> Config {
         .or(config.known),
         max_error_mm: dataset.limits.max_error.map(|m| m * 1e3).or(config.max_error_mm),
         answer_frame: dataset.answer_frame.unwrap_or(config.answer_frame),
+        threads: parallel::or_all(config.threads),
         ..config.clone()
     }
 }

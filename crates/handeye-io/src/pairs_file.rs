@@ -16,7 +16,7 @@ use serde_json::Value;
 use crate::{
     calibrate::run_id,
     error::{Error, in_json, unusable},
-    files,
+    files, parallel,
 };
 
 /// What was measured.
@@ -43,7 +43,8 @@ impl PosesFile {
     /// # Errors
     /// As [`calibrate()`].
     pub fn calibrate(&self, config: &Config) -> Result<Calibration, handeye::Error> {
-        let config = Config { known: self.noise.or(config.known), ..config.clone() };
+        let (known, threads) = (self.noise.or(config.known), parallel::or_all(config.threads));
+        let config = Config { known, threads, ..config.clone() };
         let calibration = match &self.measured {
             MeasuredPoses::Streams(streams) => calibrate(&streams.session(), &config),
             MeasuredPoses::Pairs(session) => calibrate(session, &config),

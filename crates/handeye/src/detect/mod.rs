@@ -40,7 +40,7 @@ pub use outcome::NotFound;
 pub use planar_pose::{
     PosedTarget, target_poses, target_poses_with, typical_excess, with_symmetries,
 };
-pub(crate) use planar_pose::{relabelled, symmetry_turn, typical_excess_near};
+pub(crate) use planar_pose::{relabelled, symmetry_turn, target_pose_near, typical_excess_near};
 pub use recognise::{Recognised, recognise};
 pub use several::detect_several;
 pub(crate) use sight::{Sight, sighted};

@@ -27,7 +27,8 @@ pub use symmetry::with_symmetries;
 pub(crate) use symmetry::{relabelled, symmetry_turn};
 
 use crate::{
-    Error, ImageCorner, Intrinsics, SurfaceCorner, TargetModel, TargetPose, math::linalg::median,
+    Camera, Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel, TargetPose,
+    math::linalg::median,
 };
 
 /// A pose of the target and how well it explains the image.
@@ -98,6 +99,16 @@ pub fn target_poses_with(
         }
     }
     Ok(kept)
+}
+
+/// The pose of the target near one that is nearly right: of two readings, the one that this is.
+pub(crate) fn target_pose_near(
+    corners: &[ImageCorner],
+    target: &TargetModel,
+    intrinsics: &Intrinsics,
+    near: &Pose<Camera, Target>,
+) -> Option<PosedTarget> {
+    Fit::new(corners, &[], target, intrinsics).ok()?.polish(*near.iso())
 }
 
 /// Fewest images that tell what is typical.

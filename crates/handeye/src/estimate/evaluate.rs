@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Error, HandEye, Intrinsics, Observation, PosePair, Setup, TargetModel,
     estimate::predict::Volume,
-    math::linalg::root_mean,
+    math::{linalg::root_mean, parallel},
     model::residual::Residual,
     solve::{self, Method, View, least_squares, motions},
 };
@@ -79,17 +79,34 @@ pub type HeldOut = Vec<Option<Residual>>;
 
 /// The residual of every capture under an answer that was made without it; `None` where the
 /// captures that remain do not determine one.
-pub fn held_out(estimator: &Estimator, views: &[View], start: &HandEye) -> HeldOut {
+pub fn held_out(estimator: &Estimator, views: &[View], start: &HandEye, threads: usize) -> HeldOut {
+    each_left_out(views, threads, |rest, left_out| {
+        let answer = estimator.estimate(&rest, start).ok()?;
+        Some(left_out.iter().map(|view| answer.loop_residual(&view.pair)).collect())
+    })
+}
+
+/// What a fit of the other views misses of the views of each fold: `missed(others, left_out)`.
+pub(crate) fn each_left_out(
+    views: &[View],
+    threads: usize,
+    missed: impl Fn(Vec<View>, &[&View]) -> Option<Vec<Residual>> + Sync,
+) -> HeldOut {
     let mut found = vec![None; views.len()];
     if views.len() <= solve::FEWEST_POSES {
         return found;
     }
-    for fold in folds(views.len()) {
-        let rest: Vec<View> =
-            (0..views.len()).filter(|i| !fold.contains(i)).map(|i| views[i].clone()).collect();
-        let Ok(answer) = estimator.estimate(&rest, start) else { continue };
-        for i in fold {
-            found[i] = Some(answer.loop_residual(&views[i].pair));
+    let folds = folds(views.len());
+    let of_fold = |k: usize| {
+        let is_kept = |i: &usize| !folds[k].contains(i);
+        let rest = (0..views.len()).filter(is_kept).map(|i| views[i].clone()).collect();
+        let left_out: Vec<&View> = folds[k].iter().map(|i| &views[*i]).collect();
+        missed(rest, &left_out)
+    };
+    let all = parallel::in_order(folds.len(), threads, of_fold);
+    for (fold, residuals) in folds.iter().zip(all) {
+        for (i, residual) in fold.iter().zip(residuals.into_iter().flatten()) {
+            found[*i] = Some(residual);
         }
     }
     found
@@ -177,7 +194,7 @@ mod tests {
     fn exact_captures_have_no_held_out_error() {
         let views: Vec<View> = exact_pairs(&truths()[0], 8).into_iter().map(View::bare).collect();
         for estimator in [Estimator::ClosedForm(Method::Shah), Estimator::LeastSquares] {
-            let found = rms(&held_out(&estimator, &views, &truths()[0]));
+            let found = rms(&held_out(&estimator, &views, &truths()[0], 2));
             assert!(found.translation_rms_mm.unwrap() < 1e-6, "{estimator:?}");
         }
     }

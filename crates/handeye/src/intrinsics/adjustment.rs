@@ -55,6 +55,14 @@ pub(super) struct Corner {
     pub weight: f64,
 }
 
+impl Corner {
+    /// A corner that is here on the target.
+    pub fn of(c: &ImageCorner, in_target: Vector3<f64>) -> Self {
+        let variance = 0.5 * c.covariance.trace();
+        Self { id: c.id, in_target, pixel: c.pixel, variance, weight: 1.0 }
+    }
+}
+
 #[derive(Clone)]
 pub(super) struct View {
     /// Its place among the given views.
@@ -127,11 +135,7 @@ impl Adjustment {
     ) -> Option<Self> {
         let one = |(index, corners): (usize, &Vec<ImageCorner>)| {
             let poses = target_poses(corners, &[], target, &camera).ok()?;
-            let corner = |c: &ImageCorner| {
-                let variance = 0.5 * c.covariance.trace();
-                let in_target = target.corner(c.id)?.vector();
-                Some(Corner { id: c.id, in_target, pixel: c.pixel, variance, weight: 1.0 })
-            };
+            let corner = |c: &ImageCorner| Some(Corner::of(c, target.corner(c.id)?.vector()));
             let pose = *poses.first()?.pose.camera_from_target.iso();
             let corners: Vec<Corner> = corners.iter().filter_map(corner).collect();
             (corners.len() >= FEWEST_CORNERS).then_some(View { index, pose, corners })

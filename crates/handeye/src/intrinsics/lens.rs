@@ -13,9 +13,15 @@
 //! G. Schwarz, *Estimating the dimension of a model*, 1978.
 
 use crate::{
-    Distortion, ImageCorner, Intrinsics, TargetModel, detect::target_poses, intrinsics::PRICE,
+    Camera, Distortion, ImageCorner, Intrinsics, Pose, Target, TargetModel,
+    detect::{target_pose_near, target_poses},
+    intrinsics::{
+        PRICE,
+        adjustment::{Corner, linearised},
+    },
     math::linalg::median,
 };
+use nalgebra::{Matrix6, Vector6};
 
 /// What the corners say about a lens that was given as free of distortion.
 #[derive(Debug, Clone, Copy)]
@@ -40,25 +46,33 @@ const EXACT_PX: f64 = 1e-3;
 const WIDTH: f64 = 0.04;
 /// Parabolas, each about the least of the one before.
 const ROUNDS: usize = 3;
+/// Where the equations at the poses as given promise less than this share of the price, it is not reached.
+const PROMISING: f64 = 0.25;
+/// Place of `k1` among the parameters of a lens.
+const K1: usize = 4;
 
 /// The radial distortion that the views prove, if `given` has none and they do.
 pub fn bend(views: &[Vec<ImageCorner>], target: &TargetModel, given: &Intrinsics) -> Option<Bend> {
     if !is_straight(given) {
         return None;
     }
-    let views = Views { corners: views, target, given };
+    let views = Views::as_given(views, target, given);
     let before = views.squares(0.0);
-    let total = |k1: f64| views.squares(k1).iter().sum::<f64>();
-    let corners = before.len() as f64;
-    let freedom = 2.0 * corners - 6.0 * views.used() as f64 - 1.0;
+    let (corners, straight) = (before.len() as f64, before.iter().sum::<f64>());
+    let freedom = 2.0 * corners - 6.0 * views.posed.len() as f64 - 1.0;
     if freedom < FEWEST_FREE || median(before).sqrt() < EXACT_PX {
         return None;
     }
+    let gain = |bent: f64| corners * (straight / bent).ln();
+    let price = PRICE * corners.ln();
+    if gain(straight - views.promised_fall()?) < PROMISING * price {
+        return None;
+    }
+    let total = |k1: f64| views.squares(k1).iter().sum::<f64>();
     let (k1, curvature) = least(total)?;
-    let (straight, bent) = (total(0.0), total(k1));
-    let gain = corners * (straight / bent).ln();
+    let bent = total(k1);
     let intrinsics = with_k1(given, k1);
-    let pays = gain > PRICE * corners.ln() && views.is_sound(&intrinsics);
+    let pays = gain(bent) > price && views.is_sound(&intrinsics);
     let rms = |sum: f64| (sum / corners).sqrt();
     pays.then(|| Bend {
         intrinsics,
@@ -100,36 +114,71 @@ fn least(total: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
 }
 
 struct Views<'a> {
-    corners: &'a [Vec<ImageCorner>],
+    /// Corners of each view, and the pose in which the camera as given sees them.
+    posed: Vec<(&'a [ImageCorner], Pose<Camera, Target>)>,
     target: &'a TargetModel,
     given: &'a Intrinsics,
 }
 
-impl Views<'_> {
+impl<'a> Views<'a> {
+    /// The views that have a pose.
+    fn as_given(
+        views: &'a [Vec<ImageCorner>],
+        target: &'a TargetModel,
+        given: &'a Intrinsics,
+    ) -> Self {
+        let pose = |corners: &'a Vec<ImageCorner>| {
+            let poses = target_poses(corners, &[], target, given).ok()?;
+            Some((&corners[..], poses.first()?.pose.camera_from_target))
+        };
+        Self { posed: views.iter().filter_map(pose).collect(), target, given }
+    }
+
     /// Squared distances (px²) of all corners and the model with this `k1`, each view at its best
     /// pose.
     fn squares(&self, k1: f64) -> Vec<f64> {
         let camera = with_k1(self.given, k1);
-        let of_view = |corners: &Vec<ImageCorner>| -> Option<Vec<f64>> {
-            let posed = target_poses(corners, &[], self.target, &camera).ok()?;
-            let pose = posed.first()?.pose.camera_from_target;
+        let of_view = |(corners, start): &(&'a [ImageCorner], Pose<Camera, Target>)| {
+            let near = || target_pose_near(corners, self.target, &camera, start);
+            let pose = if k1 == 0.0 { *start } else { near()?.pose.camera_from_target };
             let square = |c: &ImageCorner| {
                 let pixel = camera.project(&(pose * self.target.corner(c.id)?).vector())?;
                 Some((pixel - c.pixel).norm_squared())
             };
-            Some(corners.iter().filter_map(square).collect())
+            Some(corners.iter().filter_map(square).collect::<Vec<f64>>())
         };
-        self.corners.iter().filter_map(of_view).flatten().collect()
+        self.posed.iter().filter_map(of_view).flatten().collect()
     }
 
-    fn used(&self) -> usize {
-        let posed = |c: &&Vec<ImageCorner>| target_poses(c, &[], self.target, self.given).is_ok();
-        self.corners.iter().filter(posed).count()
+    /// By how much the squares would fall, were the model linear at the poses as given: in `k1`, with each view's own
+    /// pose taken out.
+    fn promised_fall(&self) -> Option<f64> {
+        let camera = with_k1(self.given, 0.0);
+        let (mut slope, mut curvature) = (0.0, 0.0);
+        for (corners, pose) in &self.posed {
+            let (mut normal, mut across) = (Matrix6::zeros(), Vector6::zeros());
+            let (mut gradient, mut own) = (Vector6::zeros(), (0.0, 0.0));
+            for c in *corners {
+                let Some(in_target) = self.target.corner(c.id) else { continue };
+                let corner = Corner::of(c, in_target.vector());
+                let (r, by_lens, by_pose) = linearised(&camera, pose.iso(), &corner)?;
+                let by_k1 = by_lens.column(K1);
+                normal += by_pose.transpose() * by_pose;
+                across += by_pose.transpose() * by_k1;
+                gradient += by_pose.transpose() * r;
+                own = (own.0 + by_k1.dot(&r), own.1 + by_k1.norm_squared());
+            }
+            let Some(normal) = normal.cholesky() else { continue };
+            let through = normal.solve(&across);
+            slope += own.0 - through.dot(&gradient);
+            curvature += own.1 - through.dot(&across);
+        }
+        (curvature > 0.0).then(|| slope * slope / curvature)
     }
 
     /// The distortion does not fold over where the corners are.
     fn is_sound(&self, camera: &Intrinsics) -> bool {
-        let mut corners = self.corners.iter().flatten();
+        let mut corners = self.posed.iter().flat_map(|(corners, _)| *corners);
         corners.all(|c| camera.undistort(&c.pixel).is_some())
     }
 }

@@ -275,13 +275,13 @@ impl Cell {
         self.arm.map(draw)
     }
 
-    /// Every touch of every board: its name, where it lies, and the corner.
     /// What is wrong with the board.
     pub(super) fn print_errors(&self) -> PrintErrors {
         let Self { bow_mm: bend_mm, print_scale: scale, .. } = *self;
         PrintErrors { bend_mm, scale, ..PrintErrors::default() }
     }
 
+    /// Every touch of every board.
     pub(super) fn touch_all(&self, truth: &Truth, seed: u64) -> Option<Vec<Touch>> {
         let robot = self.robot();
         let corners = spread_corners(&self.target, self.touches);
@@ -294,6 +294,7 @@ impl Cell {
             .collect()
     }
 
+    /// Boards that are touched: the name of each, and where it lies.
     fn touchable(&self, truth: &Truth) -> Vec<(String, Pose<Base, Target>)> {
         let HandEye { mount_from_camera, anchor_from_target } = self.hand_eye;
         match self.setup {

@@ -183,3 +183,19 @@ fn the_order_of_captures_and_touches_changes_no_byte() {
         assert_eq!(bytes(&session), bytes(&turned), "{setup:?}");
     }
 }
+
+#[test]
+fn any_number_of_threads_gives_the_same_result() {
+    let eye_to_hand = Cell::new(Setup::EyeToHand, 21);
+    // more captures than are left out one at a time, and boards and touches beside them
+    let many = Cell { captures: 36, ..Cell::new(Setup::EyeInHand, 22) };
+    for cell in [eye_to_hand, many] {
+        let (session, _) = cell.session(23).unwrap();
+        let by = |threads| {
+            let config = Config { threads, ..Config::default() };
+            format!("{:?}", calibrate(&session, &config).unwrap())
+        };
+        assert!(by(1).contains("held_out_mm: Some"));
+        assert_eq!(by(1), by(5));
+    }
+}

@@ -3,7 +3,7 @@
 use nalgebra::Matrix6;
 
 use crate::{
-    Camera, Mount, Pose,
+    Camera, Config, Mount, Pose,
     calibrate::{
         flow::{
             evidence::{RestsOn, Seen},
@@ -12,14 +12,14 @@ use crate::{
         prediction::workpiece::Workpiece,
         result::{Candidate, RobotErrorKind},
     },
-    estimate::{self, evaluate::HeldOut, touch_pairs::TouchPairs},
+    estimate::{evaluate::HeldOut, touch_pairs::TouchPairs},
 };
 
 /// What every candidate is judged by.
 pub(super) struct Judge<'a> {
     pub(super) views: &'a Views<'a>,
     pub(super) paired: &'a [TouchPairs],
-    pub(super) known: estimate::KnownNoise,
+    pub(super) config: &'a Config,
     pub(super) workpiece: &'a Workpiece<'a>,
     /// Errors of the robot, beside noise, for which there is a candidate.
     pub(super) of_robot: Option<RobotErrorKind>,

@@ -139,13 +139,8 @@ fn fuse(
         advice: budget::advice(whole, best, &workpiece, has_board),
         ..evidence
     };
-    let judge = Judge {
-        views,
-        paired: &trusted,
-        known: config.known,
-        workpiece: &workpiece,
-        of_robot: robot.errors(),
-    };
+    let judge =
+        Judge { views, paired: &trusted, config, workpiece: &workpiece, of_robot: robot.errors() };
     let evidence = compare(&judge, (fit, joint.as_ref()), (volume, &paired), task, evidence);
     let rests_on_arm = rests_on_arm(&evidence);
     (evidence, rests_on_arm.then_some(robot).and_then(Robot::into_fit_of_arm))
@@ -281,7 +276,7 @@ impl Judge<'_> {
         let mut judged: Vec<Judged> = all.into_iter().filter_map(by_estimator).collect();
         if config.method.is_none() {
             let problem = views::views_problem(self.views.session, &self.views.views, &fit.extras);
-            let left_out = held_out_views(&problem, fit, &self.known);
+            let left_out = held_out_views(&problem, fit, self.config);
             let mut own = self.judged(fit, likeliest.into(), &fit.hand_eye, left_out);
             own.candidate.in_sample =
                 evaluate::in_sample(&fit.hand_eye, &as_fitted(fit, &self.views.views));
@@ -300,7 +295,8 @@ impl Judge<'_> {
     ) -> Option<Judged> {
         let views = self.views;
         let answer = estimator.estimate(&views.views, &fit.hand_eye).ok()?;
-        let left_out = evaluate::held_out(estimator, &views.views, &fit.hand_eye);
+        let left_out =
+            evaluate::held_out(estimator, &views.views, &fit.hand_eye, self.config.threads);
         Some(self.judged(fit, name, &answer, left_out))
     }
 
@@ -336,10 +332,10 @@ impl Judge<'_> {
     fn joint_candidate(&self, joint: &Joint) -> Option<Judged> {
         let fit = &joint.fit;
         let x = fit.hand_eye.mount_from_camera;
-        let left_out = held_out_views(&joint.problem, fit, &self.known);
+        let left_out = held_out_views(&joint.problem, fit, self.config);
         let held_out = evaluate::rms(&left_out);
         let covariance = stated_covariance(fit).map(|c| self.of_both(c, &fit.hand_eye));
-        let touch_held_out = joint.held_out_touches(&self.known).map(|m| m * 1e3);
+        let touch_held_out = joint.held_out_touches(self.config).map(|m| m * 1e3);
         let candidate = Candidate {
             name: "joint".into(),
             hand_eye: stored(self.views, &fit.hand_eye, covariance.as_ref()),

@@ -31,7 +31,7 @@ pub(crate) fn by_likeliest(
     own: Choice,
 ) -> (Choice, HeldOut) {
     let problem = views::views_problem(views.session, &views.views, &fit.extras);
-    let left_out = views_and_touches::held_out_views(&problem, fit, &config.known);
+    let left_out = views_and_touches::held_out_views(&problem, fit, config);
     let held_out = evaluate::rms(&left_out);
     let choice = Choice { held_out, ..own };
     let (used, rejected) = (found.used(), found.rejected.len());

@@ -15,6 +15,8 @@ pub struct Config {
     pub max_error_mm: Option<f64>,
     /// In which camera frame the answer is, that of images or of scans, where the two do not agree.
     pub answer_frame: AnswerFrame,
+    /// How many threads may fit what is left after each capture at once; 0 and 1 are the caller's own. The answer is the same.
+    pub threads: usize,
 }
 
 /// The camera frame in which the answer is.

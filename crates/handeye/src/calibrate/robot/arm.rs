@@ -192,7 +192,7 @@ impl Look<'_> {
 
     /// RMS residual (mm) of views, and of touches, that were left out of the fit.
     fn missed_mm(&self, problem: &Problem, fit: &JointFit) -> Option<f64> {
-        let left_out = held_out_views(problem, fit, &self.config.known);
+        let left_out = held_out_views(problem, fit, self.config);
         evaluate::rms(&left_out).translation_rms_mm
     }
 

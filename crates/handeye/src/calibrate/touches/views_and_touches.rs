@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::touched_boards::Boards;
 use crate::{
-    TargetModel,
+    Config, TargetModel,
     calibrate::{
         flow::{
             notes::Notes,
@@ -25,8 +25,9 @@ use crate::{
         joint,
     },
     findings::TouchFinding,
-    math::{linalg::root_mean, statistics},
+    math::{linalg::root_mean, parallel, statistics},
     model::residual::Residual,
+    solve::View,
 };
 
 /// What views and touches say together.
@@ -271,25 +272,25 @@ impl Joint {
 
     /// RMS distance (m) of tip and corner over touches left out of the fit: one board at a time
     /// where there are several, one touch at a time otherwise.
-    pub(crate) fn held_out_touches(&self, known: &KnownNoise) -> Option<f64> {
+    pub(crate) fn held_out_touches(&self, config: &Config) -> Option<f64> {
         let boards = &self.problem.boards;
-        let mut squares = vec![];
-        if boards.len() > 1 {
-            for k in 0..boards.len() {
-                let mut without = self.problem.clone();
-                let board = without.boards.remove(k);
-                squares.extend(self.missed(&without, &board, known));
-            }
-        } else {
-            let board = boards.first()?;
-            for k in 0..board.corners.len() {
-                let mut without = self.problem.clone();
-                let corner = without.boards[0].corners.remove(k);
-                let alone = TouchedBoard { corners: vec![corner], ..board.clone() };
-                squares.extend(self.missed(&without, &alone, known));
-            }
-        }
-        root_mean(squares)
+        let first = boards.first()?;
+        let of_board = |k: usize| {
+            let mut without = self.problem.clone();
+            let board = without.boards.remove(k);
+            self.missed(&without, &board, &config.known)
+        };
+        let of_corner = |k: usize| {
+            let mut without = self.problem.clone();
+            let corner = without.boards[0].corners.remove(k);
+            let alone = TouchedBoard { corners: vec![corner], ..first.clone() };
+            self.missed(&without, &alone, &config.known)
+        };
+        let squares = match boards.len() {
+            1 => parallel::in_order(first.corners.len(), config.threads, of_corner),
+            count => parallel::in_order(count, config.threads, of_board),
+        };
+        root_mean(squares.into_iter().flatten())
     }
 
     fn missed(&self, without: &Problem, board: &TouchedBoard, known: &KnownNoise) -> Vec<f64> {
@@ -366,20 +367,14 @@ pub(crate) struct WrongTip {
 }
 
 /// Leave-one-out residual of every view.
-pub(crate) fn held_out_views(problem: &Problem, fit: &JointFit, known: &KnownNoise) -> HeldOut {
-    let views = &problem.views;
-    let mut found = vec![None; views.len()];
-    if views.len() <= crate::solve::FEWEST_POSES {
-        return found;
-    }
-    for fold in evaluate::folds(views.len()) {
-        let kept = (0..views.len()).filter(|i| !fold.contains(i));
-        let rest = kept.map(|i| views[i].clone()).collect();
-        let refitted = joint::refit(&Problem { views: rest, ..problem.clone() }, fit, known);
-        for i in fold {
-            let pair = views[i].with(&refitted.extras, &refitted.values);
-            found[i] = Some(refitted.hand_eye.loop_residual(&pair));
-        }
-    }
-    found
+pub(crate) fn held_out_views(problem: &Problem, fit: &JointFit, config: &Config) -> HeldOut {
+    evaluate::each_left_out(&problem.views, config.threads, |rest, left_out| {
+        let others = Problem { views: rest, ..problem.clone() };
+        let refitted = joint::refit(&others, fit, &config.known);
+        let missed = |view: &&View| {
+            let pair = view.with(&refitted.extras, &refitted.values);
+            refitted.hand_eye.loop_residual(&pair)
+        };
+        Some(left_out.iter().map(missed).collect())
+    })
 }
