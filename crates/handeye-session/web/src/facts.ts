@@ -2,10 +2,12 @@
 
 import { h, kind, list, show, text } from "./dom";
 import { icon, setIcon } from "./icons";
+import { put, tell } from "./words";
 
 export interface Fact {
   name: string;
-  value: string | null | undefined;
+  value?: string | null | undefined;
+  said?: string | null | undefined; // by the server, in place of a value
   good?: boolean | undefined;
 }
 
@@ -22,7 +24,8 @@ export function facts() {
         element: row,
         update(fact: Fact): void {
           text(name, fact.name);
-          text(value, fact.value || "–");
+          if (fact.said) tell(value, fact.said);
+          else put(value, fact.value || "–");
           kind(row, "good", fact.good === true);
           kind(row, "bad", fact.good === false);
           setIcon(sign, fact.good === false ? "warning" : "check");

@@ -1,10 +1,10 @@
 // What was found beside the answer, and the captures that were refused: the grave ones before the others.
 
 import type { App, Part } from "./app";
-import { h, kind, list, show, text } from "./dom";
+import { h, kind, list, show } from "./dom";
 import { icon, setIcon } from "./icons";
 import type { Finding, State } from "./state";
-import { said, sentence } from "./words";
+import { said, sentence, tell } from "./words";
 
 const REFUSED_SHOWN = 3;
 
@@ -15,8 +15,8 @@ function findingRow() {
   return {
     element,
     update(finding: Finding): void {
-      text(message, sentence(finding.message));
-      text(advice, finding.advice && sentence(finding.advice));
+      tell(message, finding.message, sentence);
+      tell(advice, finding.advice, sentence);
       show(advice, Boolean(finding.advice));
       setIcon(sign, finding.severity === "info" ? "page" : "warning");
       kind(element, "rejects", finding.severity === "rejects");

@@ -3,8 +3,8 @@
 import type { App } from "./app";
 import { play } from "./sounds";
 import type { State } from "./state";
-import { text } from "./dom";
 import { badVerdict } from "./notices";
+import { currentLanguage, tell } from "./words";
 
 const QUIET = 700; // ms that a sentence has to stay before it is spoken
 
@@ -30,10 +30,11 @@ export function makeSpeaker(element: HTMLElement): (state: State) => void {
   let wanted = "";
   let timer: ReturnType<typeof setTimeout> | undefined;
   return (state) => {
-    const sentence = [state.problem?.message, state.say].filter(Boolean).join(" ");
+    const said = [state.problem?.message ?? "", state.say ?? ""].filter(Boolean);
+    const sentence = `${currentLanguage()} ${said.join(" ")}`;
     if (sentence === wanted) return;
     wanted = sentence;
     clearTimeout(timer);
-    timer = setTimeout(() => text(element, wanted), QUIET);
+    timer = setTimeout(() => tell(element, said, (words) => words, " "), QUIET);
   };
 }

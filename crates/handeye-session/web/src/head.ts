@@ -2,8 +2,8 @@
 
 import { primary, secondary, type Action } from "./actions";
 import type { App, Part } from "./app";
-import { attribute, h, kind, list, text } from "./dom";
-import { said, t } from "./words";
+import { attribute, h, kind, list } from "./dom";
+import { put, said, t, tell } from "./words";
 
 const SIZES = [27, 24, 21, 18, 16, 14]; // px of the sentence's letters; the largest that fits is taken
 const TALLEST = 78; // px of all its lines
@@ -58,14 +58,14 @@ export function makeHead(app: App, element: HTMLElement): Part {
   return {
     element,
     update(state) {
-      const say = app.state ? (state.say ?? "") : t("connecting");
       const action = primary(app, state);
       main.update(action);
       kind(main.element, "waiting", Boolean(state.taking || state.virtual_cell?.driving));
       drawOthers(app.state ? secondary(app, state) : []);
-      if (sentence.textContent === say) return;
-      text(sentence, say);
-      fit(sentence);
+      const before = sentence.textContent;
+      if (app.state) tell(sentence, state.say);
+      else put(sentence, t("connecting"));
+      if (sentence.textContent !== before) fit(sentence);
     },
   };
 }

@@ -2,19 +2,27 @@
 // that is not good, a capture that was refused. While one of the first kinds is there, nothing on the page is green.
 
 import type { App, Part } from "./app";
-import { h, kind, show, text } from "./dom";
+import { h, kind, show } from "./dom";
 import { icon, type Icon } from "./icons";
 import { button } from "./controls";
 import type { Problem, State } from "./state";
-import { sentence, t } from "./words";
+import { put, sentence, t, tell, type Key } from "./words";
 
 const HOLD = 1500; // ms that a notice stays after its reason has gone, so that nothing jumps
 const FEWEST = 4; // captures before which it is no problem that they cannot be assessed
 const REFUSED_FOR = 10_000; // ms that a refused capture is shown for
 
+/** Words of the page's own, or what the server says. */
+type Words = { own: Key } | { said: string | readonly string[] };
+
 interface Notice {
-  message: string;
-  advice?: string | null;
+  message: Words;
+  advice?: Words | null;
+}
+
+function write(element: Element, words: Words): void {
+  if ("own" in words) put(element, t(words.own));
+  else tell(element, words.said, sentence);
 }
 
 interface Strip {
@@ -34,8 +42,8 @@ function strip(look: string, sign: Icon, closed?: () => void): Strip {
     set(notice, hold = true) {
       if (notice) {
         gone = 0;
-        text(message, sentence(notice.message));
-        text(advice, notice.advice && sentence(notice.advice));
+        write(message, notice.message);
+        write(advice, notice.advice ?? { said: [] });
         show(element, true);
       } else if (!element.hidden) {
         gone ||= performance.now();
@@ -49,19 +57,19 @@ function strip(look: string, sign: Icon, closed?: () => void): Strip {
 export function badVerdict(state: State): Notice | null {
   if (state.step === "result" && state.result?.verdict && state.result.verdict !== "accepted") {
     const key = state.result.verdict === "rejected" ? "result_rejected" : "result_undetermined";
-    return { message: t(key), advice: state.progress?.reasons?.join("; ") ?? null };
+    return { message: { own: key }, advice: { said: state.progress?.reasons ?? [] } };
   }
   if (state.progress?.verdict === "rejected") {
-    return { message: t("rejected_so_far"), advice: state.progress.reasons?.join("; ") ?? null };
+    return { message: { own: "rejected_so_far" }, advice: { said: state.progress.reasons ?? [] } };
   }
   return null;
 }
 
 /** The connection's notice. */
 function lostNotice(app: App): Notice | null {
-  if (app.signedOut) return { message: t("signed_out"), advice: t("signed_out_advice") };
+  if (app.signedOut) return { message: { own: "signed_out" }, advice: { own: "signed_out_advice" } };
   if (app.lostSince === null) return null;
-  return { message: t("lost"), advice: t("lost_advice") };
+  return { message: { own: "lost" }, advice: { own: "lost_advice" } };
 }
 
 export function makeNotices(app: App, element: HTMLElement): Part {
@@ -88,7 +96,7 @@ export function makeNotices(app: App, element: HTMLElement): Part {
   element.append(alerts, others);
 
   const shown = (given: Problem | null | undefined): Notice | null =>
-    given ? { message: given.message || t("not_sent"), advice: given.advice ?? null } : null;
+    given ? { message: given.message ? { said: given.message } : { own: "not_sent" }, advice: { said: given.advice ?? [] } } : null;
 
   return {
     element,
@@ -108,7 +116,7 @@ export function makeNotices(app: App, element: HTMLElement): Part {
       last = name;
       const isSaid = state.problem?.code === "not-taken"; // in its own words
       const fresh = newest && !isSaid && performance.now() < shownUntil;
-      capture.set(fresh ? { message: t("capture_refused"), advice: newest.why } : null, false);
+      capture.set(fresh ? { message: { own: "capture_refused" }, advice: { said: newest.why } } : null, false);
       kind(document.body, "trouble", Boolean(lostNotice(app) || (given && !isMild) || app.refused || bad));
       kind(document.body, "lost", app.lostSince !== null);
     },

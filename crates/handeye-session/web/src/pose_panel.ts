@@ -8,7 +8,7 @@ import { attribute, h, kind, list, show, text } from "./dom";
 import { makeTyping } from "./typing";
 import { columns, mm, small, type Column } from "./numbers";
 import { takesCaptures, type Next, type State } from "./state";
-import { said, t } from "./words";
+import { put, said, t, tell } from "./words";
 
 interface Digit extends Column {
   value: number | null;
@@ -92,7 +92,9 @@ export function makePosePanel(app: App): Part {
       const next = takesCaptures(state) ? state.next : null;
       text(title, next ? t("next_view", { number: next.number ?? "" }) : t("robot_now"));
       const there = next ? isAtNext(state) : null;
-      text(off, next ? offText(state) : state.step === "robot" ? "" : (state.robot?.why ?? ""));
+      // of a pose that was typed nobody knows whether the robot is there
+      if (next && !state.robot?.typed) put(off, offText(state));
+      else tell(off, state.step === "robot" ? null : state.robot?.why);
       kind(off, "there", there === true);
       kind(off, "away", there === false);
       const hasGain = typeof next?.before_mm === "number" && typeof next.after_mm === "number";
@@ -121,7 +123,6 @@ function jointText(state: State): string {
 }
 
 function offText(state: State): string {
-  if (state.robot?.typed) return state.robot.why ?? "";
   const off = state.next?.off;
   if (!off || typeof off.mm !== "number") return "";
   if (isAtNext(state)) return t("at_view");

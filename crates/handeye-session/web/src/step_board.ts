@@ -3,12 +3,12 @@
 import { fixedBy } from "./actions";
 import type { App, Part } from "./app";
 import { card, labelled, makeFixed } from "./controls";
-import { attribute, field, h, kind, show, text } from "./dom";
+import { attribute, field, h, kind, show } from "./dom";
 import { icon, setIcon } from "./icons";
 import { numberField, type NumberField } from "./number_field";
 import type { Target } from "./state";
 import { DICTIONARIES, FAMILIES, TARGETS, type TargetField } from "./targets";
-import { said, sentence, t } from "./words";
+import { put, said, sentence, t, tell } from "./words";
 
 interface Control {
   element: HTMLElement;
@@ -95,7 +95,9 @@ export function makeStepBoard(app: App): Part {
         one.disable(fixes !== null);
       }
       const good = Boolean(state.camera?.found) && !state.camera?.missing;
-      text(proof, good ? state.camera?.found : state.camera?.missing ? sentence(state.camera.missing) : t("not_found_yet"));
+      if (good) tell(proof, state.camera?.found);
+      else if (state.camera?.missing) tell(proof, state.camera.missing, sentence);
+      else put(proof, t("not_found_yet"));
       kind(found, "good", good);
       kind(found, "bad", !good);
       setIcon(sign, good ? "check" : "warning");

@@ -132,10 +132,10 @@ export function cameraFacts(camera: Camera | null | undefined) {
     ...facts,
     { name: t("size"), value: camera?.width ? `${camera.width} × ${camera.height ?? "?"} px` : null, good: undefined },
     ...(single
-      ? [{ name: t("newest"), value: camera?.why, good: undefined }]
+      ? [{ name: t("newest"), said: camera?.why, good: undefined }]
       : [
           { name: t("age"), value: typeof age === "number" ? `${age.toFixed(2)} s` : null, good: typeof age === "number" ? age < LATE : undefined },
-          { name: t("rest"), value: camera?.why, good: camera?.stands },
+          { name: t("rest"), said: camera?.why, good: camera?.stands },
         ]),
     ...(single ? [] : [{ name: t("delay"), value: typeof delay === "number" ? `${delay.toFixed(2)} s` : t("not_known_yet"), good: undefined }]),
   ];

@@ -6,7 +6,7 @@ import { icon, setIcon } from "./icons";
 import { getJson, getText } from "./link";
 import { mm } from "./numbers";
 import type { Pose, State, Verdict } from "./state";
-import { named, said, sentence, t, type Key } from "./words";
+import { named, put, said, sentence, t, tell, type Key } from "./words";
 
 const SIGNS: Record<Verdict, "check" | "cross" | "warning"> = { accepted: "check", rejected: "cross", undetermined: "warning" };
 const COPIED_FOR = 2000; // ms
@@ -207,7 +207,8 @@ export function makeStepResult(app: App): Part {
       const result = state.result;
       const verdict = result?.verdict ?? "undetermined";
       text(badge, result ? t(`result_${verdict}` as Key) : t("no_result"));
-      text(headline, result ? headlineOf(state, verdict) : t("no_result_what"));
+      if (result) headlineOf(headline, state, verdict);
+      else put(headline, t("no_result_what"));
       setIcon(sign, SIGNS[verdict] ?? "warning");
       for (const name of Object.keys(SIGNS)) kind(banner, name, result ? verdict === name : false);
       // what is not accepted is not to be used: it is not handed out
@@ -223,10 +224,10 @@ export function makeStepResult(app: App): Part {
 }
 
 /** What the verdict rests on. */
-function headlineOf(state: State, verdict: Verdict): string {
-  // what views contradict is said in the sentence on top
-  if (state.verify?.agrees === false) return state.say ?? "";
+function headlineOf(element: Element, state: State, verdict: Verdict): void {
   const { p95_mm: error, tolerance_mm: tolerance, reasons, captures } = state.progress ?? {};
-  if (verdict !== "accepted") return sentence((reasons ?? []).join("; "));
-  return t("accepted_by", { error: mm(error), tolerance: mm(tolerance), count: captures ?? 0 });
+  // what views contradict is said in the sentence on top
+  if (state.verify?.agrees === false) tell(element, state.say);
+  else if (verdict !== "accepted") tell(element, reasons, sentence);
+  else put(element, t("accepted_by", { error: mm(error), tolerance: mm(tolerance), count: captures ?? 0 }));
 }

@@ -59,7 +59,7 @@ export function makeStepRobot(app: App): Part {
         ...(robot?.typed
           ? [{ name: t("poses"), value: t("from_pendant"), good: undefined }]
           : [{ name: t("poses"), value: t(connected ? "streaming" : "no_robot"), good: connected }]),
-        { name: t(robot?.typed ? "newest" : "rest"), value: robot?.why, good: robot?.typed ? undefined : robot?.stands },
+        { name: t(robot?.typed ? "newest" : "rest"), said: robot?.why, good: robot?.typed ? undefined : robot?.stands },
       ]);
       const wanted = state.cell?.notation ?? "";
       if (wanted && ![...notation.options].some(({ value }) => value === wanted)) {

@@ -2,9 +2,9 @@
 
 import type { App, Part } from "./app";
 import { button, card } from "./controls";
-import { h, show, text } from "./dom";
+import { h, show } from "./dom";
 import { Refusal, sendImage } from "./link";
-import { said, t, type Key } from "./words";
+import { put, said, sentence, t, tell, type Key } from "./words";
 
 const WIDTH = 1920; // px that the camera is asked for
 const HEIGHT = 1080;
@@ -29,7 +29,7 @@ export function makeUpload(app: App): Part {
   const buttons = h("div", { class: "buttons" }, choose, open, take, stop);
   const element = card("image", said(h("p", { class: "hint" }), "upload_hint"), video, buttons, chosen, why);
   let stream: MediaStream | null = null;
-  let problem: Key | string | null = null;
+  let problem: { own: Key } | { said: string } | null = null;
 
   chosen.addEventListener("change", () => {
     const file = chosen.files?.[0];
@@ -43,7 +43,7 @@ export function makeUpload(app: App): Part {
     if (file) void hand(file);
   });
 
-  function say(what: string | null): void {
+  function say(what: typeof problem): void {
     problem = what;
     app.redraw();
   }
@@ -53,7 +53,7 @@ export function makeUpload(app: App): Part {
       await sendImage(image);
       say(null);
     } catch (refused) {
-      say(refused instanceof Refusal ? refused.problem.message : t("image_not_sent"));
+      say(refused instanceof Refusal ? { said: refused.problem.message } : { own: "image_not_sent" });
     }
   }
 
@@ -66,7 +66,7 @@ export function makeUpload(app: App): Part {
       say(null);
     } catch {
       finish();
-      say(t("no_browser_camera"));
+      say({ own: "no_browser_camera" });
     }
   }
 
@@ -93,7 +93,8 @@ export function makeUpload(app: App): Part {
       show(take, isOn);
       show(stop, isOn);
       show(why, problem !== null);
-      text(why, problem);
+      if (problem && "own" in problem) put(why, t(problem.own));
+      else tell(why, problem?.said, sentence);
     },
   };
 }

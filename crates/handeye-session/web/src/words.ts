@@ -1,7 +1,9 @@
-// The page's own sentences in the language that is chosen. Elements remember their sentence, so that another language reaches
-// all of them at once.
+// Sentences in the language that is chosen: the page's own, and what the server says. Elements remember a sentence of the
+// page's own, so that another language reaches all of them at once; what the server says is put there with every drawing.
 
+import { attribute, text } from "./dom";
 import { SENTENCES, type Key } from "./sentences";
+import { inGerman } from "./told";
 
 export type Language = "en" | "de";
 export type { Key };
@@ -24,6 +26,33 @@ export function sentence(said: string): string {
   const begins = /^(?!f[xy]\b|c[xy]\b)[a-z]+(?=[ ,:;.]|$)/.test(trimmed);
   const capital = begins ? trimmed.charAt(0).toUpperCase() + trimmed.slice(1) : trimmed;
   return /[.!?…:]$/.test(capital) ? capital : `${capital}.`;
+}
+
+/** What the server says, in the page's language; what of it is not known there stays English. */
+export function told(english: string): string {
+  return language === "de" ? inGerman(english) : english;
+}
+
+const WORDS = /[a-z]{3}/i;
+
+/** The element's text is what the server says, in whatever language. One that had to stay English is marked as that. */
+export function tell(
+  element: Element,
+  said: string | readonly string[] | null | undefined,
+  as = (words: string) => words,
+  between = "; ",
+): void {
+  const english = typeof said === "string" ? [said] : (said ?? []);
+  const words = english.map(told);
+  const isForeign = language !== "en" && words.join() === english.join() && WORDS.test(words.join());
+  text(element, words.length ? as(words.join(between)) : "");
+  attribute(element, "lang", isForeign && "en");
+}
+
+/** The element's text is one of the page's own, put together. */
+export function put(element: Element, own: string): void {
+  text(element, own);
+  attribute(element, "lang", null);
 }
 
 /** The element's text is this sentence, in whatever language. */
