@@ -8,6 +8,7 @@ mod by_hand;
 mod corrected;
 mod faults;
 mod gate;
+mod german;
 #[cfg(unix)]
 mod line;
 #[cfg(unix)]

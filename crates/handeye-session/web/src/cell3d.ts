@@ -122,6 +122,7 @@ class Drawing {
   private reach = 1;
   private readonly bend = new Vector3(0, 0, 0.6);
   private pending = false;
+  private drawn = ""; // what is to be seen
 
   constructor(canvas: HTMLCanvasElement, private readonly element: HTMLElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
@@ -138,11 +139,16 @@ class Drawing {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       this.looks = looks();
       for (const piece of Object.values(this.pieces)) piece.set("", () => []);
+      this.drawn = "";
       this.draw();
     });
   }
 
   update(state: State, selected: string | null): void {
+    // a state comes with every image, and most change nothing here
+    const name = shown(state, selected);
+    if (name === this.drawn) return;
+    this.drawn = name;
     const here = placesAt(state, state.robot?.base_from_flange);
     const there = takesCaptures(state) ? placesAt(state, state.next?.base_from_flange) : { camera: null, target: null };
     this.floor();
@@ -269,6 +275,15 @@ class Drawing {
       this.renderer.render(this.scene, this.eye);
     });
   }
+}
+
+/** All of a state that the scene shows, as text. */
+function shown(state: State, selected: string | null): string {
+  const { cell, robot, arm, camera, captures, progress } = state;
+  const taken = captures?.map(({ id, used, base_from_flange }) => [id, used, base_from_flange]);
+  const places = [robot?.base_from_flange, arm, state.next?.base_from_flange, progress?.mount_from_camera, progress?.anchor_from_target];
+  const sizes = [cell?.target, cell?.setup, cell?.intrinsics, camera?.width, camera?.height];
+  return JSON.stringify([places, sizes, taken, selected, takesCaptures(state)]);
 }
 
 function highest(points: Point[]): Vector3 {

@@ -16,7 +16,7 @@ const escaped = (literal: string) => literal.replace(/[.*+?^${}()|[\]\\]/g, "\\$
 const bare = (text: string) => text.replace(/\.$/, "");
 
 function prepared(english: string, german: string): Template & { size: number } {
-  const text = bare(english);
+  const text = bare(english.replaceAll("|", ""));
   const literals = text.split(/\{\w+[*~]?\}/);
   const names = [...text.matchAll(PLACEHOLDER)].map(([, name, mark]) => `${name}${mark}`);
   const first = literals[0] ?? "";
@@ -40,9 +40,9 @@ const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 const SMALL = new Set(
   `
   Ab Aber Alle Als Am An Auch Auf Aufgenommen Aus Bei Beide Bestätigen Bis Da Danach Darauf Darin Das Dasselbe Davon Den
-  Der Des Die Dies Diese Dieser Dieses Dort Dorthin Ein Eine Einem Einen Einer Eins Entweder Er Erst Es Etwas Für Gar
+  Der Des Die Dies Diese Dieser Dieses Dort Dorthin Ein Eine Einem Einen Einer Eins Entweder Er Erst Es Etwas Für
   Genug Geprüft Geschrieben Herausfinden Hier Hingelegte Höchstens Ihr Ihre Im In Ist Jetzt Kein Keine Mehr Mit Nach
-  Neben Nicht Nichts Noch Nur Oder Ohne Seine Seit Sich Sie Siehe Sind Startet Steckt Stimmen Um Unbekanntes Und Viele
+  Maßgebend Neben Nicht Nichts Noch Nur Oder Ohne Seine Seit Sich Sie Siehe Sind Startet Steckt Stimmen Um Und Viele
   Vielleicht Vom Von Vor Vorhergesagter Warmlaufen Warte Was Welche Wenn Wie Wiederholt Wo Zu Zum Zur Zwischen
   `.split(/\s+/),
 );
@@ -73,9 +73,9 @@ function whole(english: string, before: string): string | null {
   return null;
 }
 
-const ENDS = /([.?;:]|, and|, or) /g;
+const ENDS = /([.?;:]|, and|, or|,) /g;
 const IN_GERMAN: Record<string, string> = { ", and": ", und", ", or": ", oder" };
-const MOST_ENDS = 12; // a text that has more is none of sentences
+const MOST_ENDS = 24; // a text that has more is none of sentences
 
 /** A text, part by part where it is not known as a whole. */
 function inside(english: string, before = ""): string {
@@ -95,7 +95,7 @@ function inside(english: string, before = ""): string {
     const left = whole(english.slice(0, end.index) + (mark === "." || mark === "?" ? mark : ""), before);
     if (left !== null) return cut(end, left);
   }
-  const first = ends[0];
+  const first = ends.find(([, mark]) => mark !== ","); // which ends a part of a list alone
   if (!first) return english;
   const rest = cut(first, null);
   return rest.endsWith(english.slice(first.index + first[0].length)) ? english : rest;
