@@ -283,7 +283,9 @@ function shown(state: State, selected: string | null): string {
   const taken = captures?.map(({ id, used, base_from_flange }) => [id, used, base_from_flange]);
   const places = [robot?.base_from_flange, arm, state.next?.base_from_flange, progress?.mount_from_camera, progress?.anchor_from_target];
   const sizes = [cell?.target, cell?.setup, cell?.intrinsics, camera?.width, camera?.height];
-  return JSON.stringify([places, sizes, taken, selected, takesCaptures(state)]);
+  // a robot that stands still moves by its noise: nobody sees a tenth of a millimetre here
+  const rounded = (_: string, value: unknown) => (typeof value === "number" ? Math.round(value * 1e4) : value);
+  return JSON.stringify([places, sizes, taken, selected, takesCaptures(state)], rounded);
 }
 
 function highest(points: Point[]): Vector3 {
