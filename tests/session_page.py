@@ -5,7 +5,7 @@ session_page.py PROGRAM [folder for a picture of every step]
 In a virtual cell, once with the mouse, whose clicks are counted, and once with the keyboard alone. The program calibrates
 the folder to the same bytes, a second tab shows the same, and nothing is loaded from elsewhere. In a session of uploads, the
 browser's own camera (a simulated one) sees the board, and its image makes a capture. With a camera beside the robot a board
-is laid into the view, and its corners are touched.
+is laid into the view, and its corners are touched; that page speaks German, and nothing on it stays English.
 """
 
 import contextlib
@@ -46,6 +46,12 @@ SHOWN = f"""JSON.stringify([{STEP}, ...['h1', '.accuracy .number', 'ol.captures'
     .map((part) => document.querySelector(part).textContent)])"""
 TAB = f"Array.from(document.querySelectorAll('[role=tab]')).find((tab) => tab.textContent == {FORMAT!r})"
 EXPORT = "document.querySelector('#export-text').textContent"
+GERMAN = "document.querySelector('[data-name=in_german]')"
+# what the server says and the page has no German for is marked as English; all of that is kept from now on
+HEAR = """(() => { window.heard = new Set(); new MutationObserver(() => {
+    for (const element of document.body.querySelectorAll('[lang=en]'))
+        if (element.checkVisibility() && element.dataset.name !== 'in_english') heard.add(element.textContent);
+}).observe(document.body, { subtree: true, childList: true, characterData: true, attributes: true }); })()"""
 
 
 class Page(devtools.Browser):
@@ -201,7 +207,10 @@ def with_touches(page, folder, pictures):
 
 
 def with_placement(page, folder, pictures):
-    """With a camera beside the robot a board is laid into the view, and its corners are touched."""
+    """With a camera beside the robot a board is laid into the view, and its corners are touched, all of it in German."""
+    page.value(HEAR)
+    page.click(GERMAN)
+    page.wait("document.querySelector('h1').textContent.startsWith('Ist das Ihre Zelle?')", "the page speaks German at once")
     for step in CHOICES:
         page.act(lambda: page.click(PRIMARY), step)
     while True:
@@ -223,6 +232,8 @@ def with_placement(page, folder, pictures):
     result = json.loads((folder / "result" / "calibration.json").read_text())
     assert result["verdict"] == "accepted" and len(result["touches"]) == TOUCHES, result["verdict"]
     assert len(list((folder / "placements").iterdir())) == 1
+    assert page.value("document.documentElement.lang") == "de"
+    assert not page.value("[...heard]"), f"English on a German page: {page.value('[...heard]')}"
 
 
 def with_other_views(page, folder, pictures):
