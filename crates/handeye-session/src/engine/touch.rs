@@ -22,6 +22,8 @@ use super::{
 const FARTHEST_TIP_MM: f64 = 2000.0;
 /// Fewer touches say nothing about one another.
 const FEWEST: usize = 3;
+/// A robot sets off within this time, s; a standstill that is found anew in it may be the one of before. No drive is shorter.
+const SETTING_OFF_S: f64 = 0.2;
 
 impl Engine {
     /// Whether corners can be touched.
@@ -133,7 +135,7 @@ impl Engine {
             Motion::Stands(since) => since,
             Motion::Moves(_) => return false,
         };
-        self.tip_to.is_some_and(|(to, begun)| to == corner && since > begun)
+        self.tip_to.is_some_and(|(to, begun)| to == corner && since > begun + SETTING_OFF_S)
     }
 
     pub(super) fn untouch(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
