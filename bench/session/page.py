@@ -1,13 +1,14 @@
 """How fast the page is while a camera streams, and whether memory grows: the whole program, its page open in a browser.
 
     pip install websocket-client opencv-python-headless
-    python bench/session/page.py PROGRAM WIDTHxHEIGHT HERTZ SECONDS [IMAGES]
+    python bench/session/page.py PROGRAM IMAGES [BENCHMARK.md]
 
-Images of a simulated cell are sent by HTTP at HERTZ for SECONDS, and the images that the page has drawn are counted. With
-IMAGES, as many are sent before as fast as they are taken, and the memory of program and page is printed on the way: somebody
-looks at the page for the last twentieth of each tenth.
+Images of a simulated cell are sent by HTTP, of 2.3 MP at 10 Hz for 20 s, and the images that the page has drawn are counted.
+Then IMAGES of 640 x 480 are sent as fast as they are taken, the memory of program and page is printed on the way (somebody looks
+at the page for the last twentieth of each tenth), and once more images come at 10 Hz. Writes its section of BENCHMARK.md.
 """
 
+import contextlib
 import http.client
 import json
 import pathlib
@@ -67,12 +68,38 @@ def resident_mb(pid):
 
 
 def main():
-    program, size, hertz, seconds = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2], float(sys.argv[3]), float(sys.argv[4])
-    images = int(sys.argv[5]) if len(sys.argv) > 5 else 0
-    width, height = size.split("x")
+    program, images = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2])
+    with opened(program, 1920, 1200) as (page, camera, pid):
+        large = measure(page, camera, pid).replace("the page", "of 1920 x 1200 the page")
+    with opened(program, 640, 480) as (page, camera, pid):
+        first, last = soak(page, camera, pid, images)
+        after = measure(page, camera, pid)
+    text = (
+        f"## The page of a session\n\n`bench/session/page.py`: the whole program, its page open in a browser that draws without a "
+        f"graphics card. {large}\n\n{images} images of 640 x 480 (at 5 Hz those of {images / 18000:.1f} hours), sent as fast as they "
+        f"are taken: memory of the program {first[0]:.0f} MB after the first tenth and {last[0]:.0f} MB after all, of the page's scripts "
+        f"{first[1]:.1f} and {last[1]:.1f} MB. {after}"
+    )
+    if len(sys.argv) > 3:
+        write_section(pathlib.Path(sys.argv[3]), text)
+
+
+def write_section(file, text):
+    begin, end = "<!-- session-page:begin -->", "<!-- session-page:end -->"
+    before = file.read_text()
+    section = f"{begin}\n{text}\n{end}"
+    if begin in before:
+        file.write_text(before[: before.index(begin)] + section + before[before.index(end) + len(end) :])
+    else:
+        file.write_text(f"{before.rstrip()}\n\n{section}\n")
+
+
+@contextlib.contextmanager
+def opened(program, width, height):
+    """A session of uploads at the step of the captures, and its page."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as work:
         cell, folder = pathlib.Path(work) / "cell", pathlib.Path(work) / "session"
-        simulate = [program, "simulate", cell, "--captures", "6", "--width", width, "--height", height, "--quiet"]
+        simulate = [program, "simulate", cell, "--captures", "6", "--width", str(width), "--height", str(height), "--quiet"]
         subprocess.run(simulate, check=True, stdout=subprocess.DEVNULL)
         command = [program, "session", folder, "--upload", "--target", cell / "handeye.toml", "--no-open"]
         session = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
@@ -91,41 +118,44 @@ def main():
                 time.sleep(2)
                 camera.command(do="confirm", step="board")
                 page.wait("document.body.dataset.step == 'capture'", "the step capture")
-                begin = time.monotonic()
-                tenth = max(1, images // 10)
-                for k in range(1, images + 1):
-                    if k % 200 == 0:
-                        page.value(f"window.away = {str(k % tenth < 0.95 * tenth).lower()}")
-                        page.events.clear()
-                    camera.send()
-                    if k % tenth == 0:
-                        print_memory(page, session.pid, k, time.monotonic() - begin)
-                page.value("window.away = false")
-                measure(page, camera, session.pid, hertz, seconds)
+                yield page, camera, session.pid
         finally:
             session.terminate()
             session.wait()
 
 
-def print_memory(page, pid, count, elapsed):
+def soak(page, camera, pid, images):
+    """Sends them all; what program and page held after the first tenth, and after all, MB."""
+    tenth, held, begin = max(1, images // 10), [], time.monotonic()
+    for k in range(1, images + 1):
+        if k % 200 == 0:
+            page.value(f"window.away = {str(k % tenth < 0.95 * tenth).lower()}")
+            page.events.clear()
+        camera.send()
+        if k % tenth == 0:
+            held.append(memory_mb(page, pid))
+            print(f"{k} images, {time.monotonic() - begin:.0f} s: program {held[-1][0]:.0f} MB, page {held[-1][1]:.1f} MB, "
+                  f"{page.value('drawn')} drawn", flush=True)
+    page.value("window.away = false")
+    return held[0], held[-1]
+
+
+def memory_mb(page, pid):
     page.call("HeapProfiler.collectGarbage")
-    heap = page.call("Runtime.getHeapUsage")["usedSize"] / 2**20
-    page.events.clear()
-    print(f"{count} images, {elapsed:.0f} s: program {resident_mb(pid):.0f} MB, page {heap:.1f} MB, "
-          f"{page.value('drawn')} drawn", flush=True)
+    return resident_mb(pid), page.call("Runtime.getHeapUsage")["usedSize"] / 2**20
 
 
-def measure(page, camera, pid, hertz, seconds):
+def measure(page, camera, pid, hertz=10, seconds=20):
+    """Images at this rate for so long; what the page drew, in a sentence."""
     camera.send()
     time.sleep(1)
     before, begin = page.value("drawn"), time.monotonic()
     cpu = pathlib.Path(f"/proc/{pid}/stat").read_text().split()
-    sent = late = 0
+    sent = 0
     while (now := time.monotonic() - begin) < seconds:
         due = sent / hertz
         if now < due:
             time.sleep(due - now)
-        late += now > due + 0.5 / hertz
         camera.send()
         sent += 1
     elapsed = time.monotonic() - begin
@@ -133,8 +163,10 @@ def measure(page, camera, pid, hertz, seconds):
     drawn = page.value("drawn") - before
     after = pathlib.Path(f"/proc/{pid}/stat").read_text().split()
     ms = sum(int(after[k]) - int(cpu[k]) for k in (13, 14)) * 10 / sent
-    print(f"{sent} images sent in {elapsed:.1f} s ({late} late), {drawn} drawn: {drawn / elapsed:.1f} a second; the program takes "
-          f"{ms:.0f} ms of processor for each")
+    found = (f"At {sent / elapsed:.1f} images a second the page drew {drawn / elapsed:.1f}; the program takes {ms:.0f} ms of processor "
+             f"for each.")
+    print(found, flush=True)
+    return found
 
 
 main()

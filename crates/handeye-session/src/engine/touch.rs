@@ -22,8 +22,9 @@ use super::{
 const FARTHEST_TIP_MM: f64 = 2000.0;
 /// Fewer touches say nothing about one another.
 const FEWEST: usize = 3;
-/// A robot sets off within this time, s; a standstill that is found anew in it may be the one of before. No drive is shorter.
-const SETTING_OFF_S: f64 = 0.2;
+/// A robot is seen to move within this time, s: a standstill that is found anew before may be that of before the drive. No drive
+/// is shorter.
+const SETTING_OFF_S: f64 = 0.3;
 
 impl Engine {
     /// Whether corners can be touched.
@@ -135,7 +136,8 @@ impl Engine {
             Motion::Stands(since) => since,
             Motion::Moves(_) => return false,
         };
-        self.tip_to.is_some_and(|(to, begun)| to == corner && since > begun + SETTING_OFF_S)
+        let has_set_off = |begun: f64| since > begun && self.now > begun + SETTING_OFF_S;
+        self.tip_to.is_some_and(|(to, begun)| to == corner && has_set_off(begun))
     }
 
     pub(super) fn untouch(&mut self, id: String) -> Result<Vec<Effect>, Refusal> {
