@@ -128,7 +128,7 @@ def soak(page, camera, pid, images):
     """Sends them all; what program and page held after the first tenth, and after all, MB."""
     tenth, held, begin = max(1, images // 10), [], time.monotonic()
     for k in range(1, images + 1):
-        if k % 200 == 0:
+        if k % 20 == 0:
             page.value(f"window.away = {str(k % tenth < 0.95 * tenth).lower()}")
             page.events.clear()
         camera.send()
