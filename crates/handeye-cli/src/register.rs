@@ -3,7 +3,6 @@
 use std::{
     fs,
     path::{Path, PathBuf},
-    thread,
     time::Instant,
 };
 
@@ -12,7 +11,7 @@ use handeye::{
     register::{DenseConfig, DenseMethod, Surface, register_surfaces},
 };
 use handeye_io::{
-    Error, FoundPlace, RegistrationResult, ScanOptions, Transform, is_mesh, points_on,
+    Error, FoundPlace, RegistrationResult, ScanOptions, Transform, is_mesh, parallel, points_on,
     read_intrinsics, read_mesh, read_scan,
     report::{NamedCloud, Registration, registration_html},
     robot::rotation_near,
@@ -148,7 +147,7 @@ fn config(args: &RegisterArgs) -> Result<DenseConfig, Failure> {
         max_correspondence_distance_m: gate * 1e-3,
         max_iterations: args.max_iterations,
         global: args.global,
-        threads: thread::available_parallelism().map_or(1, usize::from),
+        threads: parallel::all_cores(),
         ..DenseConfig::default()
     })
 }

@@ -11,15 +11,19 @@ const LARGE_PICTURE: u64 = 6_000_000;
 /// More threads than this only fight for memory.
 const MOST_THREADS: usize = 8;
 
-/// This many threads, or one for each core where none is asked for.
-pub fn or_all(threads: usize) -> usize {
-    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-    if threads == 0 { cores().min(MOST_THREADS) } else { threads }
+/// A thread for each core.
+pub fn all_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// So many threads, or one for each core where none is asked for.
+pub(crate) fn or_all(threads: usize) -> usize {
+    if threads == 0 { all_cores() } else { threads }
 }
 
 /// How many threads may work on these images at once.
 pub fn threads<'a>(pictures: impl IntoIterator<Item = &'a Path>) -> usize {
-    let cores = or_all(0);
+    let cores = all_cores().min(MOST_THREADS);
     let mut sizes = pictures.into_iter().filter_map(|p| crate::image_size(p).ok());
     let large = sizes.any(|(w, h)| u64::from(w) * u64::from(h) > LARGE_PICTURE);
     if large { cores.min(2) } else { cores }

@@ -4,10 +4,7 @@
 //! Scans are read, cut into pieces of their surface and dropped one by one on a few threads; the pieces are
 //! kept, since every scan meets several others.
 
-use std::{
-    sync::atomic::{AtomicUsize, Ordering},
-    thread,
-};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use handeye::{
     Observation, Scan, Session, TargetPose,
@@ -21,7 +18,10 @@ use handeye::{
 use nalgebra::Isometry3;
 
 use crate::{
-    CaptureSource, Dataset, Error, Place, Shape, error::malformed, measure::Measured, parallel,
+    CaptureSource, Dataset, Error, Place, Shape,
+    error::malformed,
+    measure::Measured,
+    parallel::{self, all_cores},
 };
 
 /// What an object is called where two scans would have their names.
@@ -84,10 +84,6 @@ fn kind(shape: &Shape) -> SceneKind {
         Shape::Scene { .. } => SceneKind::Scene,
         Shape::Object { .. } => SceneKind::Object,
     }
-}
-
-fn all_cores() -> usize {
-    thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// The surface of the object, where there is one.
