@@ -53,7 +53,7 @@ fn pieces(text: &str) -> Vec<Piece> {
 fn templates() -> Vec<Template> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("web/src/sentences.ts");
     let text = fs::read_to_string(path).unwrap();
-    let (_, table) = text.split_once("export const TOLD").unwrap();
+    let (_, table) = text.split_once("export const SERVER_SENTENCES").unwrap();
     let lines = table.lines().map(str::trim).filter(|line| line.starts_with("[\""));
     let read = |line: &str| -> [String; 2] {
         serde_json::from_str(line.trim_end_matches(',')).unwrap_or_else(|e| panic!("{line}: {e}"))

@@ -7,7 +7,7 @@ import { h, kind, show, text } from "./dom";
 import { mm } from "./numbers";
 import { directions, history, toleranceBar } from "./plots";
 import type { State } from "./state";
-import { said, t, told } from "./words";
+import { said, t, translated } from "./words";
 
 function verdictText(state: State): string {
   const progress = state.progress;
@@ -65,7 +65,7 @@ export function makeAccuracy(app: App): Part {
       text(below, t("findings_below", { count: grave }));
       show(below, grave > 0);
       const free = progress?.undetermined ?? [];
-      text(undetermined, free.length ? t("undetermined_list", { list: free.map(told).join(", ") }) : "");
+      text(undetermined, free.length ? t("undetermined_list", { list: free.map(translated).join(", ") }) : "");
       show(undetermined, free.length > 0);
       const off = state.virtual_cell?.truth_error_mm;
       text(truth, typeof off === "number" ? t("truth_error", { mm: mm(off) }) : "");

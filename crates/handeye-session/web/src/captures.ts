@@ -6,7 +6,7 @@ import { attribute, h, kind, list, show, text, width } from "./dom";
 import { icon } from "./icons";
 import { mm } from "./numbers";
 import { isOutlier, type Capture, type State } from "./state";
-import { said, sentence, t, tell, told } from "./words";
+import { said, sentence, t, showTranslated, translated } from "./words";
 
 let scale = 1; // mm of a full bar
 
@@ -44,7 +44,7 @@ function captureRow(app: App, id: string) {
       width(fill, typeof error === "number" ? (100 * error) / scale : 0);
       text(millimetres, typeof error === "number" ? `${mm(error)} mm` : t(outlier ? "not_used" : "no_residual"));
       text(pixels, typeof capture.residual_px === "number" ? `${mm(capture.residual_px)} px` : "");
-      tell(reason, capture.reason, sentence);
+      showTranslated(reason, capture.reason, sentence);
       show(reason, Boolean(capture.reason) && (selected || outlier));
       show(sign, outlier);
       show(tools, selected);
@@ -95,7 +95,7 @@ export function makeCaptures(app: App): Part {
       show(count, captures.length > 0);
       show(none, captures.length === 0);
       show(undo, Boolean(state.can_undo));
-      attribute(undo, "title", state.can_undo && told(state.can_undo));
+      attribute(undo, "title", state.can_undo && translated(state.can_undo));
       draw([...captures].reverse());
       drawDeleted((state.deleted ?? []).filter(({ id }) => !/^[pt]/.test(id)));
     },

@@ -2,7 +2,7 @@
 
 import { h, kind, list, show, text } from "./dom";
 import { icon, setIcon } from "./icons";
-import { put, tell } from "./words";
+import { showOwn, showTranslated } from "./words";
 
 export interface Fact {
   name: string;
@@ -24,8 +24,8 @@ export function facts() {
         element: row,
         update(fact: Fact): void {
           text(name, fact.name);
-          if (fact.said) tell(value, fact.said);
-          else put(value, fact.value || "–");
+          if (fact.said) showTranslated(value, fact.said);
+          else showOwn(value, fact.value || "–");
           kind(row, "good", fact.good === true);
           kind(row, "bad", fact.good === false);
           setIcon(sign, fact.good === false ? "warning" : "check");

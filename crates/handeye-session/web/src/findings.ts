@@ -4,7 +4,7 @@ import type { App, Part } from "./app";
 import { h, kind, list, show } from "./dom";
 import { icon, setIcon } from "./icons";
 import type { Finding, State } from "./state";
-import { said, sentence, tell } from "./words";
+import { said, sentence, showTranslated } from "./words";
 
 const REFUSED_SHOWN = 3;
 
@@ -15,8 +15,8 @@ function findingRow() {
   return {
     element,
     update(finding: Finding): void {
-      tell(message, finding.message, sentence);
-      tell(advice, finding.advice, sentence);
+      showTranslated(message, finding.message, sentence);
+      showTranslated(advice, finding.advice, sentence);
       show(advice, Boolean(finding.advice));
       setIcon(sign, finding.severity === "info" ? "page" : "warning");
       kind(element, "rejects", finding.severity === "rejects");

@@ -4,7 +4,7 @@ import type { App } from "./app";
 import { play } from "./sounds";
 import type { State } from "./state";
 import { badVerdict } from "./notices";
-import { currentLanguage, tell } from "./words";
+import { currentLanguage, showTranslated } from "./words";
 
 const QUIET = 700; // ms that a sentence has to stay before it is spoken
 
@@ -35,6 +35,6 @@ export function makeSpeaker(element: HTMLElement): (state: State) => void {
     if (sentence === wanted) return;
     wanted = sentence;
     clearTimeout(timer);
-    timer = setTimeout(() => tell(element, said, (words) => words, " "), QUIET);
+    timer = setTimeout(() => showTranslated(element, said, (words) => words, " "), QUIET);
   };
 }

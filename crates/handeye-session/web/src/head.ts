@@ -3,7 +3,7 @@
 import { primary, secondary, type Action } from "./actions";
 import type { App, Part } from "./app";
 import { attribute, h, kind, list } from "./dom";
-import { put, said, t, tell } from "./words";
+import { showOwn, said, t, showTranslated } from "./words";
 
 const SIZES = [27, 24, 21, 18, 16, 14]; // px of the sentence's letters; the largest that fits is taken
 const TALLEST = 78; // px of all its lines
@@ -63,8 +63,8 @@ export function makeHead(app: App, element: HTMLElement): Part {
       kind(main.element, "waiting", Boolean(state.taking || state.virtual_cell?.driving));
       drawOthers(app.state ? secondary(app, state) : []);
       const before = sentence.textContent;
-      if (app.state) tell(sentence, state.say);
-      else put(sentence, t("connecting"));
+      if (app.state) showTranslated(sentence, state.say);
+      else showOwn(sentence, t("connecting"));
       if (sentence.textContent !== before) fit(sentence);
     },
   };

@@ -6,7 +6,7 @@ import { h, kind, show } from "./dom";
 import { icon, type Icon } from "./icons";
 import { button } from "./controls";
 import type { Problem, State } from "./state";
-import { put, sentence, t, tell, type Key } from "./words";
+import { showOwn, sentence, t, showTranslated, type Key } from "./words";
 
 const HOLD = 1500; // ms that a notice stays after its reason has gone, so that nothing jumps
 const FEWEST = 4; // captures before which it is no problem that they cannot be assessed
@@ -21,8 +21,8 @@ interface Notice {
 }
 
 function write(element: Element, words: Words): void {
-  if ("own" in words) put(element, t(words.own));
-  else tell(element, words.said, sentence);
+  if ("own" in words) showOwn(element, t(words.own));
+  else showTranslated(element, words.said, sentence);
 }
 
 interface Strip {

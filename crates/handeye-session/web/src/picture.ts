@@ -9,7 +9,7 @@ import { frameFor } from "./live";
 import { mm } from "./numbers";
 import { drawEarlier, drawFound, drawGhost, drawResiduals, drawWay, type Colours, type Fit } from "./overlay";
 import { isOutlier, isPlaced, takesCaptures, type Capture, type State } from "./state";
-import { named, sentence, t, tell, told } from "./words";
+import { named, sentence, t, showTranslated, translated } from "./words";
 
 const COLOURS: Colours = {
   found: "#4be3ff",
@@ -136,7 +136,7 @@ export function makePicture(app: App): Part & { draw(): void } {
     text(tag, capture ? captureTag(capture) : liveTag(state));
     kind(tag, "bad", late || (capture !== null && isOutlier(capture)));
     const trouble = capture ? capture.reason : needsBoard(state) ? state.camera?.missing : null;
-    tell(missing, trouble, sentence);
+    showTranslated(missing, trouble, sentence);
     show(missing, Boolean(trouble));
     named(overlay, capture ? "captured_picture" : "live_picture");
   }
@@ -157,9 +157,9 @@ function liveTag(state: State): string {
   const camera = state.camera;
   if (!camera?.frame) return t(camera?.single ? "no_picture" : "no_camera");
   if (!frameFor(camera.frame)) return t("no_picture");
-  if (camera.single) return [t("picture_number", { number: camera.frame ?? "" }), camera.found && told(camera.found)].filter(Boolean).join(" · ");
+  if (camera.single) return [t("picture_number", { number: camera.frame ?? "" }), camera.found && translated(camera.found)].filter(Boolean).join(" · ");
   if ((camera?.age_s ?? 0) > LATE) return t("picture_old", { seconds: Math.round(camera?.age_s ?? 0) });
-  return camera?.found ? `${t("live")} · ${told(camera.found)}` : t("live");
+  return camera?.found ? `${t("live")} · ${translated(camera.found)}` : t("live");
 }
 
 /** A cleared canvas of the size of its place, in CSS pixels. */

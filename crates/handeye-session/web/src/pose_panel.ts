@@ -8,7 +8,7 @@ import { attribute, h, kind, list, show, text } from "./dom";
 import { makeTyping } from "./typing";
 import { columns, mm, small, type Column } from "./numbers";
 import { takesCaptures, type Next, type State } from "./state";
-import { put, said, t, tell } from "./words";
+import { showOwn, said, t, showTranslated } from "./words";
 
 interface Digit extends Column {
   value: number | null;
@@ -93,8 +93,8 @@ export function makePosePanel(app: App): Part {
       text(title, next ? t("next_view", { number: next.number ?? "" }) : t("robot_now"));
       const there = next ? isAtNext(state) : null;
       // of a pose that was typed nobody knows whether the robot is there
-      if (next && !state.robot?.typed) put(off, offText(state));
-      else tell(off, state.step === "robot" ? null : state.robot?.why);
+      if (next && !state.robot?.typed) showOwn(off, offText(state));
+      else showTranslated(off, state.step === "robot" ? null : state.robot?.why);
       kind(off, "there", there === true);
       kind(off, "away", there === false);
       const hasGain = typeof next?.before_mm === "number" && typeof next.after_mm === "number";

@@ -6,7 +6,7 @@ import { button } from "./controls";
 import { attribute, h, kind, list, show, text } from "./dom";
 import { icon, setIcon } from "./icons";
 import type { Step } from "./state";
-import { currentLanguage, named, said, sentence, t, tell, told, type Key } from "./words";
+import { currentLanguage, named, said, sentence, t, showTranslated, translated, type Key } from "./words";
 
 interface Numbered extends Step {
   number: number;
@@ -40,8 +40,8 @@ function stepRow(app: App, name: Step["name"]) {
       show(sign, signed);
       setIcon(sign, step.state === "locked" ? "lock" : "check");
       text(state, ` ${t(`state_${step.state}`)} `);
-      tell(proof, step.proof, (words) => sentence(words).replace(/\.$/, ""));
-      attribute(element, "title", step.proof && sentence(told(step.proof)));
+      showTranslated(proof, step.proof, (words) => sentence(words).replace(/\.$/, ""));
+      attribute(element, "title", step.proof && sentence(translated(step.proof)));
     },
   };
 }

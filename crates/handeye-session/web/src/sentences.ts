@@ -1,4 +1,4 @@
-// Every sentence of the page in English and in German: its own (SENTENCES), and those that the server says in English (TOLD).
+// Every sentence of the page in English and in German: its own (SENTENCES), and those that the server says in English (SERVER_SENTENCES).
 
 export const SENTENCES = {
   // steps
@@ -349,7 +349,7 @@ export type Key = keyof typeof SENTENCES;
  * counts. A capital first letter and the last full stop do not matter. German sentences begin with a capital here and get a
  * small letter where they go on. `|` stands where the server puts two strings together: a test looks for each in its sources.
  */
-export const TOLD: readonly (readonly [english: string, german: string])[] = [
+export const SERVER_SENTENCES: readonly (readonly [english: string, german: string])[] = [
   // steps and what is known of them
   ["written to {folder~}", "Geschrieben nach {folder~}"],
   ["no result is written yet", "Noch kein Ergebnis geschrieben"],

@@ -8,7 +8,7 @@ import { icon, setIcon } from "./icons";
 import { numberField, type NumberField } from "./number_field";
 import type { Target } from "./state";
 import { DICTIONARIES, FAMILIES, TARGETS, type TargetField } from "./targets";
-import { put, said, sentence, t, tell } from "./words";
+import { showOwn, said, sentence, t, showTranslated } from "./words";
 
 interface Control {
   element: HTMLElement;
@@ -95,9 +95,9 @@ export function makeStepBoard(app: App): Part {
         one.disable(fixes !== null);
       }
       const good = Boolean(state.camera?.found) && !state.camera?.missing;
-      if (good) tell(proof, state.camera?.found);
-      else if (state.camera?.missing) tell(proof, state.camera.missing, sentence);
-      else put(proof, t("not_found_yet"));
+      if (good) showTranslated(proof, state.camera?.found);
+      else if (state.camera?.missing) showTranslated(proof, state.camera.missing, sentence);
+      else showOwn(proof, t("not_found_yet"));
       kind(found, "good", good);
       kind(found, "bad", !good);
       setIcon(sign, good ? "check" : "warning");

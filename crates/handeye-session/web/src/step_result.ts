@@ -6,7 +6,7 @@ import { icon, setIcon } from "./icons";
 import { getJson, getText } from "./link";
 import { mm } from "./numbers";
 import type { Pose, State, Verdict } from "./state";
-import { named, put, said, sentence, t, tell, type Key } from "./words";
+import { named, showOwn, said, sentence, t, showTranslated, type Key } from "./words";
 
 const SIGNS: Record<Verdict, "check" | "cross" | "warning"> = { accepted: "check", rejected: "cross", undetermined: "warning" };
 const COPIED_FOR = 2000; // ms
@@ -208,7 +208,7 @@ export function makeStepResult(app: App): Part {
       const verdict = result?.verdict ?? "undetermined";
       text(badge, result ? t(`result_${verdict}` as Key) : t("no_result"));
       if (result) headlineOf(headline, state, verdict);
-      else put(headline, t("no_result_what"));
+      else showOwn(headline, t("no_result_what"));
       setIcon(sign, SIGNS[verdict] ?? "warning");
       for (const name of Object.keys(SIGNS)) kind(banner, name, result ? verdict === name : false);
       // what is not accepted is not to be used: it is not handed out
@@ -227,7 +227,7 @@ export function makeStepResult(app: App): Part {
 function headlineOf(element: Element, state: State, verdict: Verdict): void {
   const { p95_mm: error, tolerance_mm: tolerance, reasons, captures } = state.progress ?? {};
   // what views contradict is said in the sentence on top
-  if (state.verify?.agrees === false) tell(element, state.say);
-  else if (verdict !== "accepted") tell(element, reasons, sentence);
-  else put(element, t("accepted_by", { error: mm(error), tolerance: mm(tolerance), count: captures ?? 0 }));
+  if (state.verify?.agrees === false) showTranslated(element, state.say);
+  else if (verdict !== "accepted") showTranslated(element, reasons, sentence);
+  else showOwn(element, t("accepted_by", { error: mm(error), tolerance: mm(tolerance), count: captures ?? 0 }));
 }

@@ -4,7 +4,7 @@ import type { App, Part } from "./app";
 import { button, card } from "./controls";
 import { h, show } from "./dom";
 import { Refusal, sendImage } from "./link";
-import { put, said, sentence, t, tell, type Key } from "./words";
+import { showOwn, said, sentence, t, showTranslated, type Key } from "./words";
 
 const WIDTH = 1920; // px that the camera is asked for
 const HEIGHT = 1080;
@@ -93,8 +93,8 @@ export function makeUpload(app: App): Part {
       show(take, isOn);
       show(stop, isOn);
       show(why, problem !== null);
-      if (problem && "own" in problem) put(why, t(problem.own));
-      else tell(why, problem?.said, sentence);
+      if (problem && "own" in problem) showOwn(why, t(problem.own));
+      else showTranslated(why, problem?.said, sentence);
     },
   };
 }

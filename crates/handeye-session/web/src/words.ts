@@ -3,7 +3,7 @@
 
 import { attribute, text } from "./dom";
 import { SENTENCES, type Key } from "./sentences";
-import { inGerman } from "./told";
+import { inGerman } from "./translation";
 
 export type Language = "en" | "de";
 export type { Key };
@@ -29,28 +29,28 @@ export function sentence(said: string): string {
 }
 
 /** What the server says, in the page's language; what of it is not known there stays English. */
-export function told(english: string): string {
+export function translated(english: string): string {
   return language === "de" ? inGerman(english) : english;
 }
 
 const WORDS = /[a-z]{3}/i;
 
 /** The element's text is what the server says, in whatever language. One that had to stay English is marked as that. */
-export function tell(
+export function showTranslated(
   element: Element,
   said: string | readonly string[] | null | undefined,
   as = (words: string) => words,
   between = "; ",
 ): void {
   const english = typeof said === "string" ? [said] : (said ?? []);
-  const words = english.map(told);
+  const words = english.map(translated);
   const isForeign = language !== "en" && words.join() === english.join() && WORDS.test(words.join());
   text(element, words.length ? as(words.join(between)) : "");
   attribute(element, "lang", isForeign && "en");
 }
 
 /** The element's text is one of the page's own, put together. */
-export function put(element: Element, own: string): void {
+export function showOwn(element: Element, own: string): void {
   text(element, own);
   attribute(element, "lang", null);
 }

@@ -2,7 +2,7 @@
 // A text for which there is no template is taken apart at the ends of its sentences and clauses; what stays unknown stays as
 // it is.
 
-import { TOLD } from "./sentences";
+import { SERVER_SENTENCES } from "./sentences";
 
 interface Template {
   pattern: RegExp;
@@ -32,7 +32,7 @@ function prepared(english: string, german: string): Template & { size: number } 
 }
 
 /** Those with most letters of their own first. */
-const templates = TOLD.map(([english, german]) => prepared(english, german)).sort((a, b) => b.size - a.size);
+const templates = SERVER_SENTENCES.map(([english, german]) => prepared(english, german)).sort((a, b) => b.size - a.size);
 
 const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
