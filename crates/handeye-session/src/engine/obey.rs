@@ -67,10 +67,11 @@ impl Engine {
             Command::Untouch { id } => self.untouch(id),
             Command::Finish => self.finish(),
             Command::Drive { to } => self.drive(to),
-            Command::Jog { move_mm, turn_deg } => match self.sources.is_virtual {
-                true => Ok(vec![Effect::Jog(move_mm, turn_deg)]),
-                false => Err(only_virtual()),
-            },
+            Command::Jog { .. } if !self.sources.is_virtual => Err(only_virtual()),
+            Command::Jog { move_mm, turn_deg } => {
+                self.tip_to = None; // it is led away
+                Ok(vec![Effect::Jog(move_mm, turn_deg)])
+            }
         }
     }
 

@@ -112,6 +112,11 @@ fn corners_of_a_board_that_is_laid_into_the_view_are_touched() {
     play(&mut player, PLACE);
     let there = touches(&player).corner;
     assert!([0, 8, 45, 53].contains(&there), "{there}");
+    // a tip that is moved away from its corner is not there any more
+    player.command(Command::Drive { to: Destination::Touch }).unwrap();
+    assert!(touches(&player).at_corner);
+    player.command(Command::Jog { move_mm: [0.0, 0.0, -40.0], turn_deg: [0.0; 3] }).unwrap();
+    assert!(player.state().robot.stands && !touches(&player).at_corner);
     player.command(Command::Drive { to: Destination::Touch }).unwrap();
     player.command(Command::Touch { corner: Some((there + 9) % 54) }).unwrap();
     let said = player.state().say;
