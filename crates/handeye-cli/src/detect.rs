@@ -3,7 +3,6 @@
 use std::{
     fs,
     path::{Path, PathBuf},
-    sync::atomic::{AtomicUsize, Ordering},
 };
 
 use handeye::{
@@ -82,12 +81,10 @@ pub fn run(args: &DetectArgs, global: &GlobalArgs) -> Result<u8, Failure> {
     let drawings = drawings(args)?;
     let search = Search { targets: &targets, camera: camera.as_ref() };
     let progress = Progress::new("looking at images", global);
-    let done = AtomicUsize::new(0);
     let threads = parallel::threads(args.images.iter().map(PathBuf::as_path));
-    let looked = parallel::in_order(args.images.len(), threads, |k| {
-        let found = search.look_at(&args.images[k], drawings.get(k));
-        progress.tell(done.fetch_add(1, Ordering::Relaxed) + 1, args.images.len());
-        found
+    let tell = |done, count| progress.tell(done, count);
+    let looked = parallel::in_order_told(args.images.len(), threads, &tell, |k| {
+        search.look_at(&args.images[k], drawings.get(k))
     });
     drop(progress);
     let failures: Vec<&Failure> = looked.iter().filter_map(|l| l.as_ref().err()).collect();

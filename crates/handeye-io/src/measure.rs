@@ -5,12 +5,7 @@
 
 mod depth;
 
-use std::{
-    collections::HashMap,
-    path::PathBuf,
-    sync::atomic::{AtomicUsize, Ordering},
-    time::SystemTime,
-};
+use std::{collections::HashMap, path::PathBuf, time::SystemTime};
 
 use handeye::{
     Camera, GrayImage, ImageCorner, Intrinsics, Observation, Placement, Pose, Session,
@@ -175,17 +170,15 @@ fn look_at_all(
     before: &Measurements,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<Seen>, Error> {
-    let done = AtomicUsize::new(0);
     let pictures = shots.iter().filter_map(|s| s.image.map(PathBuf::as_path));
     let look = |k: usize| {
         let shot = &shots[k];
         let again = || look_at(dataset, shot).map_err(|e| of_capture(shot, e));
-        let seen = before.of_shot(shot).map_or_else(again, Ok);
-        progress(done.fetch_add(1, Ordering::Relaxed) + 1, shots.len());
-        seen
+        before.of_shot(shot).map_or_else(again, Ok)
     };
+    let threads = parallel::threads(pictures);
     // results, and the first error, in the order of the captures
-    parallel::in_order(shots.len(), parallel::threads(pictures), look).into_iter().collect()
+    parallel::in_order_told(shots.len(), threads, progress, look).into_iter().collect()
 }
 
 fn of_capture(shot: &Shot, source: Error) -> Error {

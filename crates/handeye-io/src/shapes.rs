@@ -4,8 +4,6 @@
 //! Scans are read, cut into pieces of their surface and dropped one by one on a few threads; the pieces are
 //! kept, since every scan meets several others.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use handeye::{
     Observation, Scan, Session, TargetPose,
     calibrate::beside::Measuring,
@@ -102,15 +100,11 @@ fn surfaces_of(
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<Result<Surface, String>>, Error> {
     let captures = &dataset.captures;
-    let done = AtomicUsize::new(0);
     let scans = captures.iter().filter_map(|c| c.scan.as_deref());
-    let look = |k: usize| {
-        let surface = surface_of(dataset, &captures[k]);
-        progress(done.fetch_add(1, Ordering::Relaxed) + 1, captures.len());
-        surface
-    };
+    let threads = parallel::threads(scans);
+    let look = |k: usize| surface_of(dataset, &captures[k]);
     // results, and the first error, in the order of the captures
-    parallel::in_order(captures.len(), parallel::threads(scans), look).into_iter().collect()
+    parallel::in_order_told(captures.len(), threads, progress, look).into_iter().collect()
 }
 
 fn surface_of(
