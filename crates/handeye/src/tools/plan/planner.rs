@@ -114,9 +114,10 @@ const DRAWS: usize = 12;
 /// Poses looked at in vain before no more are tried: the search for joint values takes time.
 const MOST_IN_VAIN: usize = 600;
 /// Captures are enough when the calibration states less than this share of the tolerance. Whoever stops at the first one that
-/// states less than the tolerance itself, stops too early: the true error (95 %) was below it in 32 of 36 simulated cells, with
-/// this share in 34.
-pub const ENOUGH: f64 = 0.9;
+/// states less than the tolerance itself, stops too early: errors (95 %) are stated of all points of all such calibrations, and
+/// the points of one are off together. Where the robot's noise was declared, the true error (95 %) was below the tolerance in 127
+/// of 142 simulated cells then; with nine tenths of it in 130, with this share in 137.
+pub const ENOUGH: f64 = 0.8;
 /// Nor are fewer captures than this enough, whatever their calibration states: the share was measured with these and more.
 pub const FEWEST_ENOUGH: usize = 5;
 /// Usual number of candidates.
