@@ -72,8 +72,8 @@ pub use result_folder::ResultFolder;
 pub use robot::Urdf;
 pub use scan::{ScanOptions, read_scan, scan_size, scan_unit};
 pub use session_folder::{
-    ArmLinks, CameraGuess, CellSettings, NewCapture, NewPlacement, RefusedCapture, ScanSettings,
-    SessionFolder, StoredCapture, StoredPlacement, StoredTouch,
+    ArmLinks, CameraGuess, CellSettings, NewCapture, NewPlacement, NewTouch, RefusedCapture,
+    ScanSettings, SessionFolder, StoredCapture, StoredPlacement, StoredTouch,
 };
 pub use target_file::{NamedTarget, Targets, read_target, read_targets, target_toml};
 pub use touch_file::{TouchedPoint, read_touched_points};

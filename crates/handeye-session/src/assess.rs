@@ -2,14 +2,15 @@
 //! folder is read, measured (each file once) and calibrated, and the next view is planned.
 
 use handeye::{
-    Base, Calibration, Camera, Config, Flange, HandEye, ImageCorner, Intrinsics, Pose, Session,
-    Target, Verdict,
+    Base, Calibration, Camera, Config, Flange, HandEye, ImageCorner, Intrinsics, Observation, Pose,
+    Session, Setup, Target, Verdict,
     calibrate::result::JudgedFinding,
     findings::severity::Severity,
     nalgebra::Vector2,
     tools::{
         held_out::{self, HeldOutTest},
         plan::NextView,
+        verify::{self, Verification},
     },
 };
 use handeye_io::{
@@ -38,10 +39,46 @@ pub struct Assessment {
     pub enough: bool,
     /// What the verification views say of it, or why they say nothing; `None` without any.
     pub verification: Option<Result<HeldOutTest, String>>,
+    /// What touches that verify say of it, or why they say nothing; `None` without any.
+    pub touch_test: Option<Result<TouchTest, String>>,
+}
+
+/// Touches that a calibration was not made with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TouchTest {
+    /// Their names, as they stand in the folder.
+    pub ids: Vec<String>,
+    /// What they say.
+    pub found: Verification,
+    /// How likely they are as far off or farther where the calibration holds.
+    pub chance: f64,
+    /// RMS of their distances that was expected, mm.
+    pub expected_mm: f64,
+}
+
+impl TouchTest {
+    /// Whether the touches agree with the calibration.
+    pub fn agrees(&self) -> bool {
+        self.chance >= verify::LEAST_CHANCE
+    }
+
+    /// Root mean square of their distances, mm.
+    pub fn rms_mm(&self) -> f64 {
+        self.found.rms * 1e3
+    }
+
+    /// How far a touch was from where it was predicted, mm.
+    pub fn distance_mm(&self, id: &str) -> Option<f64> {
+        let k = self.ids.iter().position(|own| own == id)?;
+        Some(self.found.differences[k].difference.norm() * 1e3)
+    }
 }
 
 /// The code of a last capture that does not agree with the others.
 const LAST_CAPTURE_DISPLACED: &str = "last-capture-displaced";
+
+/// Standard deviation of bringing a tip to a corner, each axis, m.
+const TOUCH_SIGMA_M: f64 = 0.2e-3;
 
 /// What was measured in the files of a folder.
 #[derive(Default)]
@@ -126,10 +163,11 @@ pub fn assess(
     if goes_on && next.is_none() {
         (next, no_next, _) = plan(None);
     }
-    let verification = (!folder.verification().is_empty())
-        .then(|| verification(folder, (&calibration, session), &mut before.verification));
+    let (verification, touch_test, placed) =
+        verified(folder, (&calibration, session), &mut before.verification);
     let next = next.map(|view| ProposedView::planned(&view, session));
-    let (camera, placements) = (session.camera, measured_placements(session));
+    let camera = session.camera;
+    let placements = measured_placements(session).into_iter().chain(placed).collect();
     let measured = measured_captures(session, &calibration);
     Ok(Assessment {
         calibration,
@@ -140,6 +178,7 @@ pub fn assess(
         no_next,
         enough,
         verification,
+        touch_test,
     })
 }
 
@@ -152,19 +191,62 @@ pub fn joint_numbers(values: &[f64], urdf: &Urdf) -> Vec<f64> {
     values.iter().zip(urdf.prismatic()).map(number).collect()
 }
 
-/// What the verification views say of the captures' calibration, or why they say nothing.
-fn verification(
+/// What views and touches that verify say of the captures' calibration, or why they say nothing; and what was measured in images
+/// of boards that were touched for it.
+fn verified(
     folder: &SessionFolder,
     (calibration, session): (&Calibration, &Session),
     before: &mut Measurements,
-) -> Result<HeldOutTest, String> {
+) -> (Option<Result<HeldOutTest, String>>, Option<Result<TouchTest, String>>, Vec<MeasuredCapture>)
+{
+    let has_views = !folder.verification().is_empty();
+    let ids: Vec<String> =
+        folder.touches().into_iter().filter(|t| t.verifies).map(|t| t.id.clone()).collect();
+    if !has_views && ids.is_empty() {
+        return (None, None, vec![]);
+    }
     let measured = folder
         .verification_dataset(session.camera)
         .and_then(|dataset| measure::measure_again(&dataset, before, &|_, _| {}));
-    let views = measured.map_err(|e| e.to_string())?.session.observations;
-    held_out::test(calibration, session, &views).ok_or_else(|| {
-        "the captures determine no transform, too few of them are used, or the views show no board".into()
-    })
+    let seen = match measured {
+        Ok(measured) => measured.session,
+        Err(e) => {
+            let why = e.to_string();
+            let views = has_views.then(|| Err(why.clone()));
+            return (views, (!ids.is_empty()).then_some(Err(why)), vec![]);
+        }
+    };
+    let views = has_views.then(|| {
+        held_out::test(calibration, session, &seen.observations).ok_or_else(|| {
+            "the captures determine no transform, too few of them are used, or the views show no board".to_owned()
+        })
+    });
+    let touches = (!ids.is_empty())
+        .then(|| touch_test(ids, (calibration, session), &seen, folder.settings()));
+    (views, touches, measured_placements(&seen))
+}
+
+/// Without views of their own, touches of the captures' board are tested against where the captures show it.
+fn touch_test(
+    ids: Vec<String>,
+    (calibration, session): (&Calibration, &Session),
+    seen: &Session,
+    settings: &CellSettings,
+) -> Result<TouchTest, String> {
+    let none = || "the captures determine no transform".to_owned();
+    let mut test = verify::of_calibration(calibration, TOUCH_SIGMA_M).ok_or_else(none)?;
+    let mut seen = seen.clone();
+    if settings.setup == Setup::EyeInHand && seen.observations.is_empty() {
+        let is_used =
+            |o: &&Observation| calibration.captures.iter().any(|c| c.used && c.id == o.capture);
+        seen.observations = session.observations.iter().filter(is_used).cloned().collect();
+    }
+    verify::add_boards(&mut test, calibration, &seen);
+    let found = verify::verify(&test).map_err(|e| e.to_string())?;
+    let chance = found.agreement.ok_or("the calibration states no covariance")?.p_value;
+    let squares = found.differences.iter().filter_map(|d| d.expected).map(|m| (m * 1e3).powi(2));
+    let expected_mm = (squares.sum::<f64>() / found.differences.len() as f64).sqrt();
+    Ok(TouchTest { ids, found, chance, expected_mm })
 }
 
 impl Assessment {

@@ -4,7 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use handeye::{Calibration, Config, Session};
 use handeye_io::{
-    Dataset, Error, NewCapture, NewPlacement, ResultFolder, SessionFolder,
+    Dataset, Error, NewCapture, NewPlacement, NewTouch, ResultFolder, SessionFolder,
     calibrate::{calibrate_dataset, write_run},
     report::dataset_html,
     simulated,
@@ -73,9 +73,15 @@ impl Host {
                 self.store(verifies, (&robot, image_time_s), image)
             }
             Effect::StorePlacement { image_time_s, .. } => self.place(image_time_s, image),
-            Effect::StoreTouch { corner, placement, robot } => {
-                let pose = (robot.base_from_flange, &robot.typed[..]);
-                let stored = self.folder.touch((placement.as_deref(), corner), pose, robot.time_s);
+            Effect::StoreTouch { corner, placement, verifies, robot } => {
+                let stored = self.folder.touch(&NewTouch {
+                    placement: placement.as_deref(),
+                    corner,
+                    verifies,
+                    base_from_flange: robot.base_from_flange,
+                    typed: &robot.typed,
+                    time_s: robot.time_s,
+                });
                 let stored = stored.map_err(|e| e.to_string());
                 vec![Input::Folder(Box::new(self.state())), Input::Touched(stored)]
             }

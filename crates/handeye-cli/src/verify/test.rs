@@ -3,27 +3,18 @@
 use std::path::Path;
 
 use handeye::{
-    Calibration, Flange, Mount, Pose, Session, Setup, TargetPose, Warning,
-    calibrate::result,
+    Calibration, Pose, Setup, Warning,
     estimate::touch_pairs,
-    tools::verify::{self, ByPose, Sighting, Test, Touched},
+    tools::verify::{self, Sighting, Test, Touched},
 };
 use handeye_io::{Dataset, MANIFEST, TouchedPoint, measure, read_touched_points};
-use nalgebra::{Matrix3, Matrix6, Vector6};
+use nalgebra::Matrix3;
 
 use crate::{
     args::{GlobalArgs, VerifyArgs},
     failure::Failure,
     progress::Progress,
 };
-
-/// What the robot's position misses from place to place, m, each axis: by the error of its reports, or by errors that it
-/// does not know of, of its arm or by place.
-fn place_sigma(calibration: &Calibration) -> f64 {
-    let tre = calibration.predicted_tre_mm.as_ref().map_or(0.0, |tre| tre.rms * 1e-3);
-    let missed = calibration.robot_errors().map_or(0.0, |_| tre / 3.0f64.sqrt());
-    calibration.robot_noise().distance.max(missed)
-}
 
 /// The test of a calibration, and what to know about its touches.
 pub(super) fn test(
@@ -32,16 +23,9 @@ pub(super) fn test(
     path: &Path,
     global: &GlobalArgs,
 ) -> Result<(Test, Vec<Warning>), Failure> {
-    let Some(mount_from_camera) = calibration.hand_eye.mount_from_camera else {
+    let Some(mut test) = verify::of_calibration(calibration, args.touch_noise_mm * 1e-3) else {
         let what = "holds no transform (the data did not determine it): there is nothing to test";
         return Err(Failure::input(path, what));
-    };
-    let mut test = Test {
-        mount_from_camera,
-        covariance: calibration.hand_eye.covariance.mount_from_camera.as_ref().map(result::matrix),
-        poses: vec![],
-        touch_sigma: (args.touch_noise_mm * 1e-3).hypot(place_sigma(calibration)),
-        touches: vec![],
     };
     let is_dataset = args.touches.is_dir() || args.touches.extension().is_some_and(|e| e == "toml");
     let warnings = match is_dataset {
@@ -78,7 +62,7 @@ fn from_file(
             shared: vec![],
         };
         if calibration.setup == Setup::EyeInHand {
-            let flange = shared_flange(test, base_from_mount.rename(), calibration);
+            let flange = verify::shared_flange(test, base_from_mount.rename(), calibration);
             let in_mount = test.mount_from_camera * point.in_camera;
             sighting.shared.push((flange, verify::by_mount(&base_from_mount, &in_mount)));
         }
@@ -118,29 +102,6 @@ fn each_once(points: Vec<TouchedPoint>) -> (Vec<TouchedPoint>, Vec<Warning>) {
     (kept, warnings)
 }
 
-/// The error of a flange pose, one for all that was seen from it.
-fn shared_flange(
-    test: &mut Test,
-    flange: Pose<handeye::Base, Flange>,
-    calibration: &Calibration,
-) -> usize {
-    let same = |t: &Touched| {
-        let s = t.sightings.iter().find(|s| s.base_from_mount.rename::<_, Flange>() == flange)?;
-        s.shared.first().map(|(number, _)| *number)
-    };
-    test.touches.iter().find_map(same).unwrap_or_else(|| {
-        test.poses.push(robot_covariance(calibration));
-        test.poses.len() - 1
-    })
-}
-
-fn robot_covariance(calibration: &Calibration) -> Matrix6<f64> {
-    let noise = calibration.robot_noise();
-    let (r, t) = (noise.angle, noise.distance);
-    let (r, t) = (r * r, t * t);
-    Matrix6::from_diagonal(&Vector6::new(r, r, r, t, t, t))
-}
-
 fn from_dataset(
     path: &Path,
     calibration: &Calibration,
@@ -163,82 +124,6 @@ fn from_dataset(
     if let Some(sigma) = dataset.noise.touch {
         test.touch_sigma = sigma.hypot(calibration.robot_noise().distance);
     }
-    test.touches = session
-        .touches
-        .iter()
-        .map(|t| Touched {
-            id: format!("{} {}", t.placement, t.corner),
-            in_base: t.in_base,
-            sightings: vec![],
-        })
-        .collect();
-    for (name, base_from_mount, candidates) in views(&session) {
-        see(test, &session, &name, base_from_mount, &candidates, calibration);
-    }
+    verify::add_boards(test, calibration, &session);
     Ok(warnings.into_iter().map(Warning::from).collect())
-}
-
-/// Where a board was seen: its name, the mount, and the board's possible poses.
-type BoardView = (String, Pose<handeye::Base, Mount>, Vec<TargetPose>);
-
-fn views(session: &Session) -> Vec<BoardView> {
-    let placed = session.placements.iter();
-    match session.setup {
-        Setup::EyeToHand => {
-            placed.map(|p| (p.id.clone(), Pose::identity(), p.candidates.clone())).collect()
-        }
-        Setup::EyeInHand => {
-            let name = session.touches.first().map(|t| t.placement.clone()).unwrap_or_default();
-            let view = |o: &handeye::Observation| {
-                (name.clone(), o.base_from_flange.rename(), o.candidates.clone())
-            };
-            session.observations.iter().map(view).collect()
-        }
-    }
-}
-
-/// Adds one view of a board to the touches of it, in the reading that fits them best.
-fn see(
-    test: &mut Test,
-    session: &Session,
-    name: &str,
-    base_from_mount: Pose<handeye::Base, Mount>,
-    candidates: &[TargetPose],
-    calibration: &Calibration,
-) {
-    let Some(target) = &session.target else { return };
-    let base_from_camera = base_from_mount * test.mount_from_camera;
-    let touched: Vec<usize> =
-        (0..session.touches.len()).filter(|&k| session.touches[k].placement == name).collect();
-    let corner = |k: usize| target.corner(session.touches[k].corner);
-    let residual = |pose: &TargetPose| -> f64 {
-        let of = |&k: &usize| {
-            let there = base_from_camera * pose.camera_from_target * corner(k)?;
-            Some((there.vector() - session.touches[k].in_base.vector()).norm())
-        };
-        touched.iter().filter_map(of).sum()
-    };
-    let best = candidates.iter().min_by(|a, b| residual(a).total_cmp(&residual(b)));
-    let Some(pose) = best else { return };
-    let board = test.poses.len();
-    test.poses.push(pose.covariance.unwrap_or_else(Matrix6::zeros));
-    let flange = (session.setup == Setup::EyeInHand).then(|| {
-        test.poses.push(robot_covariance(calibration));
-        board + 1
-    });
-    for k in touched {
-        let Some(on_board) = corner(k) else { continue };
-        let in_camera = pose.camera_from_target * on_board;
-        let by_board: ByPose =
-            verify::by_board(&base_from_camera, &pose.camera_from_target, &on_board);
-        let in_mount = test.mount_from_camera * in_camera;
-        let by_flange = flange.map(|f| (f, verify::by_mount(&base_from_mount, &in_mount)));
-        let shared = [(board, by_board)].into_iter().chain(by_flange).collect();
-        test.touches[k].sightings.push(Sighting {
-            base_from_mount,
-            in_camera,
-            covariance: Matrix3::zeros(),
-            shared,
-        });
-    }
 }

@@ -66,6 +66,9 @@ pub struct StoredTouch {
     /// Of the board of which placement (eye-to-hand).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placement: Option<String>,
+    /// Whether it verifies the answer, which is not made with it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub verifies: bool,
     /// What the robot reported.
     pub base_from_flange: Pose<Base, Flange>,
     /// The numbers from which that was read, where they were typed.

@@ -4,7 +4,7 @@
 //! handeye.toml        the manifest
 //! robot.csv           the flange's pose in each capture, in the robot's notation, and its joint values
 //! robot/robot.urdf    the robot's model, where one was given, and the meshes of its links
-//! touches.csv         the same for each corner that was touched
+//! touches.csv         the same for each corner that was touched; touches that verify the answer are in the journal alone
 //! images/001.png      scans/001.ply
 //! placements/p01.png  boards that lie in the view, to be touched
 //! verification/v01.png    views that verify the answer, which is not made with them
@@ -36,7 +36,7 @@ use crate::{
 use journal::{Journal, Line};
 pub use journal::{RefusedCapture, StoredCapture, StoredPlacement, StoredTouch};
 pub use manifest::{ArmLinks, CameraGuess, CellSettings, ScanSettings};
-pub use touches::NewPlacement;
+pub use touches::{NewPlacement, NewTouch};
 
 /// The journal's name.
 const JOURNAL: &str = "journal.jsonl";
@@ -170,7 +170,8 @@ impl SessionFolder {
         }
     }
 
-    /// The views that verify the answer, as a dataset of the camera as the answer has it.
+    /// What verifies the answer, as a dataset of the camera as the answer has it: views, and touches of the board with the
+    /// placements that they are on.
     ///
     /// # Errors
     /// As [`Dataset::open`].
@@ -189,7 +190,9 @@ impl SessionFolder {
         let captures = self.verification().iter().map(source).collect();
         let mut cell = Dataset::without_captures(&self.root.join(MANIFEST))?;
         cell.intrinsics = camera.or(cell.intrinsics);
-        (cell.captures, cell.touches, cell.placements) = (captures, vec![], vec![]);
+        cell.touches = self.touches_verifying();
+        cell.placements = self.placements_verifying();
+        cell.captures = captures;
         Ok(cell)
     }
 
@@ -385,7 +388,7 @@ impl SessionFolder {
         let emptied = [DELETED, VERIFICATION, PLACEMENTS].map(|name| self.root.join(name));
         aside.iter().chain(&emptied).for_each(|path| _ = fs::remove_dir(path));
         self.write_if_changed("robot.csv", &self.table())?;
-        let touches = self.touches();
+        let touches = self.touches_used();
         match touches.is_empty() {
             true => _ = fs::remove_file(self.root.join(TOUCHES)),
             false => self.write_if_changed(TOUCHES, &self.table_of(&touches))?,
@@ -393,7 +396,7 @@ impl SessionFolder {
         let held = manifest::Held {
             has_scans: self.captures().iter().any(|c| c.scan.is_some()),
             has_touches: !touches.is_empty(),
-            placements: self.placements(),
+            placements: self.placements_used(),
             has_joints: self.has_joints(),
         };
         self.write_if_changed(MANIFEST, &manifest::text(&self.settings, &held))

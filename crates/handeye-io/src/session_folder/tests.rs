@@ -194,7 +194,7 @@ fn numbers_that_were_typed_in_another_notation_are_read_again() {
             scan: None,
         };
         folder.take(&capture).unwrap();
-        folder.touch((None, 3), (read(first), &numbers), 1.0).unwrap();
+        folder.touch(&new_touch((None, 3), (read(first), &numbers))).unwrap();
         // whether or not the notation was corrected before, and twice is as good as once
         folder.set(&CellSettings { notation: really.into(), ..settings }).unwrap();
         folder.reread(really).unwrap();
@@ -216,6 +216,14 @@ fn numbers_that_were_typed_in_another_notation_are_read_again() {
     }
 }
 
+/// A touch of a corner of a placement, with the flange there as it was typed.
+fn new_touch<'a>(
+    (placement, corner): (Option<&'a str>, u32),
+    (base_from_flange, typed): (Pose<Base, Flange>, &'a [f64]),
+) -> NewTouch<'a> {
+    NewTouch { placement, corner, verifies: false, base_from_flange, typed, time_s: 1.0 }
+}
+
 #[test]
 fn boards_that_are_laid_down_and_touched_are_those_of_the_dataset() {
     let root = new_folder();
@@ -230,7 +238,7 @@ fn boards_that_are_laid_down_and_touched_are_those_of_the_dataset() {
     let placement = NewPlacement { image_time_s: Some(1.0), image, scan: None };
     let touch = |folder: &mut SessionFolder, placement: &str, corner: u32| {
         let pose = recording.base_from_flange[0];
-        folder.touch((Some(placement), corner), (pose, &[]), 2.0)
+        folder.touch(&new_touch((Some(placement), corner), (pose, &[])))
     };
     let missing = touch(&mut folder, "p01", 0).unwrap_err().to_string();
     assert!(missing.contains("has no placement p01"), "{missing}");
@@ -263,6 +271,25 @@ fn boards_that_are_laid_down_and_touched_are_those_of_the_dataset() {
     assert_eq!(seen(&folder), all);
     assert!(!root.join(DELETED).exists());
     assert_eq!(folder.place(&placement).unwrap(), "p03");
+
+    // a board whose touches verify the answer is none of those that it is made with
+    let pose = recording.base_from_flange[0];
+    let verifying = NewTouch { verifies: true, ..new_touch((Some("p03"), 3), (pose, &[])) };
+    folder.touch(&verifying).unwrap();
+    assert_eq!(seen(&folder), all);
+    let mixed = touch(&mut folder, "p03", 0).unwrap_err().to_string();
+    assert!(mixed.contains("lay the board elsewhere"), "{mixed}");
+    let held_out = folder.verification_dataset(None).unwrap();
+    assert_eq!(held_out.placements.iter().map(|p| &p.id[..]).collect::<Vec<_>>(), ["p03"]);
+    assert_eq!(held_out.touches.len(), 1);
+    let tip = pose * handeye::Point::new(0.0, 0.0, 0.15);
+    assert_eq!(held_out.touches[0].in_base, tip);
+    drop(folder);
+    let mut folder = SessionFolder::open(&root, None).unwrap();
+    assert!(folder.touches().last().unwrap().verifies);
+    folder.untouch("t04").unwrap();
+    assert_eq!(seen(&folder).0, ["p01", "p02", "p03"]);
+    drop(folder);
     fs::remove_dir_all(root).unwrap();
 }
 

@@ -1,9 +1,9 @@
 //! Corners that were touched, and the boards that were laid into the view for it.
 
-use handeye::{Base, Flange, Pose};
+use handeye::{Base, Flange, Point, Pose, Touch, nalgebra::Vector3};
 
 use super::{Line, PLACEMENTS, SessionFolder, StoredPlacement, StoredTouch};
-use crate::{Error, Writing, error::unusable};
+use crate::{Error, FIXED_BOARD, PlacementSource, Writing, error::unusable};
 
 /// No session has more placements.
 const MOST_PLACEMENTS: usize = 99;
@@ -17,6 +17,23 @@ pub struct NewPlacement<'a> {
     pub image: Option<(&'a str, &'a [u8])>,
     /// The scan's file likewise, in metres where the file does not say it.
     pub scan: Option<(&'a str, &'a [u8])>,
+}
+
+/// A corner that is touched.
+#[derive(Debug, Clone, Copy)]
+pub struct NewTouch<'a> {
+    /// Of the board of which placement, where those are touched.
+    pub placement: Option<&'a str>,
+    /// Which.
+    pub corner: u32,
+    /// Whether it verifies the answer, which is not made with it.
+    pub verifies: bool,
+    /// Where the flange is.
+    pub base_from_flange: Pose<Base, Flange>,
+    /// The numbers from which that was read, where they were typed.
+    pub typed: &'a [f64],
+    /// When, s.
+    pub time_s: f64,
 }
 
 impl SessionFolder {
@@ -53,22 +70,62 @@ impl SessionFolder {
         Ok(id)
     }
 
-    /// Corners that were touched, in the order in which they were.
+    /// Corners that were touched, in the order in which they were; those that verify the answer are part of none.
     pub fn touches(&self) -> Vec<&StoredTouch> {
         self.journal.touches()
     }
 
-    /// Stores a touch of a corner, of the board of a placement where those are touched, with the flange there, a pose that
-    /// was read from the `typed` numbers if there are any; returns its name.
+    /// Those that the answer is made with.
+    pub(super) fn touches_used(&self) -> Vec<&StoredTouch> {
+        self.touches().into_iter().filter(|touch| !touch.verifies).collect()
+    }
+
+    /// Boards that the answer is made with: a board whose touches verify it is none of them.
+    pub(super) fn placements_used(&self) -> Vec<&StoredPlacement> {
+        self.placements().into_iter().filter(|p| !self.is_verifying(p)).collect()
+    }
+
+    fn is_verifying(&self, placement: &StoredPlacement) -> bool {
+        let on_it = |touch: &&StoredTouch| touch.placement.as_ref() == Some(&placement.id);
+        self.touches().into_iter().filter(on_it).any(|touch| touch.verifies)
+    }
+
+    /// The boards whose touches verify the answer.
+    pub(super) fn placements_verifying(&self) -> Vec<PlacementSource> {
+        let file = |name: &Option<String>| name.as_ref().map(|name| self.root.join(name));
+        let all = self.placements().into_iter().filter(|p| self.is_verifying(p));
+        all.map(|p| PlacementSource {
+            id: p.id.clone(),
+            image: file(&p.image),
+            scan: file(&p.scan),
+            corners: None,
+            camera_from_target: None,
+        })
+        .collect()
+    }
+
+    /// Touches that verify the answer, with the positions of the tip.
+    pub(super) fn touches_verifying(&self) -> Vec<Touch> {
+        let Some(tip_mm) = self.settings.tip_mm else { return vec![] };
+        let tip = Point::<Flange>::from_vector(Vector3::from(tip_mm) * 1e-3);
+        let all = self.touches().into_iter().filter(|touch| touch.verifies);
+        all.map(|t| Touch {
+            placement: t.placement.clone().unwrap_or_else(|| FIXED_BOARD.into()),
+            corner: t.corner,
+            in_base: t.base_from_flange * tip,
+            base_from_flange: Some(t.base_from_flange),
+            joints: vec![],
+        })
+        .collect()
+    }
+
+    /// Stores a touch of a corner, with the flange there; returns its name.
     ///
     /// # Errors
-    /// A corner that the board has not, a placement that is not there; a folder that cannot be written.
-    pub fn touch(
-        &mut self,
-        (placement, corner): (Option<&str>, u32),
-        (base_from_flange, typed): (Pose<Base, Flange>, &[f64]),
-        time_s: f64,
-    ) -> Result<String, Error> {
+    /// A corner that the board has not, a placement that is not there, or that has touches of the other kind; a folder that
+    /// cannot be written.
+    pub fn touch(&mut self, touch: &NewTouch) -> Result<String, Error> {
+        let NewTouch { placement, corner, verifies, base_from_flange, typed, time_s } = *touch;
         if self.settings.target.corner(corner).is_none() {
             return Err(unusable(&self.root, format!("the board has no corner {corner}")));
         }
@@ -77,11 +134,26 @@ impl SessionFolder {
         {
             return Err(unusable(&self.root, format!("has no placement {name}")));
         }
+        let others = self.touches().into_iter().any(|t| {
+            t.verifies != verifies && placement.is_some() && t.placement.as_deref() == placement
+        });
+        if others {
+            let what = "has touches that verify the answer and touches that it is made with: lay the board elsewhere for the others";
+            return Err(unusable(
+                &self.root,
+                format!("placement {} {what}", placement.unwrap_or("")),
+            ));
+        }
         let id = format!("t{:02}", self.journal.touched().len() + 1);
-        let (placement, typed) = (placement.map(Into::into), typed.to_vec());
-        let touch =
-            StoredTouch { id: id.clone(), corner, placement, base_from_flange, typed, time_s };
-        self.journal.append(Line::Touch(touch))?;
+        self.journal.append(Line::Touch(StoredTouch {
+            id: id.clone(),
+            corner,
+            placement: placement.map(Into::into),
+            verifies,
+            base_from_flange,
+            typed: typed.to_vec(),
+            time_s,
+        }))?;
         self.settle()?;
         Ok(id)
     }

@@ -174,6 +174,8 @@ pub enum Effect {
         corner: u32,
         /// Of the board of which placement; `None` for the board of the captures.
         placement: Option<String>,
+        /// Whether it verifies the captures, and the answer is not made with it.
+        verifies: bool,
         /// Where the robot stood.
         robot: RobotSample,
     },

@@ -261,7 +261,7 @@ impl Engine {
         if to == Destination::Touch {
             self.may_drive_to_board()?;
             let none = || later("no corner is to be touched".into());
-            let corner = self.next_corner().ok_or_else(none)?;
+            let corner = self.next_corner(self.touches_verify()).ok_or_else(none)?;
             self.tip_to = Some((corner, self.now));
             return Ok(vec![Effect::DriveTip(corner)]);
         }

@@ -2,14 +2,14 @@
 //! kind, is laid into the view; one image shows where it lies, then its corners are touched.
 
 use handeye::{ImageCorner, Setup};
-use handeye_io::StoredPlacement;
+use handeye_io::{StoredPlacement, StoredTouch};
 
 use super::{
-    Change, Effect, Engine, Flow, Problem, Refusal, Step,
+    Change, Effect, Engine, Flow, Problem, Refusal,
     obey::{later, wrong},
     rest::{self, Motion},
     shown::{Lying, PlacementShown},
-    taking::{ANOTHER_IMAGE_PX, Asked, LOOKING_S, PATIENCE_S, Wish},
+    taking::{ANOTHER_IMAGE_PX, LOOKING_S, PATIENCE_S, Wish},
 };
 use crate::assess::MeasuredCapture;
 
@@ -31,9 +31,16 @@ impl Engine {
         self.settings().setup == Setup::EyeToHand
     }
 
-    /// The board whose corners are touched; `None` where none lies in the view, or the captures' own board is touched.
-    pub(super) fn newest_placement(&self) -> Option<&StoredPlacement> {
-        self.folder.placements.last()
+    /// The board whose corners are touched, to verify or not; `None` where none lies in the view for that, or the captures' own
+    /// board is touched.
+    pub(super) fn newest_placement(&self, verifies: bool) -> Option<&StoredPlacement> {
+        self.folder.placements.last().filter(|newest| self.is_for(newest, verifies))
+    }
+
+    /// Whether touches of a placement verify, or do not: those of one board are all of one kind.
+    fn is_for(&self, placement: &StoredPlacement, verifies: bool) -> bool {
+        let on_it = |t: &&StoredTouch| t.placement.as_ref() == Some(&placement.id);
+        self.folder.touches.iter().filter(on_it).all(|touch| touch.verifies == verifies)
     }
 
     /// Takes the image of a board that was laid into the view, as soon as it stands.
@@ -44,9 +51,7 @@ impl Engine {
             ));
         }
         self.may_touch()?;
-        if self.step != Step::Touch {
-            return Err(later("boards are laid into the view in the step `touch`".into()));
-        }
+        self.touches_now("boards are laid into the view in the steps `touch` and `verify`")?;
         if self.storing || self.assessing {
             return Err(later(
                 "what came before is still being assessed: take the image then".into(),
@@ -56,7 +61,7 @@ impl Engine {
             return Err(later(format!("no image of the board was taken: {why}")));
         }
         if self.wish.is_none() {
-            self.wish = Some(Wish::new(self.now, Asked::Person));
+            self.wish = Some(Wish::of_placement(self.now));
         }
         self.forget_problem();
         Ok(self.wait())
@@ -99,8 +104,8 @@ impl Engine {
     }
 
     /// What lies in the view of a virtual cell's camera.
-    pub(super) fn lying(&self) -> Lying {
-        let newest = self.newest_placement().map(|newest| &newest.id);
+    pub(super) fn lying(&self, verifies: bool) -> Lying {
+        let newest = self.newest_placement(verifies).map(|newest| &newest.id);
         match &self.lies {
             None => Lying::Nothing,
             // the placement of one that lies there may have been deleted
@@ -112,7 +117,7 @@ impl Engine {
     /// Whether the tip of a virtual cell's tool can be led to a corner.
     pub(super) fn may_drive_to_board(&self) -> Result<(), Refusal> {
         self.may_touch_board()?;
-        let first = match self.lying() {
+        let first = match self.lying(self.touches_verify()) {
             Lying::Nothing => "lay a board into the view (`drive` to `placement`)",
             Lying::New => "take the image of the board that was laid down (`place`)",
             Lying::Placed => return Ok(()),
@@ -224,7 +229,7 @@ impl Engine {
 
     /// The newest placement, where the board has not moved since.
     fn lies_as_before(&self, corners: &[ImageCorner]) -> Option<&str> {
-        let id = &self.newest_placement()?.id;
+        let id = &self.folder.placements.last()?.id;
         let before = self.assessed.as_ref()?.placements.iter().find(|found| found.id == *id)?;
         is_as_in(before, corners).then_some(&id[..])
     }
@@ -245,19 +250,22 @@ impl Engine {
         off_mm.is_some_and(|mm| mm < CARRIED_MM)
     }
 
+    /// What to do where a board has to be laid down before corners are touched.
+    pub(super) fn say_laying(&self, verifies: bool) -> Option<&'static str> {
+        let is_gone = self.sources.is_virtual && self.lying(verifies) != Lying::Placed;
+        let none = is_gone || self.newest_placement(verifies).is_none();
+        (self.lays_boards() && none).then_some("Lay the board, or another of the same kind, into the view, so that the tool reaches it, and take its image.")
+    }
+
     /// What to do next where a board has to be laid down, or should be.
     pub(super) fn say_placement(&self, corner: u32) -> Option<String> {
-        if !self.lays_boards() {
-            return None;
+        if let Some(wish) = self.wish.as_ref().filter(|wish| wish.is_placement) {
+            return Some(say_waiting(wish));
         }
-        if let Some(wish) = &self.wish {
-            let why = if wish.why.is_empty() { "waiting for a standstill" } else { &wish.why };
-            return Some(format!("The image of the board is to be taken: {why}."));
+        if let Some(what) = self.say_laying(false) {
+            return Some(what.into());
         }
-        let is_gone = self.sources.is_virtual && self.lying() != Lying::Placed;
-        let Some(newest) = self.newest_placement().filter(|_| !is_gone) else {
-            return Some("Lay the board, or another of the same kind, into the view, so that the tool reaches it, and take its image.".into());
-        };
+        let newest = self.newest_placement(false).filter(|_| self.lays_boards())?;
         let touched = self.touches_of(&newest.id);
         (touched >= ENOUGH_TOUCHES).then(|| {
             format!("Lay the board elsewhere into the view, best at another height, and take its image. Or touch corner {corner} as well, or finish.")
@@ -265,18 +273,23 @@ impl Engine {
     }
 
     fn touches_of(&self, placement: &str) -> usize {
-        let on_it =
-            |touch: &&handeye_io::StoredTouch| touch.placement.as_deref() == Some(placement);
+        let on_it = |touch: &&StoredTouch| touch.placement.as_deref() == Some(placement);
         self.folder.touches.iter().filter(on_it).count()
     }
 
-    pub(super) fn placements_shown(&self) -> Vec<PlacementShown> {
+    pub(super) fn placements_shown(&self, verifies: bool) -> Vec<PlacementShown> {
         let shown = |placement: &StoredPlacement| PlacementShown {
             id: placement.id.clone(),
             touches: self.touches_of(&placement.id),
         };
-        self.folder.placements.iter().map(shown).collect()
+        self.folder.placements.iter().filter(|p| self.is_for(p, verifies)).map(shown).collect()
     }
+}
+
+/// What is said while the image of a board is waited for.
+pub(super) fn say_waiting(wish: &Wish) -> String {
+    let why = if wish.why.is_empty() { "waiting for a standstill" } else { &wish.why };
+    format!("The image of the board is to be taken: {why}.")
 }
 
 /// Whether an image shows the board where one before has it.

@@ -7,6 +7,7 @@ use handeye_io::StoredCapture;
 
 use super::{
     Engine, Flow, Step,
+    placement::say_waiting,
     rest::{Motion, RobotSample},
     taking::{ELSEWHERE, KNOWN},
 };
@@ -171,6 +172,9 @@ impl Engine {
     pub(super) fn say_busy(&self) -> Option<String> {
         if self.storing {
             return Some("The capture is being stored.".into());
+        }
+        if let Some(wish) = self.wish.as_ref().filter(|wish| wish.is_placement) {
+            return Some(say_waiting(wish));
         }
         if let Some(wish) = &self.wish {
             let why = if wish.why.is_empty() { "waiting for a standstill" } else { &wish.why };

@@ -278,7 +278,7 @@ pub struct TouchShown {
     pub used: bool,
 }
 
-/// Views that verify what was made of the captures.
+/// Views and touches that verify what was made of the captures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct VerifyView {
@@ -288,8 +288,14 @@ pub struct VerifyView {
     pub rms_mm: Option<f64>,
     /// What was expected of it, mm.
     pub expected_mm: Option<f64>,
-    /// Whether they agree with the calibration.
+    /// Whether views and touches agree with the calibration.
     pub agrees: Option<bool>,
+    /// Corners that are touched to verify, how far the tip was from where they were predicted; `None` where none can be.
+    pub touch: Option<TouchView>,
+    /// What to do next where corners are touched.
+    pub say_touch: Option<String>,
+    /// How far touches were expected to be from there, RMS, mm.
+    pub touches_expected_mm: Option<f64>,
 }
 
 /// A view that verifies.

@@ -35,6 +35,8 @@ pub(super) struct Wish {
     pub(super) since: f64,
     pub(super) why: String,
     asked: Asked,
+    /// Whether it is the image of a board that was laid down to be touched.
+    pub(super) is_placement: bool,
     /// Since when all stands, but the board is not found.
     unseen_since: Option<f64>,
 }
@@ -50,7 +52,11 @@ pub(super) enum Asked {
 
 impl Wish {
     pub(super) fn new(since: f64, asked: Asked) -> Self {
-        Self { since, why: String::new(), asked, unseen_since: None }
+        Self { since, why: String::new(), asked, is_placement: false, unseen_since: None }
+    }
+
+    pub(super) fn of_placement(since: f64) -> Self {
+        Self { is_placement: true, ..Self::new(since, Asked::Person) }
     }
 }
 
@@ -114,10 +120,9 @@ impl Engine {
         if self.automatic && self.wish.is_none() && !self.storing && self.is_elsewhere() {
             self.wish = Some(Wish::new(self.now, Asked::Automatic));
         }
-        match self.step {
-            // in this step nothing is waited for but the image of a board that was laid down
-            Step::Touch if self.wish.is_some() => self.fulfil_placement(),
-            _ => self.fulfil(),
+        match self.wish.as_ref().is_some_and(|wish| wish.is_placement) {
+            true => self.fulfil_placement(),
+            false => self.fulfil(),
         }
     }
 

@@ -26,6 +26,9 @@ const FEWEST: usize = 3;
 /// is shorter.
 const SETTING_OFF_S: f64 = 0.3;
 
+pub(super) const WHERE_IS_THE_TIP: &str =
+    "Where is the tip of the touching tool in the flange? Enter it in millimetres.";
+
 impl Engine {
     /// Whether corners can be touched.
     pub(super) fn may_touch(&self) -> Result<(), Refusal> {
@@ -41,7 +44,7 @@ impl Engine {
     /// Whether a board lies where it can be touched.
     pub(super) fn may_touch_board(&self) -> Result<(), Refusal> {
         self.may_touch()?;
-        match self.lays_boards() && self.newest_placement().is_none() {
+        match self.lays_boards() && self.newest_placement(self.touches_verify()).is_none() {
             true => Err(later(
                 "the robot cannot touch the board that it carries: first lay the board into the view, and take its image (`place`)".into(),
             )),
@@ -62,10 +65,15 @@ impl Engine {
         })
     }
 
+    /// Whether touches that are made now verify the captures, and the answer is not made with them.
+    pub(super) fn touches_verify(&self) -> bool {
+        self.step == Step::Verify
+    }
+
     /// The corner to touch next: the first of corners far from each other that was not touched.
-    pub(super) fn next_corner(&self) -> Option<u32> {
+    pub(super) fn next_corner(&self, verifies: bool) -> Option<u32> {
         self.may_touch().ok()?;
-        let here = self.newest_placement().map(|p| &p.id);
+        let here = self.newest_placement(verifies).map(|p| &p.id);
         let here = self.folder.touches.iter().filter(|t| t.placement.as_ref() == here);
         let touched: BTreeSet<u32> = here.map(|t| t.corner).collect();
         let spread = spread_corners(&self.settings().target, touched.len() + 1);
@@ -75,14 +83,14 @@ impl Engine {
 
     pub(super) fn touch(&mut self, corner: Option<u32>) -> Result<Vec<Effect>, Refusal> {
         self.may_touch()?;
-        if self.step != Step::Touch {
-            return Err(later("corners are touched in the step `touch`".into()));
-        }
+        self.touches_now("corners are touched in the steps `touch` and `verify`")?;
         if self.settings().tip_mm.is_none() {
             return Err(later("first say where the tool's tip is in the flange".into()));
         }
         self.may_touch_board()?;
-        let corner = corner.or_else(|| self.next_corner()).ok_or_else(|| wrong("which corner?"))?;
+        let verifies = self.touches_verify();
+        let next = || self.next_corner(verifies);
+        let corner = corner.or_else(next).ok_or_else(|| wrong("which corner?"))?;
         if self.settings().target.corner(corner).is_none() {
             return Err(wrong(format!("the board has no corner {corner}")));
         }
@@ -91,17 +99,24 @@ impl Engine {
             return Err(later("what came before is still being assessed: touch then".into()));
         }
         if self.wish.is_some() {
-            return Err(later(
-                "the image of the board is waited for: touch it then, or cancel that".into(),
-            ));
+            return Err(later("an image is waited for: touch then, or cancel that".into()));
         }
         let robot = self.touching_pose()?;
         self.note_touch(robot.time_s);
         self.tip_to = None;
         self.storing = true;
         self.forget_problem();
-        let placement = self.newest_placement().map(|p| p.id.clone());
-        Ok(vec![Effect::StoreTouch { corner, placement, robot }])
+        let placement = self.newest_placement(verifies).map(|p| p.id.clone());
+        Ok(vec![Effect::StoreTouch { corner, placement, verifies, robot }])
+    }
+
+    /// Whether corners are touched in this step.
+    pub(super) fn touches_now(&self, otherwise: &str) -> Result<(), Refusal> {
+        match self.step {
+            Step::Touch => Ok(()),
+            Step::Verify => self.may_verify(),
+            _ => Err(later(otherwise.into())),
+        }
     }
 
     /// The pose with the tip at a corner: the robot stands, and where no touch was made before.
@@ -160,8 +175,8 @@ impl Engine {
     }
 
     pub(super) fn touch_proof(&self) -> Proof {
-        let count = self.folder.touches.len();
-        match (self.touch_view(), count) {
+        let count = self.folder.touches.iter().filter(|touch| !touch.verifies).count();
+        match (self.touch_view(false), count) {
             (None, _) => proof(true, "corners are not touched in this cell"),
             (Some(view), 0) if view.lays && view.placement.is_none() => {
                 proof(false, "no board was laid into the view to be touched; this step is optional")
@@ -180,10 +195,9 @@ impl Engine {
         if let Err(why) = self.may_touch() {
             return format!("{}.", capitalised(&why.message));
         }
-        let Some(view) = self.touch_view() else { return String::new() };
+        let Some(view) = self.touch_view(false) else { return String::new() };
         if view.tip_mm.is_none() {
-            return "Where is the tip of the touching tool in the flange? Enter it in millimetres."
-                .into();
+            return WHERE_IS_THE_TIP.into();
         }
         let assessed = self.assessed.as_ref().filter(|_| !self.assessing);
         if let Some(why) = assessed.and_then(|assessed| assessed.contradiction()) {
@@ -205,45 +219,57 @@ impl Engine {
         format!("Bring the tip to corner {} of the board, and touch it.{go_on}", view.corner)
     }
 
-    /// What is shown of touches; `None` where none can be made.
-    pub(super) fn touch_view(&self) -> Option<TouchView> {
-        let corner = self.next_corner()?;
-        let result = self.assessed.as_ref().filter(|_| !self.assessing).map(|a| &a.calibration);
-        // of a corner that was touched several times, in that order
-        let of = |k: usize, t: &StoredTouch| {
-            let same =
-                |other: &&StoredTouch| (other.corner, &other.placement) == (t.corner, &t.placement);
-            let before = self.folder.touches[..k].iter().filter(same).count();
-            let on_it = |found: &&TouchResult| {
-                found.corner == t.corner && t.placement.as_ref().is_none_or(|p| *p == found.capture)
-            };
-            result?.touches.iter().filter(on_it).nth(before)
+    /// What is shown of touches, those that verify the captures or those that the answer is made with; `None` where none can be
+    /// made.
+    pub(super) fn touch_view(&self, verifies: bool) -> Option<TouchView> {
+        let corner = self.next_corner(verifies)?;
+        let touches = match verifies {
+            true => self.verifying_touches(),
+            false => self.touches_used(),
         };
-        let shown = self.folder.touches.iter().enumerate().map(|(k, t)| TouchShown {
-            id: t.id.clone(),
-            placement: t.placement.clone(),
-            corner: t.corner,
-            residual_mm: of(k, t).map(|found| found.residual_mm),
-            used: of(k, t).is_some_and(|found| found.used),
-        });
-        let touches: Vec<TouchShown> = shown.collect();
         let all: Vec<f64> =
             touches.iter().filter(|t| t.used).filter_map(|t| t.residual_mm).collect();
         let mean = all.iter().map(|mm| mm * mm).sum::<f64>() / all.len() as f64;
         let rms_mm = (!all.is_empty()).then(|| mean.sqrt());
         let (columns, _) = self.settings().target.grid();
         let (tip_mm, at_corner) = (self.settings().tip_mm, self.is_tip_there(corner));
+        let lays = self.lays_boards();
         Some(TouchView {
             tip_mm,
             corner,
             columns,
-            lays: self.lays_boards(),
-            placements: self.placements_shown(),
-            placement: self.newest_placement().map(|p| p.id.clone()),
-            lying: (self.sources.is_virtual && self.lays_boards()).then(|| self.lying()),
+            lays,
+            placements: self.placements_shown(verifies),
+            placement: self.newest_placement(verifies).map(|p| p.id.clone()),
+            lying: (self.sources.is_virtual && lays).then(|| self.lying(verifies)),
             touches,
             rms_mm,
             at_corner,
         })
+    }
+
+    /// The touches that the answer is made with.
+    fn touches_used(&self) -> Vec<TouchShown> {
+        let made: Vec<&StoredTouch> =
+            self.folder.touches.iter().filter(|touch| !touch.verifies).collect();
+        let result = self.assessed.as_ref().filter(|_| !self.assessing).map(|a| &a.calibration);
+        // of a corner that was touched several times, in that order
+        let of = |k: usize, t: &StoredTouch| {
+            let same =
+                |other: &&StoredTouch| (other.corner, &other.placement) == (t.corner, &t.placement);
+            let before = made[..k].iter().copied().filter(same).count();
+            let on_it = |found: &&TouchResult| {
+                found.corner == t.corner && t.placement.as_ref().is_none_or(|p| *p == found.capture)
+            };
+            result?.touches.iter().filter(on_it).nth(before)
+        };
+        let shown = made.iter().enumerate().map(|(k, t)| TouchShown {
+            id: t.id.clone(),
+            placement: t.placement.clone(),
+            corner: t.corner,
+            residual_mm: of(k, t).map(|found| found.residual_mm),
+            used: of(k, t).is_some_and(|found| found.used),
+        });
+        shown.collect()
     }
 }

@@ -1,15 +1,17 @@
-//! Views that verify the captures: the answer is not made with them, and should predict them as well as its own.
+//! Views and touches that verify the captures: the answer is not made with them, and should predict them as well as its own.
 
 use handeye::{Base, Flange, Pose, model::residual::Residual, tools::held_out::HeldOutTest};
-use handeye_io::StoredCapture;
+use handeye_io::{StoredCapture, StoredTouch};
 
 use super::{
     Engine, Refusal, Step,
     obey::later,
     say::{Proof, capitalised, contradiction, proof},
-    shown::{VerifyShown, VerifyView},
+    shown::{TouchShown, TouchView, VerifyShown, VerifyView},
     taking::{ELSEWHERE, KNOWN},
+    touch::WHERE_IS_THE_TIP,
 };
+use crate::assess::TouchTest;
 
 impl Engine {
     /// Whether images are taken in this step.
@@ -24,7 +26,7 @@ impl Engine {
             result.hand_eye.mount_from_camera.is_some()
                 && result.captures.iter().filter(|c| c.used).count() >= KNOWN
         });
-        match known || !self.folder.verification.is_empty() {
+        match known || self.has_verification() {
             true => Ok(()),
             false => {
                 Err(later("first captures are taken until they determine the transform".into()))
@@ -32,32 +34,97 @@ impl Engine {
         }
     }
 
+    fn touches_that_verify(&self) -> impl Iterator<Item = &StoredTouch> {
+        self.folder.touches.iter().filter(|touch| touch.verifies)
+    }
+
+    /// Whether there are views or touches that verify.
+    fn has_verification(&self) -> bool {
+        !self.folder.verification.is_empty() || self.touches_that_verify().next().is_some()
+    }
+
     /// What the views say, where they were assessed, or why they say nothing.
     fn verification(&self) -> Option<&Result<HeldOutTest, String>> {
         self.assessed.as_ref().filter(|_| !self.assessing)?.verification.as_ref()
     }
 
-    /// Why the views do not verify the captures.
+    /// What the touches say likewise.
+    fn touch_test(&self) -> Option<&Result<TouchTest, String>> {
+        self.assessed.as_ref().filter(|_| !self.assessing)?.touch_test.as_ref()
+    }
+
+    /// Why views and touches do not verify the captures.
     pub(super) fn not_verified(&self) -> Option<String> {
-        match self.verification() {
+        let views = match self.verification() {
             Some(Ok(test)) => (!test.agrees()).then(|| against(test)),
             Some(Err(why)) => Some(not_assessed(why)),
-            None if self.assessed.is_none() && !self.folder.verification.is_empty() => {
+            None if self.assessed.is_none() && self.has_verification() => {
                 Some(not_assessed("the captures cannot be assessed"))
             }
             None => None,
+        };
+        let touches = || match self.touch_test()? {
+            Ok(test) => (!test.agrees()).then(|| self.touches_against(test)),
+            Err(why) => Some(format!(
+                "not verified: the touches cannot be assessed: {why}. Delete them, and touch again"
+            )),
+        };
+        views.or_else(touches)
+    }
+
+    fn touches_against(&self, test: &TouchTest) -> String {
+        if let (true, Some(offset)) = (test.found.is_shifted(), &test.found.offset) {
+            let mm = offset.mean * 1e3;
+            return format!(
+                "not verified: at all touches the tip was off by about the same, ({:.1}, {:.1}, {:.1}) mm in the base: the tip is elsewhere in the flange than declared, or camera or board were moved since the captures. Measure the tip, delete these touches, and touch again; if something was moved, begin a new session",
+                mm.x, mm.y, mm.z
+            );
+        }
+        let off = |touch: &&StoredTouch| test.distance_mm(&touch.id).unwrap_or(0.0);
+        let worst = self.touches_that_verify().max_by(|a, b| off(a).total_cmp(&off(b)));
+        let (corner, mm) = worst.map_or((0, 0.0), |touch| (touch.corner, off(&touch)));
+        format!(
+            "not verified: at corner {corner} the tip was {mm:.2} mm from where the calibration predicts it, and {:.2} mm (RMS) are expected. Was it this corner, and did the tip slip? Then delete the touch. If not, camera or board were moved since the captures, or the robot errs there: do not use the result",
+            test.expected_mm
+        )
+    }
+
+    /// What verifies the captures, in words; `None` where nothing does yet.
+    fn agreement(&self) -> Option<String> {
+        let views = self.verification().and_then(|found| found.as_ref().ok()).map(agreement);
+        let touches = self.touch_test().and_then(|found| found.as_ref().ok());
+        match (views, touches) {
+            (Some(views), Some(test)) => Some(format!("{views}; {}", touched(test))),
+            (None, Some(test)) => Some(format!("verified {}", touched(test))),
+            (views, None) => views,
         }
     }
 
     pub(super) fn verify_proof(&self) -> Proof {
-        if self.folder.verification.is_empty() {
-            return proof(false, "no view has been taken that verifies the captures");
+        if !self.has_verification() {
+            return proof(
+                false,
+                "no view has been taken and no corner touched that verifies the captures",
+            );
         }
-        match (self.not_verified(), self.verification()) {
+        match (self.not_verified(), self.agreement()) {
             (Some(why), _) => proof(false, why),
-            (None, Some(Ok(test))) => proof(true, agreement(test)),
-            (None, _) => proof(false, "the views are being assessed"),
+            (None, Some(agreement)) if !self.assessing => proof(true, agreement),
+            (None, _) => proof(false, "views and touches are being assessed"),
         }
+    }
+
+    /// The touches that verify, and how far they are from where they were predicted.
+    pub(super) fn verifying_touches(&self) -> Vec<TouchShown> {
+        let test = self.touch_test().and_then(|found| found.as_ref().ok());
+        let shown = self.touches_that_verify().map(|touch| TouchShown {
+            id: touch.id.clone(),
+            placement: touch.placement.clone(),
+            corner: touch.corner,
+            residual_mm: test.and_then(|test| test.distance_mm(&touch.id)),
+            used: true,
+        });
+        shown.collect()
     }
 
     /// Why the view that would be taken now says nothing new: the robot is where another one was taken, and the image is as
@@ -89,11 +156,8 @@ impl Engine {
         if let Some(why) = assessed.contradiction() {
             return contradiction(why, self.folder.captures.len());
         }
-        if let Some(Ok(test)) = &assessed.verification {
-            return format!(
-                "{}. Take another one, best where the robot will work, or finish.",
-                capitalised(&agreement(test))
-            );
+        if let Some(agreement) = self.agreement() {
+            return and_go_on(&agreement);
         }
         match &assessed.next {
             Some(next) if self.is_at(next) => "The robot is at the view: take it.".into(),
@@ -102,31 +166,63 @@ impl Engine {
         }
     }
 
-    /// What is added to the sentence on the result.
-    pub(super) fn verified(&self) -> String {
-        match self.verification() {
-            Some(Ok(test)) => format!("; {}", agreement(test)),
-            _ => String::new(),
+    /// What to do next for whoever verifies by touches.
+    fn say_touching(&self, view: &TouchView) -> String {
+        if let Some(busy) = self.say_busy() {
+            return busy;
+        }
+        if let Some(why) = self.not_verified() {
+            return format!("{}.", capitalised(&why));
+        }
+        let assessed = self.assessed.as_ref();
+        if let Some(why) = assessed.and_then(|assessed| assessed.contradiction()) {
+            return contradiction(why, self.folder.captures.len());
+        }
+        match (view.tip_mm, self.agreement(), self.say_laying(true)) {
+            (None, ..) => WHERE_IS_THE_TIP.into(),
+            (_, Some(agreement), _) => and_go_on(&agreement),
+            (_, None, Some(lay)) => lay.into(),
+            (_, None, None) => {
+                format!("Bring the tip to corner {} of the board, and touch it.", view.corner)
+            }
         }
     }
 
-    /// What is shown of the views; `None` where none can be taken.
+    /// What is added to the sentence on the result.
+    pub(super) fn verified(&self) -> String {
+        self.agreement().map_or(String::new(), |agreement| format!("; {agreement}"))
+    }
+
+    /// What is shown of views and touches; `None` where none can be taken.
     pub(super) fn verify_view(&self) -> Option<VerifyView> {
         self.may_verify().ok()?;
         let test = self.verification().and_then(|found| found.as_ref().ok());
+        let touch_test = self.touch_test().and_then(|found| found.as_ref().ok());
+        let agree = [test.map(HeldOutTest::agrees), touch_test.map(TouchTest::agrees)];
         let of = |id: &str| test?.views.iter().find(|view| view.id == id);
         let shown = self.folder.verification.iter().map(|view| VerifyShown {
             id: view.id.clone(),
             distance_mm: of(&view.id).map(|found| found.distance_mm),
             angle_deg: of(&view.id).map(|found| found.angle_deg),
         });
+        let touch = self.touch_view(true);
         Some(VerifyView {
+            say_touch: touch.as_ref().map(|view| self.say_touching(view)),
             views: shown.collect(),
             rms_mm: test.map(|test| test.rms_mm),
             expected_mm: test.map(|test| test.expected_mm),
-            agrees: test.map(HeldOutTest::agrees),
+            agrees: agree.into_iter().flatten().reduce(|views, touches| views && touches),
+            touch,
+            touches_expected_mm: touch_test.map(|test| test.expected_mm),
         })
     }
+}
+
+fn and_go_on(agreement: &str) -> String {
+    format!(
+        "{}. Take another view or touch another corner, best where the robot will work, or finish.",
+        capitalised(agreement)
+    )
 }
 
 fn agreement(test: &HeldOutTest) -> String {
@@ -137,6 +233,18 @@ fn agreement(test: &HeldOutTest) -> String {
         ),
         count => format!(
             "verified by {count} views: {rms_mm:.2} mm (RMS) from their predictions, {expected_mm:.2} mm are expected"
+        ),
+    }
+}
+
+fn touched(test: &TouchTest) -> String {
+    let (rms_mm, expected_mm) = (test.rms_mm(), test.expected_mm);
+    match test.ids.len() {
+        1 => format!(
+            "by a touch: {rms_mm:.2} mm from where the corner is predicted, {expected_mm:.2} mm are expected"
+        ),
+        count => format!(
+            "by {count} touches: {rms_mm:.2} mm (RMS) from where the corners are predicted, {expected_mm:.2} mm are expected"
         ),
     }
 }

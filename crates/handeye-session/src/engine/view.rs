@@ -69,7 +69,7 @@ impl Engine {
             }),
             assessing: self.assessing,
             assessed: self.assessments,
-            touch: self.touch_view(),
+            touch: self.touch_view(false),
             verify: self.verify_view(),
             progress: self.assessed.as_ref().map(|a| self.progress(a)),
             result: self.result_view(),

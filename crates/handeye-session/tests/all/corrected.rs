@@ -3,7 +3,7 @@
 use std::fs;
 
 use handeye::{Setup, TargetModel};
-use handeye_io::{CellSettings, SessionFolder, Writing, simulated};
+use handeye_io::{CellSettings, NewTouch, SessionFolder, Writing, simulated};
 use handeye_session::{
     engine::{Command, Step},
     host::Host,
@@ -100,7 +100,15 @@ fn a_board_with_touched_corners_keeps_its_corners() {
     let root = new_folder();
     let cell = VirtualCell::new(Setup::EyeInHand, 6, Faults::default()).unwrap();
     let mut folder = SessionFolder::open(&root, Some(&cell.settings())).unwrap();
-    folder.touch((None, 3), (cell.sample(0.0).base_from_flange, &[]), 1.0).unwrap();
+    let touch = NewTouch {
+        placement: None,
+        corner: 3,
+        verifies: false,
+        base_from_flange: cell.sample(0.0).base_from_flange,
+        typed: &[],
+        time_s: 1.0,
+    };
+    folder.touch(&touch).unwrap();
     let other = TargetModel::Checkerboard { columns: 7, rows: 5, square_mm: 30.0 };
     let why = folder.set(&CellSettings { target: other, ..cell.settings() }).unwrap_err();
     assert!(why.to_string().contains("delete the touches first"), "{why}");

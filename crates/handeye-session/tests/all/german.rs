@@ -281,7 +281,8 @@ fn shown(state: &State) -> Vec<String> {
     let refused = state.refused.iter().map(|refused| refused.why.clone());
     let reasons = state.progress.iter().flat_map(|progress| progress.reasons.clone());
     let next = state.next.iter().map(|next| next.reason.clone());
-    let say = std::iter::once(state.say.clone());
+    let of_touches = state.verify.as_ref().and_then(|verify| verify.say_touch.clone());
+    let say = std::iter::once(state.say.clone()).chain(of_touches);
     (say.chain(steps).chain(problem).chain(devices).chain(camera))
         .chain(captures)
         .chain(refused)
@@ -346,6 +347,28 @@ fn sessions_with_touches_are_heard_in_german() {
         let there = heard.player.state().touch.unwrap().corner;
         heard.command(Command::Touch { corner: Some((there + 9) % 54) });
         assert!(heard.player.state().say.contains("is rejected as an outlier"));
+        let wrong = heard.player.state().touch.unwrap().touches.pop().unwrap().id;
+        heard.command(Command::Untouch { id: wrong });
+        heard.command(Command::Go { step: Step::Verify });
+        if setup == BASE {
+            heard.command(Command::Drive { to: Destination::Placement });
+            heard.player.pass(3.0);
+            heard.command(Command::Place);
+        }
+        for _ in 0..2 {
+            heard.command(Command::Drive { to: Destination::Touch });
+            assert!(heard.command(Command::Touch { corner: None }));
+        }
+        heard.command(Command::Drive { to: Destination::Next });
+        heard.command(Command::Take);
+        assert!(heard.player.state().say.contains("by 2 touches"));
+        let tip = heard.player.cell().settings().tip_mm.unwrap();
+        heard.command(Command::Tip { in_flange_mm: [tip[0] + 3.0, tip[1], tip[2] - 4.0] });
+        heard.command(Command::Tip { in_flange_mm: tip });
+        heard.command(Command::Drive { to: Destination::Touch });
+        heard.command(Command::Touch { corner: Some(11) });
+        assert!(heard.player.state().say.contains("at corner 11"));
+        heard.command(Command::Undo);
         heard.command(Command::Finish);
         finished(heard, &root);
     }

@@ -146,7 +146,7 @@ fn corners_are_touched_and_judge_the_answer() {
     let mut player = player(&root, Setup::EyeInHand, 9);
     begin(&mut player);
     let refused = player.command(Command::Touch { corner: None }).unwrap_err();
-    assert!(refused.contains("in the step `touch`"), "{refused}");
+    assert!(refused.contains("in the steps `touch` and `verify`"), "{refused}");
     player.play(&script(UNTIL_ENOUGH)).unwrap();
     player.command(Command::Go { step: Step::Touch }).unwrap();
     let mut corners = vec![];

@@ -2,7 +2,7 @@
 
 import { selectedCapture, type App } from "./app";
 import type { Icon } from "./icons";
-import { isOutlier, isPlaced, takesCaptures, type State, type StepName } from "./state";
+import { isOutlier, isPlaced, isTouching, takesCaptures, touchesHere, type State, type StepName } from "./state";
 import type { Key } from "./words";
 
 export interface Action {
@@ -42,7 +42,7 @@ let asked: { outcomes: number; problem: string; at: number } | null = null;
 const ASKED_FOR = 20_000; // ms after which this is over in any case
 
 const outcomes = (state: State): number =>
-  [state.captures, state.deleted, state.refused, state.verify?.views, state.touch?.placements].reduce((sum, all) => sum + (all?.length ?? 0), 0);
+  [state.captures, state.deleted, state.refused, state.verify?.views, state.touch?.placements, state.verify?.touch?.placements].reduce((sum, all) => sum + (all?.length ?? 0), 0);
 
 const problemOf = ({ problem }: State): string => (problem && problem.code !== "image-late" ? problem.message : "");
 
@@ -115,22 +115,28 @@ function inVerify(app: App, state: State): Action {
 }
 
 const DONE_TOUCHES = 6; // then finishing is the next thing
+const DONE_VERIFYING = 4; // where they verify
 
 /** Takes the image of a board that was laid into the view; in a virtual cell somebody lays it there first. */
 export function placeAction(app: App, state: State): Action {
   if (state.taking) return { label: "waiting_for_board", enabled: false, run: () => cancel(app) };
-  if (state.virtual_cell && state.touch?.lying !== "new") return act(app, "lay_board", { do: "drive", to: "placement" });
+  if (state.virtual_cell && touchesHere(state)?.lying !== "new") return act(app, "lay_board", { do: "drive", to: "placement" });
   return { label: "place", enabled: !isStoring(state), run: () => void ask(app, "place") };
 }
 
 function inTouch(app: App, state: State): Action {
-  const count = state.touch?.touches?.length ?? 0;
+  const here = touchesHere(state);
+  const count = here?.touches?.length ?? 0;
+  const verifies = state.step === "verify";
   if (state.virtual_cell?.driving) return act(app, "driving", { do: "cancel" }, false);
   if (state.assessing) return act(app, "assessing_now", { do: "cancel" }, false);
-  if (!state.touch?.tip_mm) return act(app, "touch_it", { do: "touch" }, false);
-  if (state.touch.lays && (state.taking || !isPlaced(state.touch))) return placeAction(app, state);
-  if (count >= DONE_TOUCHES) return act(app, "finish", { do: "finish" });
-  if (state.virtual_cell && state.touch.at_corner !== true) return act(app, "drive_tip", { do: "drive", to: "touch" });
+  if (!here?.tip_mm) return act(app, "touch_it", { do: "touch" }, false);
+  const isDone = verifies ? count >= DONE_VERIFYING && state.verify?.agrees === true : count >= DONE_TOUCHES;
+  // once these verify, a board that is taken away is not asked for again
+  if (verifies && isDone && !state.taking) return act(app, "finish", { do: "finish" });
+  if (here.lays && (state.taking || !isPlaced(here))) return placeAction(app, state);
+  if (isDone) return act(app, "finish", { do: "finish" });
+  if (state.virtual_cell && here.at_corner !== true) return act(app, "drive_tip", { do: "drive", to: "touch" });
   return { label: "touch_it", enabled: true, run: () => void touch(app) };
 }
 
@@ -152,7 +158,7 @@ function primaryOf(app: App, state: State): Action {
     case "touch":
       return inTouch(app, state);
     case "verify":
-      return inVerify(app, state);
+      return isTouching(state) ? inTouch(app, state) : inVerify(app, state);
     case "result":
       if (!state.result) return act(app, "back_to_captures", { do: "go", step: "capture" });
       return { label: "open_report", enabled: true, icon: "page", run: openReport };
@@ -192,7 +198,7 @@ export function secondary(app: App, state: State): Action[] {
     case "verify":
       return [
         ...stop,
-        ...(isTaking ? [] : [takeAction(app, state)]),
+        ...(isTaking || isTouching(state) ? [] : [takeAction(app, state)]),
         ...(primary(app, state).label === "finish" ? [] : [act(app, "finish", { do: "finish" })]),
         act(app, "back_to_captures", { do: "go", step: "capture" }),
       ];

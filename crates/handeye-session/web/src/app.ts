@@ -1,7 +1,7 @@
 // What all parts of the page share: the last state, what this browser alone has chosen, and how to send a command.
 
 import { command, Refusal } from "./link";
-import type { Command, Problem, State } from "./state";
+import type { Command, Problem, State, VerifyBy } from "./state";
 import type { Language } from "./words";
 
 /** What this browser has chosen; the server does not know of it. */
@@ -12,6 +12,7 @@ export interface Choices {
   large: "picture" | "cell";
   joints: boolean; // joint values in place of the pose
   typed: string; // a pose that is being typed
+  by: VerifyBy;
 }
 
 export interface App {
@@ -56,7 +57,7 @@ function store(choices: Choices): void {
 export function makeApp(redraw: () => void): App {
   const app: App = {
     state: null,
-    choices: { language: null, muted: false, selected: null, large: "picture", joints: false, typed: "", ...stored() },
+    choices: { language: null, muted: false, selected: null, large: "picture", joints: false, typed: "", by: "views", ...stored() },
     lostSince: null,
     signedOut: false,
     refused: null,
@@ -75,6 +76,7 @@ export function makeApp(redraw: () => void): App {
     },
     choose(some) {
       Object.assign(app.choices, some);
+      if (app.state) app.state.by = app.choices.by;
       store(app.choices);
       redraw();
     },

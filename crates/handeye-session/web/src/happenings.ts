@@ -2,7 +2,7 @@
 
 import type { App } from "./app";
 import { play } from "./sounds";
-import type { State } from "./state";
+import { sayOf, type State } from "./state";
 import { badVerdict } from "./notices";
 import { currentLanguage, showTranslated } from "./words";
 
@@ -30,7 +30,7 @@ export function makeSpeaker(element: HTMLElement): (state: State) => void {
   let wanted = "";
   let timer: ReturnType<typeof setTimeout> | undefined;
   return (state) => {
-    const said = [state.problem?.message ?? "", state.say ?? ""].filter(Boolean);
+    const said = [state.problem?.message ?? "", sayOf(state) ?? ""].filter(Boolean);
     const sentence = `${currentLanguage()} ${said.join(" ")}`;
     if (sentence === wanted) return;
     wanted = sentence;

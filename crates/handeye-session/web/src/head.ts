@@ -3,6 +3,7 @@
 import { primary, secondary, type Action } from "./actions";
 import type { App, Part } from "./app";
 import { attribute, h, kind, list } from "./dom";
+import { sayOf } from "./state";
 import { showOwn, said, t, showTranslated } from "./words";
 
 const SIZES = [27, 24, 21, 18, 16, 14]; // px of the sentence's letters; the largest that fits is taken
@@ -63,7 +64,7 @@ export function makeHead(app: App, element: HTMLElement): Part {
       kind(main.element, "waiting", Boolean(state.taking || state.virtual_cell?.driving));
       drawOthers(app.state ? secondary(app, state) : []);
       const before = sentence.textContent;
-      if (app.state) showTranslated(sentence, state.say);
+      if (app.state) showTranslated(sentence, sayOf(state));
       else showOwn(sentence, t("connecting"));
       if (sentence.textContent !== before) fit(sentence);
     },

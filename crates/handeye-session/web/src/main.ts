@@ -53,8 +53,8 @@ const onSide: [Part, StepName[]][] = [
   [makeStepCamera(app), ["camera"]],
   [makeStepRobot(app), ["robot"]],
   [makeStepBoard(app), ["board"]],
-  [makeStepTouch(app), ["touch"]],
   [makeStepVerify(app), ["verify"]],
+  [makeStepTouch(app), ["touch", "verify"]],
   [makeFindings(app, "rejects"), ANSWER],
   [makeAccuracy(app), ["capture", "result"]],
   [makeCaptures(app), ["capture", "result"]],
@@ -102,7 +102,7 @@ const UNSEEN = 250; // ms after which a state is drawn without a frame of the sc
 
 /** A new state is drawn with the next frame of the screen: states that come faster than that are not all drawn. */
 function arrived(state: State): void {
-  app.state = state;
+  app.state = { ...state, by: app.choices.by };
   app.lostSince = null;
   app.signedOut = false;
   if (waiting) return;

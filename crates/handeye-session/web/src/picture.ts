@@ -8,7 +8,7 @@ import { h, kind, show, text } from "./dom";
 import { frameFor } from "./live";
 import { mm } from "./numbers";
 import { drawEarlier, drawFound, drawGhost, drawResiduals, drawWay, type Colours, type Fit } from "./overlay";
-import { isOutlier, isPlaced, takesCaptures, type Capture, type State } from "./state";
+import { isOutlier, isPlaced, isTouching, takesCaptures, touchesHere, type Capture, type State } from "./state";
 import { named, sentence, t, showTranslated, translated } from "./words";
 
 const COLOURS: Colours = {
@@ -143,9 +143,10 @@ export function makePicture(app: App): Part & { draw(): void } {
 }
 
 /** Whether the next image is to show the board: while corners are touched, the camera sees whatever part of it. */
-function needsBoard({ step, touch, taking }: State): boolean {
-  if (step !== "touch") return true;
-  return touch?.lays === true && (Boolean(taking) || !isPlaced(touch));
+function needsBoard(state: State): boolean {
+  if (!isTouching(state)) return true;
+  const touch = touchesHere(state);
+  return touch?.lays === true && (Boolean(state.taking) || !isPlaced(touch));
 }
 
 function captureTag(capture: Capture): string {

@@ -7,7 +7,7 @@ import { button } from "./controls";
 import { attribute, h, kind, list, show, text } from "./dom";
 import { makeTyping } from "./typing";
 import { columns, mm, small, type Column } from "./numbers";
-import { takesCaptures, type Next, type State } from "./state";
+import { isTouching, takesCaptures, type Next, type State } from "./state";
 import { showOwn, said, t, showTranslated } from "./words";
 
 interface Digit extends Column {
@@ -108,7 +108,7 @@ export function makePosePanel(app: App): Part {
       attribute(joints, "aria-pressed", String(app.choices.joints));
       show(other, Boolean(next));
       typing.update(state);
-      show(typing.element, state.robot?.typed === true && (takesCaptures(state) || state.step === "touch"));
+      show(typing.element, state.robot?.typed === true && (takesCaptures(state) || isTouching(state)));
     },
   };
 }

@@ -15,7 +15,17 @@ export interface Pose {
 export const STEPS = ["cell", "camera", "robot", "board", "capture", "touch", "verify", "result"] as const;
 
 /** Steps in which images are taken. */
-export const takesCaptures = ({ step }: State): boolean => step === "capture" || step === "verify";
+export const takesCaptures = ({ step, by }: State): boolean => step === "capture" || (step === "verify" && by !== "touches");
+
+/** Whether corners are touched, for the calibration or to verify it. */
+export const isTouching = ({ step, by }: State): boolean => step === "touch" || (step === "verify" && by === "touches");
+
+/** What to do next. */
+export const sayOf = (state: State): Maybe<string> =>
+  state.step === "verify" && state.by === "touches" ? (state.verify?.say_touch ?? state.say) : state.say;
+
+/** The touches that belong to the step. */
+export const touchesHere = (state: State): Maybe<Touching> => (state.step === "verify" ? state.verify?.touch : state.touch);
 export type StepName = (typeof STEPS)[number];
 
 export interface Step {
@@ -207,13 +217,19 @@ export interface Touch {
   used?: boolean;
 }
 
-/** Views that verify the captures. */
+/** Views and touches that verify the captures. */
 export interface Verifying {
   views?: Verified[];
   rms_mm?: Maybe<number>;
   expected_mm?: Maybe<number>;
-  agrees?: Maybe<boolean>;
+  agrees?: Maybe<boolean>; // of both
+  touch?: Maybe<Touching>;
+  say_touch?: Maybe<string>;
+  touches_expected_mm?: Maybe<number>;
 }
+
+/** What a result is verified by. */
+export type VerifyBy = "views" | "touches";
 
 export interface Verified {
   id: string;
@@ -223,6 +239,7 @@ export interface Verified {
 
 export interface State {
   version: number;
+  by?: VerifyBy; // chosen in this browser
   folder?: string;
   title?: string;
   step?: StepName;

@@ -7,7 +7,7 @@ import { button, card } from "./controls";
 import { h, list, show, svg, text } from "./dom";
 import { numberField } from "./number_field";
 import { mm } from "./numbers";
-import { isPlaced, type Maybe, type Placement, type State, type Target, type Touch, type Touching } from "./state";
+import { isPlaced, isTouching, touchesHere, type Maybe, type Placement, type State, type Target, type Touch, type Touching } from "./state";
 import { said, t } from "./words";
 
 const SIDE = 20; // of a square in the drawing
@@ -120,7 +120,8 @@ export function makeStepTouch(app: App): Part {
   const undo = button("undo", () => void app.send({ do: "undo" }), { icon: "undo" });
   const made = card("touches", rows, deleted.element, undo);
   const placements = placementsCard(app);
-  const next = card("touch_next", which, place, said(h("p", { class: "hint" }), "touch_why"));
+  const why = h("p", { class: "hint" });
+  const next = card("touch_next", which, place, why);
   const element = h(
     "div",
     { class: "stack" },
@@ -140,11 +141,13 @@ export function makeStepTouch(app: App): Part {
   return {
     element,
     update(state) {
-      const touch = state.touch;
+      const touch = isTouching(state) ? touchesHere(state) : null;
+      show(element, Boolean(touch));
       if (!touch) return;
       axes.forEach((axis, k) => axis.set(touch.tip_mm?.[k]));
       placements.update(touch, state);
       text(which, t("corner_number", { number: String(touch.corner) }));
+      text(why, t(state.step === "verify" ? "verify_touches_why" : "touch_why"));
       show(next, !touch.lays || isPlaced(touch));
       const touches = touch.touches ?? [];
       draw([...touches].reverse());

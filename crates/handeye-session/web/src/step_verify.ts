@@ -1,11 +1,12 @@
-// The step "verify": views that the calibration is not made with, and how far they are from where it predicts them.
+// The step "verify": views that the calibration is not made with, or corners that are touched, and how far they are from where
+// it predicts them.
 
 import type { App, Part } from "./app";
 import { button, card } from "./controls";
-import { h, kind, list, show, text } from "./dom";
+import { attribute, h, kind, list, show, text } from "./dom";
 import { mm } from "./numbers";
-import type { Verified } from "./state";
-import { said, t } from "./words";
+import type { Verified, VerifyBy } from "./state";
+import { named, said, t, type Key } from "./words";
 
 function viewRow(app: App, id: string) {
   const name = h("span");
@@ -20,31 +21,59 @@ function viewRow(app: App, id: string) {
   };
 }
 
+/** What the result is verified by: this browser's choice. */
+function makeChoice(app: App) {
+  const ways: VerifyBy[] = ["views", "touches"];
+  const choices = ways.map((by) => {
+    const input = h("input", { type: "radio", name: "verify-by", value: by });
+    input.addEventListener("change", () => app.choose({ by }));
+    const words = h("span", {}, said(h("b"), `by_${by}` as Key), said(h("small"), `by_${by}_what` as Key));
+    return { by, input, element: h("label", { class: "choice" }, input, words) };
+  });
+  const element = h("div", { role: "radiogroup", class: "choices" }, ...choices.map((choice) => choice.element));
+  named(element, "verification");
+  return {
+    element,
+    update(): void {
+      for (const { by, input, element: label } of choices) {
+        const chosen = app.choices.by === by;
+        if (input.checked !== chosen) input.checked = chosen;
+        kind(label, "chosen", chosen);
+        attribute(label, "data-by", by);
+      }
+    },
+  };
+}
+
 export function makeStepVerify(app: App): Part {
   const answer = h("p", { class: "which verified" });
-  const numbers = h("p", { class: "hint" });
+  const ofViews = h("p", { class: "hint" });
+  const ofTouches = h("p", { class: "hint" });
+  const choice = makeChoice(app);
   const rows = h("ol", { class: "touches" });
   const draw = list<Verified>(
     rows,
     ({ id }) => id,
     ({ id }) => viewRow(app, id),
   );
-  const element = h(
-    "div",
-    { class: "stack" },
-    card("verification", said(h("p", { class: "hint" }), "verification_why"), answer, numbers, rows),
-  );
+  const views = card("verification_views", rows);
+  const element = h("div", { class: "stack" }, card("verification", answer, ofViews, ofTouches, choice.element), views);
   return {
     element,
     update(state) {
-      const { views, rms_mm: rms, expected_mm: expected, agrees } = state.verify ?? {};
+      const { views: all = [], rms_mm: rms, expected_mm: expected, agrees, touch, touches_expected_mm: touched } = state.verify ?? {};
+      choice.update();
+      show(choice.element, Boolean(touch));
       const isKnown = typeof agrees === "boolean";
       show(answer, isKnown);
-      show(numbers, isKnown);
       kind(answer, "contradicts", agrees === false);
       text(answer, t(agrees ? "verified_yes" : "verified_no"));
-      text(numbers, t("verified_by", { rms: mm(rms), expected: mm(expected) }));
-      draw([...(views ?? [])].reverse());
+      show(ofViews, typeof rms === "number");
+      text(ofViews, t("verified_by_views", { rms: mm(rms), expected: mm(expected) }));
+      show(ofTouches, typeof touched === "number");
+      text(ofTouches, t("verified_by_touches", { rms: mm(touch?.rms_mm), expected: mm(touched) }));
+      show(views, all.length > 0);
+      draw([...all].reverse());
     },
   };
 }

@@ -16,6 +16,8 @@
 //! fiducial limits*, Biometrika 26(4), 1934; lengths follow a gamma distribution matched by moments
 //! (F. Satterthwaite, Biometrics Bulletin 2(6), 1946).
 
+mod boards;
+
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SMatrix, Vector3};
 use serde::Serialize;
 use statrs::distribution::{Beta, ContinuousCDF, Gamma};
@@ -25,6 +27,7 @@ use crate::{
     math::{linalg, statistics},
     register::rigid_fit::point_jacobian,
 };
+pub use boards::{add_boards, of_calibration, shared_flange};
 
 /// How confident the bounds are.
 pub const CONFIDENCE: f64 = 0.95;
