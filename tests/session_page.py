@@ -5,7 +5,8 @@ session_page.py PROGRAM [folder for a picture of every step]
 In a virtual cell, once with the mouse, whose clicks are counted, and once with the keyboard alone. The program calibrates
 the folder to the same bytes, a second tab shows the same, and nothing is loaded from elsewhere. In a session of uploads, the
 browser's own camera (a simulated one) sees the board, and its image makes a capture. With a camera beside the robot a board
-is laid into the view, and its corners are touched; that page speaks German, and nothing on it stays English.
+is laid into the view, and its corners are touched; that page speaks German, and nothing on it stays English. Views and touches
+of which the calibration knows nothing verify both.
 """
 
 import contextlib
@@ -33,6 +34,7 @@ CHOICES = ["cell", "camera", "robot", "board"]
 FORMAT = "quaternion-xyzw"
 TOUCHES = 6
 VIEWS = 3
+VERIFYING = 4
 
 STEP = "document.body?.dataset.step"
 PRIMARY = "document.querySelector('button.primary')"
@@ -41,6 +43,7 @@ ACTION = f"({PRIMARY}.getAttribute('aria-disabled') ? '' : {PRIMARY}.querySelect
 STATE = f"JSON.stringify([{STEP}, {ACTION}])"
 TOUCH_STEP = "document.querySelector('[data-say=step_touch]').closest('button')"
 VERIFY_STEP = "document.querySelector('[data-say=step_verify]').closest('button')"
+BY_TOUCHES = "document.querySelector('input[name=verify-by][value=touches]')"
 # what is the same in every tab
 SHOWN = f"""JSON.stringify([{STEP}, ...['h1', '.accuracy .number', 'ol.captures', '.banner']
     .map((part) => document.querySelector(part).textContent)])"""
@@ -131,6 +134,7 @@ def main():
         with_touches(page, folder, pictures)
         same_bytes(program, folder)
         with_other_views(page, folder, pictures)
+        with_other_touches(page, folder, pictures, "verify-touches")
         same_bytes(program, folder)
         assert not list(page.wrong()), list(page.wrong())
     with opened(program) as (page, folder):
@@ -140,7 +144,12 @@ def main():
         assert not list(page.wrong()), list(page.wrong())
         keys = page.keys
     with opened(program, ("--virtual", SEED, "--setup", "eye-to-hand")) as (page, folder):
+        page.value(HEAR)
         with_placement(page, folder, pictures)
+        done = with_other_touches(page, folder, pictures, "verify-placement")
+        assert done.count("place") == 1 and len(list((folder / "placements").iterdir())) == 2, done
+        assert page.value("document.documentElement.lang") == "de"
+        assert not page.value("[...heard]"), f"English on a German page: {page.value('[...heard]')}"
         same_bytes(program, folder)
         assert not list(page.wrong()), list(page.wrong())
     with_uploads(program, pictures)
@@ -208,7 +217,6 @@ def with_touches(page, folder, pictures):
 
 def with_placement(page, folder, pictures):
     """With a camera beside the robot a board is laid into the view, and its corners are touched, all of it in German."""
-    page.value(HEAR)
     page.click(GERMAN)
     page.wait("document.querySelector('h1').textContent.startsWith('Ist das Ihre Zelle?')", "the page speaks German at once")
     for step in CHOICES:
@@ -232,8 +240,6 @@ def with_placement(page, folder, pictures):
     result = json.loads((folder / "result" / "calibration.json").read_text())
     assert result["verdict"] == "accepted" and len(result["touches"]) == TOUCHES, result["verdict"]
     assert len(list((folder / "placements").iterdir())) == 1
-    assert page.value("document.documentElement.lang") == "de"
-    assert not page.value("[...heard]"), f"English on a German page: {page.value('[...heard]')}"
 
 
 def with_other_views(page, folder, pictures):
@@ -253,6 +259,27 @@ def with_other_views(page, folder, pictures):
     look(page, "verify", pictures)
     page.act(lambda: page.click(PRIMARY), "verify")
     page.wait(f"{STEP} == 'result'", "the result")
+
+
+def with_other_touches(page, folder, pictures, name):
+    """Corners that the calibration is not made with are touched, and agree with it."""
+    before = (folder / "result" / "calibration.json").read_bytes()
+    page.click(VERIFY_STEP)
+    page.wait(f"{STEP} == 'verify' && {ACTION}", "the step verify")
+    page.click(BY_TOUCHES)
+    page.wait(f"['lay_board', 'drive_tip'].includes({ACTION})", "a corner to touch, or a board to lay")
+    look(page, f"{name}-first", pictures)
+    done = []
+    while not done or done[-1] != "finish":
+        done.append(page.act(lambda: page.click(PRIMARY), "verify"))
+        if done.count("touch_it") == VERIFYING and done[-1] == "touch_it":
+            page.wait(f"{ACTION} == 'finish'", "the touches agree")
+            agree = page.value("document.querySelector('.verified').textContent")
+            assert agree in ("They agree with the calibration.", "Sie passen zur Kalibrierung."), agree
+            look(page, name, pictures)
+    page.wait(f"{STEP} == 'result'", "the result")
+    assert (folder / "result" / "calibration.json").read_bytes() == before, "touches that verify change the result"
+    return done
 
 
 def with_keys(page, folder):

@@ -302,7 +302,7 @@ async fn exported(State(app): State<App>, Query(Wanted { format }): Query<Wanted
         return refusal(StatusCode::CONFLICT, what, "take more captures");
     }
     if is_contradicted(&app.live) {
-        let what = "verification views contradict the result, and it is not exported";
+        let what = "the verification contradicts the result, and it is not exported";
         return refusal(StatusCode::CONFLICT, what, "see the step `verify`");
     }
     match export::CameraPose::of(&result, None, None, std::slice::from_ref(&format)) {

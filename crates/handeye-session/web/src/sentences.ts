@@ -645,7 +645,7 @@ export const SERVER_SENTENCES: readonly (readonly [english: string, german: stri
   ["finish the captures first", "Erst die Aufnahmen abschließen"],
   ["the result is not accepted, and is not exported", "Das Ergebnis ist nicht angenommen und wird nicht exportiert"],
   ["take more captures", "Mehr Aufnahmen machen"],
-  ["verification views contradict the result, and it is not exported", "Prüfansichten widersprechen dem Ergebnis, und es wird nicht exportiert"],
+  ["the verification contradicts the result, and it is not exported", "die Prüfung widerspricht dem Ergebnis, und es wird nicht exportiert"],
   ["see the step `verify`", "Siehe den Schritt „Prüfung“"],
   ["the result determines no pose", "Das Ergebnis bestimmt keine Pose"],
   ["not this host", "Nicht dieser Rechner"],
