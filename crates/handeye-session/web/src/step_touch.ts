@@ -122,15 +122,18 @@ export function makeStepTouch(app: App): Part {
   const placements = placementsCard(app);
   const why = h("p", { class: "hint" });
   const next = card("touch_next", which, place, why);
-  const element = h(
-    "div",
-    { class: "stack" },
-    card("tip", said(h("p", { class: "hint" }), "tip_hint"), h("div", { class: "grid" }, ...axes.map((axis) => axis.element))),
-    placements.element,
-    next,
-    made,
-  );
+  const tip = card("tip", said(h("p", { class: "hint" }), "tip_hint"), h("div", { class: "grid" }, ...axes.map((axis) => axis.element)));
+  const cards = [placements.element, next, made];
+  const element = h("div", { class: "stack" }, tip, ...cards);
   let drawn = "";
+  let isTipLast = false;
+
+  /** Where the tip is comes first while nobody has said it, and last where it was said before this step; never under a hand. */
+  function order(last: boolean): void {
+    if (last === isTipLast || tip.contains(document.activeElement)) return;
+    isTipLast = last;
+    element.replaceChildren(...(last ? [...cards, tip] : [tip, ...cards]));
+  }
 
   function sendTip(): void {
     const [x, y, z] = axes.map((axis) => axis.value());
@@ -144,6 +147,7 @@ export function makeStepTouch(app: App): Part {
       const touch = isTouching(state) ? touchesHere(state) : null;
       show(element, Boolean(touch));
       if (!touch) return;
+      order(state.step === "verify" && Boolean(touch.tip_mm));
       axes.forEach((axis, k) => axis.set(touch.tip_mm?.[k]));
       placements.update(touch, state);
       text(which, t("corner_number", { number: String(touch.corner) }));

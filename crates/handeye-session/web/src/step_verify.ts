@@ -27,13 +27,14 @@ function makeChoice(app: App) {
   const choices = ways.map((by) => {
     const input = h("input", { type: "radio", name: "verify-by", value: by });
     input.addEventListener("change", () => app.choose({ by }));
-    const words = h("span", {}, said(h("b"), `by_${by}` as Key), said(h("small"), `by_${by}_what` as Key));
-    return { by, input, element: h("label", { class: "choice" }, input, words) };
+    return { by, input, element: h("label", { class: "choice" }, input, said(h("b"), `by_${by}` as Key)) };
   });
-  const element = h("div", { role: "radiogroup", class: "choices" }, ...choices.map((choice) => choice.element));
-  named(element, "verification");
+  const group = h("div", { role: "radiogroup", class: "choices pair" }, ...choices.map((choice) => choice.element));
+  named(group, "verification");
+  const what = h("p", { class: "hint" });
   return {
-    element,
+    group,
+    what,
     update(): void {
       for (const { by, input, element: label } of choices) {
         const chosen = app.choices.by === by;
@@ -41,6 +42,7 @@ function makeChoice(app: App) {
         kind(label, "chosen", chosen);
         attribute(label, "data-by", by);
       }
+      text(what, t(`by_${app.choices.by}_what` as Key));
     },
   };
 }
@@ -57,13 +59,13 @@ export function makeStepVerify(app: App): Part {
     ({ id }) => viewRow(app, id),
   );
   const views = card("verification_views", rows);
-  const element = h("div", { class: "stack" }, card("verification", answer, ofViews, ofTouches, choice.element), views);
+  const element = h("div", { class: "stack" }, card("verification", answer, ofViews, ofTouches, choice.group, choice.what), views);
   return {
     element,
     update(state) {
       const { views: all = [], rms_mm: rms, expected_mm: expected, agrees, touch, touches_expected_mm: touched } = state.verify ?? {};
       choice.update();
-      show(choice.element, Boolean(touch));
+      show(choice.group, Boolean(touch));
       const isKnown = typeof agrees === "boolean";
       show(answer, isKnown);
       kind(answer, "contradicts", agrees === false);
@@ -72,7 +74,7 @@ export function makeStepVerify(app: App): Part {
       text(ofViews, t("verified_by_views", { rms: mm(rms), expected: mm(expected) }));
       show(ofTouches, typeof touched === "number");
       text(ofTouches, t("verified_by_touches", { rms: mm(touch?.rms_mm), expected: mm(touched) }));
-      show(views, all.length > 0);
+      show(views, app.choices.by === "views" && all.length > 0);
       draw([...all].reverse());
     },
   };
