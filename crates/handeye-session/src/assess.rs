@@ -163,7 +163,7 @@ pub fn assess(
     if goes_on && next.is_none() {
         (next, no_next, _) = plan(None);
     }
-    let (verification, touch_test, placed) =
+    let Verified { views: verification, touches: touch_test, placements: placed } =
         verified(folder, (&calibration, session), &mut before.verification);
     let next = next.map(|view| ProposedView::planned(&view, session));
     let camera = session.camera;
@@ -191,19 +191,25 @@ pub fn joint_numbers(values: &[f64], urdf: &Urdf) -> Vec<f64> {
     values.iter().zip(urdf.prismatic()).map(number).collect()
 }
 
-/// What views and touches that verify say of the captures' calibration, or why they say nothing; and what was measured in images
-/// of boards that were touched for it.
+/// What views and touches that verify say of the captures' calibration, or why they say nothing.
+#[derive(Default)]
+struct Verified {
+    views: Option<Result<HeldOutTest, String>>,
+    touches: Option<Result<TouchTest, String>>,
+    /// In images of boards that were touched for it.
+    placements: Vec<MeasuredCapture>,
+}
+
 fn verified(
     folder: &SessionFolder,
     (calibration, session): (&Calibration, &Session),
     before: &mut Measurements,
-) -> (Option<Result<HeldOutTest, String>>, Option<Result<TouchTest, String>>, Vec<MeasuredCapture>)
-{
+) -> Verified {
     let has_views = !folder.verification().is_empty();
     let ids: Vec<String> =
         folder.touches().into_iter().filter(|t| t.verifies).map(|t| t.id.clone()).collect();
     if !has_views && ids.is_empty() {
-        return (None, None, vec![]);
+        return Verified::default();
     }
     let measured = folder
         .verification_dataset(session.camera)
@@ -212,8 +218,8 @@ fn verified(
         Ok(measured) => measured.session,
         Err(e) => {
             let why = e.to_string();
-            let views = has_views.then(|| Err(why.clone()));
-            return (views, (!ids.is_empty()).then_some(Err(why)), vec![]);
+            let touches = (!ids.is_empty()).then(|| Err(why.clone()));
+            return Verified { views: has_views.then_some(Err(why)), touches, placements: vec![] };
         }
     };
     let views = has_views.then(|| {
@@ -223,7 +229,7 @@ fn verified(
     });
     let touches = (!ids.is_empty())
         .then(|| touch_test(ids, (calibration, session), &seen, folder.settings()));
-    (views, touches, measured_placements(&seen))
+    Verified { views, touches, placements: measured_placements(&seen) }
 }
 
 /// Without views of their own, touches of the captures' board are tested against where the captures show it.
