@@ -35,6 +35,7 @@ FORMAT = "quaternion-xyzw"
 TOUCHES = 6
 VIEWS = 3
 VERIFYING = 4
+DESK, TABLET, PHONE = (1280, 800), (800, 1280), (400, 800)
 
 STEP = "document.body?.dataset.step"
 PRIMARY = "document.querySelector('button.primary')"
@@ -63,7 +64,10 @@ class Page(devtools.Browser):
     def __init__(self, work, more=()):
         super().__init__(work, NO_OTHER_HOST, more=more)
         self.work, self.clicks, self.keys = pathlib.Path(work), 0, 0
-        self.call("Emulation.setDeviceMetricsOverride", width=1280, height=800, deviceScaleFactor=1, mobile=False)
+        self.size(*DESK)
+
+    def size(self, width, height):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     def sign_in(self, address):
         """Opens the address that the session has printed; it leads to one without the token."""
@@ -376,18 +380,22 @@ def alike(page, tab):
 
 
 def look(page, step, pictures):
-    """A picture of a step, and what keeps people from using it, in light and in dark."""
-    for scheme in ("light", "dark"):
+    """A picture of a step, and what keeps people from using it, in light and in dark, and on other screens."""
+    for scheme, name, size in (("light", "", DESK), ("dark", "", DESK), ("light", "-tablet", TABLET), ("dark", "-phone", PHONE)):
         page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+        page.size(*size)
         if pictures:
             pictures.mkdir(parents=True, exist_ok=True)
-            page.picture(pictures / f"{step}-{scheme}.png")
+            page.picture(pictures / f"{step}-{scheme}{name}.png")
+        wide = page.value("document.documentElement.scrollWidth")
+        assert wide <= size[0], f"the step {step} is {wide} pixels wide on a screen of {size[0]}"
         if AXE.is_file():
             page.value(f"window.axe ? 0 : (() => {{ {AXE.read_text()} }})() || 0")
             found = page.value("axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations"
                                ".map(({ id, impact, nodes }) => [impact, id, nodes.map(({ html }) => html).slice(0, 5)]))")
             grave = [one for one in found if one[0] in ("serious", "critical")]
-            assert not grave, f"barriers in the step {step}, {scheme}: {grave}"
+            assert not grave, f"barriers in the step {step}, {scheme}{name}: {grave}"
+    page.size(*DESK)
     page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
 
 

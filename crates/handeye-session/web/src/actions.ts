@@ -137,6 +137,7 @@ function inTouch(app: App, state: State): Action {
   if (here.lays && (state.taking || !isPlaced(here))) return placeAction(app, state);
   if (isDone) return act(app, "finish", { do: "finish" });
   if (state.virtual_cell && here.at_corner !== true) return act(app, "drive_tip", { do: "drive", to: "touch" });
+  if (!state.robot?.typed && state.robot?.stands === false) return { label: "waiting_for_rest", enabled: false, run: () => {} };
   return { label: "touch_it", enabled: true, run: () => void touch(app) };
 }
 
