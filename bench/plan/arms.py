@@ -105,7 +105,8 @@ def arms():
         [
             (shifted(0, 0, 0.65), "revolute", "0 0 1", (-2.3, 2.3), 0.06),
             (shifted(0.35, 0, 0), "revolute", "0 0 1", (-2.5, 2.5), 0.05),
-            (shifted(0.3, 0, 0), "prismatic", "0 0 -1", (0.0, 0.2), 0.0),
+            # the quill's end is below the arm, however far it is drawn in
+            (shifted(0.3, 0, -0.12), "prismatic", "0 0 -1", (0.0, 0.2), 0.0),
             (np.eye(4), "revolute", "0 0 1", full, 0.03),
         ],
         shifted(0, 0, -0.05) @ down,

@@ -477,7 +477,9 @@ fn main() {
     let mut judged = vec![];
     let mut times = vec![];
     let (mut found, mut rendered) = (0, 0);
-    for arm in ["ur5e", "fr3", "kr10", "scara"] {
+    let only = env::var("ARM").ok();
+    let arms = ["ur5e", "fr3", "kr10", "scara"];
+    for arm in arms.into_iter().filter(|&arm| only.as_deref().is_none_or(|only| only == arm)) {
         for setup in [Setup::EyeInHand, Setup::EyeToHand] {
             // it cannot show the board on its flange to a camera above
             if arm == "scara" && setup == Setup::EyeToHand {

@@ -35,9 +35,10 @@ impl From<handeye::Error> for Problem {
     fn from(error: handeye::Error) -> Self {
         use handeye::Error as E;
         let code = match error {
-            E::TooFewPoses { .. } | E::TooFewSamples { .. } | E::TooFewPoints { .. } => {
-                "too-few-data"
-            }
+            E::TooFewPoses { .. }
+            | E::TooFewSamples { .. }
+            | E::TooFewPoints { .. }
+            | E::NoView(_) => "too-few-data",
             E::Collinear { .. } | E::NotDetermined { .. } => "not-determined",
             _ => "unusable",
         };

@@ -30,6 +30,7 @@ pub fn of_core(error: &handeye::Error) -> PyErr {
     match error {
         E::Collinear { .. }
         | E::NotDetermined { .. }
+        | E::NoView(_)
         | E::TooFewPoses { .. }
         | E::TooFewPoints { .. }
         | E::TooFewSamples { .. } => NotDetermined::new_err(text),

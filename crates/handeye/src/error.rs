@@ -14,6 +14,9 @@ pub enum Error {
         /// What to do next.
         advice: String,
     },
+    /// No view can be taken next; why those that came furthest cannot.
+    #[error("{0}")]
+    NoView(String),
     /// Not enough samples of a stream that can be used.
     #[error(
         "of the {stream} stream {found} samples at different times can be used, at least {needed} \

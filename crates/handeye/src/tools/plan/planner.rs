@@ -187,12 +187,12 @@ impl Planner {
     /// The most informative view, to be taken next.
     ///
     /// # Errors
-    /// Values that make no sense; [`Error::TooFewPoses`], which says why, where there is none.
+    /// Values that make no sense; [`Error::NoView`], which says why, where there is none.
     pub fn next(&self) -> Result<NextView, Error> {
         self.check()?;
         let here = self.refined();
         let (mut route, refusals) = here.greedy(1, |_| false);
-        route.pop().ok_or_else(|| refusals.error(1))
+        route.pop().ok_or_else(|| refusals.error())
     }
 
     /// Views that lower the expected error (95 %) to a tolerance (mm), or so many of them where they do not; in an order
@@ -210,7 +210,7 @@ impl Planner {
         };
         let (views, refusals) = here.greedy(most, enough);
         if views.is_empty() && most > 0 {
-            return Err(refusals.error(most));
+            return Err(refusals.error());
         }
         let is_short = views.len() < most && !views.last().is_some_and(enough);
         let views = here.arranged(views);

@@ -58,7 +58,7 @@ impl Refusals {
         }
     }
 
-    pub(super) fn error(&self, needed: usize) -> Error {
-        Error::TooFewPoses { found: 0, needed, advice: self.reason() }
+    pub(super) fn error(&self) -> Error {
+        Error::NoView(self.reason())
     }
 }
