@@ -103,7 +103,7 @@ def arms():
     down = turned(0, PI)
     scara = (
         [
-            (shifted(0, 0, 0.65), "revolute", "0 0 1", (-2.3, 2.3), 0.06),
+            (shifted(0, 0, 0.77), "revolute", "0 0 1", (-2.3, 2.3), 0.06),
             (shifted(0.35, 0, 0), "revolute", "0 0 1", (-2.5, 2.5), 0.05),
             # the quill's end is below the arm, however far it is drawn in
             (shifted(0.3, 0, -0.12), "prismatic", "0 0 -1", (0.0, 0.2), 0.0),
@@ -111,7 +111,7 @@ def arms():
         ],
         shifted(0, 0, -0.05) @ down,
     )
-    stand = {"ur5e": 0.08, "fr3": 0.24, "kr10": 0.25, "scara": 0.55}
+    stand = {"ur5e": 0.08, "fr3": 0.24, "kr10": 0.25, "scara": 0.67}
     every = {"ur5e": ur5e, "fr3": fr3, "kr10": kr10, "scara": scara}
     return {
         name: arm(name, joints, end, rod((0, 0, 0.0), (0, 0, stand[name]), 0.07))
