@@ -2,7 +2,7 @@
 //! beside views at random, on a half-sphere and on a pyramid.
 //!
 //! `plan FOLDER_OF_URDFS SEEDS FIRST [OUT.json] [BENCHMARK.md]`; `arms.py` writes the URDFs, `judge.py` reads the JSON and says
-//! whether anything collided.
+//! whether anything collided. `KNOWN=1` declares the robot's noise, `ARM=scara` runs one arm alone, `TRACE=1` goes on to less of the tolerance.
 
 #[path = "../section.rs"]
 mod section;

@@ -9,7 +9,7 @@ use handeye::{
     nalgebra::Vector2,
     tools::{
         held_out::{self, HeldOutTest},
-        plan::NextView,
+        plan::{NextView, TouchNoise},
         verify::{self, Verification},
     },
 };
@@ -76,9 +76,6 @@ impl TouchTest {
 
 /// The code of a last capture that does not agree with the others.
 const LAST_CAPTURE_DISPLACED: &str = "last-capture-displaced";
-
-/// Standard deviation of bringing a tip to a corner, each axis, m.
-const TOUCH_SIGMA_M: f64 = 0.2e-3;
 
 /// What was measured in the files of a folder.
 #[derive(Default)]
@@ -240,7 +237,8 @@ fn touch_test(
     settings: &CellSettings,
 ) -> Result<TouchTest, String> {
     let none = || "the captures determine no transform".to_owned();
-    let mut test = verify::of_calibration(calibration, TOUCH_SIGMA_M).ok_or_else(none)?;
+    let mut test =
+        verify::of_calibration(calibration, TouchNoise::default().touch_m).ok_or_else(none)?;
     let mut seen = seen.clone();
     if settings.setup == Setup::EyeInHand && seen.observations.is_empty() {
         let is_used =
