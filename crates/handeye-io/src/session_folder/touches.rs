@@ -70,7 +70,7 @@ impl SessionFolder {
         Ok(id)
     }
 
-    /// Corners that were touched, in the order in which they were; those that verify the answer are part of none.
+    /// Corners that were touched, in the order in which they were, also those that verify the answer.
     pub fn touches(&self) -> Vec<&StoredTouch> {
         self.journal.touches()
     }

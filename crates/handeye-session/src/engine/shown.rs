@@ -288,7 +288,8 @@ pub struct VerifyView {
     pub rms_mm: Option<f64>,
     /// What was expected of it, mm.
     pub expected_mm: Option<f64>,
-    /// Whether views and touches agree with the calibration.
+    /// Whether views and touches agree with the calibration; `None` without any, or where some cannot be assessed and no other
+    /// contradicts.
     pub agrees: Option<bool>,
     /// Corners that are touched to verify, how far the tip was from where they were predicted; `None` where none can be.
     pub touch: Option<TouchView>,

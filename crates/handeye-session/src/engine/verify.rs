@@ -89,6 +89,17 @@ impl Engine {
         )
     }
 
+    /// Whether views and touches agree; what cannot be assessed does not.
+    fn agrees(&self) -> Option<bool> {
+        let views = self.verification().map(|found| found.as_ref().ok().map(HeldOutTest::agrees));
+        let touches = self.touch_test().map(|found| found.as_ref().ok().map(TouchTest::agrees));
+        let each = [views, touches].into_iter().flatten();
+        match each.clone().any(|agrees| agrees == Some(false)) {
+            true => Some(false),
+            false => each.reduce(Option::and).flatten(),
+        }
+    }
+
     /// What verifies the captures, in words; `None` where nothing does yet.
     fn agreement(&self) -> Option<String> {
         let views = self.verification().and_then(|found| found.as_ref().ok()).map(agreement);
@@ -198,7 +209,6 @@ impl Engine {
         self.may_verify().ok()?;
         let test = self.verification().and_then(|found| found.as_ref().ok());
         let touch_test = self.touch_test().and_then(|found| found.as_ref().ok());
-        let agree = [test.map(HeldOutTest::agrees), touch_test.map(TouchTest::agrees)];
         let of = |id: &str| test?.views.iter().find(|view| view.id == id);
         let shown = self.folder.verification.iter().map(|view| VerifyShown {
             id: view.id.clone(),
@@ -211,7 +221,7 @@ impl Engine {
             views: shown.collect(),
             rms_mm: test.map(|test| test.rms_mm),
             expected_mm: test.map(|test| test.expected_mm),
-            agrees: agree.into_iter().flatten().reduce(|views, touches| views && touches),
+            agrees: self.agrees(),
             touch,
             touches_expected_mm: touch_test.map(|test| test.expected_mm),
         })
