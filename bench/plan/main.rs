@@ -4,14 +4,15 @@
 //! `plan FOLDER_OF_URDFS SEEDS FIRST [OUT.json] [BENCHMARK.md]`; `arms.py` writes the URDFs, `judge.py` reads the JSON and says
 //! whether anything collided. `KNOWN=1` declares the robot's noise, `ARM=scara` runs one arm alone, `TRACE=1` goes on to less of the tolerance.
 
+mod four_axes;
 #[path = "../section.rs"]
 mod section;
 
 use std::{collections::BTreeMap, env, fs, path::Path, time::Instant};
 
 use handeye::{
-    Base, Calibration, Config, Flange, HandEye, LensSigma, Pose, Session, Setup, TargetSize,
-    Verdict, Workspace, calibrate,
+    Base, Calibration, Config, Flange, HandEye, LensSigma, Observation, Point, Pose, Session,
+    Setup, TargetSize, Verdict, Workspace, calibrate,
     detect::detect,
     estimate::{
         KnownNoise,
@@ -31,7 +32,7 @@ use serde_json::json;
 /// The tolerance, mm at 95 %.
 const TOLERANCE: f64 = 0.35;
 /// That of the arm with four axes: its height comes from touches, all of which share the error of the tip.
-const TOLERANCE_FOUR_AXES: f64 = 1.5;
+const TOLERANCE_FOUR_AXES: f64 = 0.5;
 /// No strategy takes more captures.
 const MOST: usize = 60;
 /// Every so many of the counts of captures of a strategy that is not planned is looked at first.
@@ -127,6 +128,11 @@ impl Trial {
         let base = Cell::new(setup, seed);
         let mut noise = base.noise;
         noise.robot_repeatability_m = 0.0;
+        let mut tip_in_flange = base.tip_in_flange;
+        if arm == "scara" {
+            noise.tip_m = random.normal3().norm() * four_axes::TIP_M;
+            tip_in_flange = Point::from_vector(four_axes::TIP);
+        }
         let hand_eye = hand_eye(arm, setup, &mut random);
         let cell = Cell {
             captures: 1,
@@ -135,6 +141,7 @@ impl Trial {
             depth: Some(DepthSensor::default()),
             hand_eye,
             noise,
+            tip_in_flange,
             ..base
         };
         let urdf = Urdf::read(file, "base_link", "tool0").expect("a URDF");
@@ -240,9 +247,14 @@ impl Trial {
     }
 
     /// All that is measured at these poses; board and lens are known well, as after a careful calibration of both.
-    fn session(&self, poses: &[Pose<Base, Flange>], touches: usize, seed: u64) -> Session {
-        let cell = Cell { captures: poses.len(), touches, ..self.cell.clone() };
-        let mut session = cell.record_at(poses, seed).expect("a recording").session();
+    fn session(&self, poses: &[Pose<Base, Flange>], touched: &[u32], seed: u64) -> Session {
+        let mut session = match self.turns_about_the_vertical() {
+            true => four_axes::session(&self.cell, poses, touched, seed),
+            false => {
+                let cell = Cell { captures: poses.len(), ..self.cell.clone() };
+                cell.record_at(poses, seed).expect("a recording").session()
+            }
+        };
         session.observations.retain(|o| !o.candidates.is_empty());
         session.target_size = TargetSize::Measured(1e-4);
         session.lens_sigma = Some(LensSigma { focal_px: Some(0.3), center_px: Some(0.3) });
@@ -250,15 +262,21 @@ impl Trial {
         session
     }
 
-    fn answer(&self, poses: &[Pose<Base, Flange>], touches: usize, seed: u64) -> Calibration {
-        let known = KnownNoise {
+    /// Views leave something open: the arm cannot tilt its flange.
+    fn turns_about_the_vertical(&self) -> bool {
+        matches!(&self.exact.reach, Reach::Arm(reach) if reach.arm.joints.len() < 6)
+    }
+
+    fn answer(&self, poses: &[Pose<Base, Flange>], touched: &[u32], seed: u64) -> Calibration {
+        let robot = KnownNoise {
             robot_position_m: Some(0.5e-3 / 3f64.sqrt()),
             robot_rotation_rad: Some(0.03f64.to_radians()),
             ..KnownNoise::default()
         };
-        let known = if is_known() { known } else { KnownNoise::default() };
+        let tip_m = self.turns_about_the_vertical().then_some(four_axes::TIP_M);
+        let known = KnownNoise { tip_m, ..if is_known() { robot } else { KnownNoise::default() } };
         let config = Config { known, ..Config::default() };
-        calibrate(&self.session(poses, touches, seed), &config).expect("a session")
+        calibrate(&self.session(poses, touched, seed), &config).expect("a session")
     }
 
     /// Where captures are enough, mm; TRACE goes on, to see what another limit would do.
@@ -266,14 +284,15 @@ impl Trial {
         if is_traced() { 0.7 * self.tolerance } else { ENOUGH * self.tolerance }
     }
 
-    /// Corners that the planner wants to have touched: of a robot that only turns about the vertical, views leave its height
-    /// open.
-    fn touches(&self, planner: &Planner) -> usize {
-        let Reach::Arm(reach) = &planner.reach else { return 0 };
-        match reach.arm.joints.len() < 6 {
-            true => planner.touches(MOST_TOUCHES, &TouchNoise::default(), Some(self.limit())).len(),
-            false => 0,
+    /// Corners that the planner wants to have touched after the first captures: of a robot that only turns about the vertical,
+    /// views leave its height open.
+    fn touches(&self, planner: &Planner) -> Vec<u32> {
+        if !self.turns_about_the_vertical() {
+            return vec![];
         }
+        let noise = TouchNoise { tip_m: four_axes::TIP_M, ..TouchNoise::default() };
+        let planned = planner.touches(MOST_TOUCHES, &noise, Some(self.limit()));
+        planned.iter().map(|touch| touch.corner).collect()
     }
 
     /// The 95 % point of the true error where the calibration predicts it, mm.
@@ -295,6 +314,17 @@ impl Trial {
         let middle = Vector2::new(0.5 * f64::from(camera.width), 0.5 * f64::from(camera.height));
         let turn = std::f64::consts::TAU;
         let mut all = self.first.clone();
+        if let Reach::Arm(reach) = &self.exact.reach
+            && self.turns_about_the_vertical()
+        {
+            all.extend(four_axes::random_stations(
+                reach,
+                &self.cell,
+                MOST - all.len(),
+                &mut random,
+            ));
+            return all;
+        }
         for k in 0..4000 {
             if all.len() >= MOST {
                 break;
@@ -376,19 +406,15 @@ fn planned(trial: &Trial, seed: u64) -> Run {
         milliseconds,
         unseen,
     };
+    let mut touched: Option<Vec<u32>> = None;
     loop {
         let poses: Vec<_> = stations.iter().map(|s| s.base_from_flange).collect();
-        let seen = trial.session(&poses, 0, seed).observations;
-        planner.taken = seen
-            .iter()
-            .map(|o| Taken {
-                base_from_flange: o.base_from_flange,
-                camera_from_target: o.candidates[0].camera_from_target,
-            })
-            .collect();
+        let seen = trial.session(&poses, &[], seed);
+        planner.taken = taken(&seen);
         if planner.taken.len() >= FEWEST_ENOUGH {
-            let touches = trial.touches(&planner);
-            let answer = trial.answer(&poses, touches, seed);
+            let touched = touched.get_or_insert_with(|| trial.touches(&planner));
+            let answer = trial.answer(&poses, touched, seed);
+            let touches = touched.len();
             let (stated, true_mm) = (stated(&answer), trial.true_error(&answer));
             trace.push((stations.len(), stated, true_mm));
             if stated <= trial.limit() {
@@ -417,6 +443,14 @@ fn planned(trial: &Trial, seed: u64) -> Run {
     }
 }
 
+fn taken(session: &Session) -> Vec<Taken> {
+    let of = |o: &Observation| Taken {
+        base_from_flange: o.base_from_flange,
+        camera_from_target: o.candidates[0].camera_from_target,
+    };
+    session.observations.iter().map(of).collect()
+}
+
 fn fixed(trial: &Trial, strategy: Strategy, seed: u64) -> Run {
     let stations = trial.given(strategy, seed);
     let poses: Vec<_> = stations.iter().map(|s| s.base_from_flange).collect();
@@ -429,9 +463,12 @@ fn fixed(trial: &Trial, strategy: Strategy, seed: u64) -> Run {
         milliseconds: vec![],
         unseen: 0,
     };
+    let first = &poses[..poses.len().min(FEWEST_ENOUGH)];
+    let seen = taken(&trial.session(first, &[], seed));
+    let touched = trial.touches(&Planner { taken: seen, ..trial.exact.clone() });
     // first in large steps, then within the one where they become enough
     let enough = |count: usize| {
-        let answer = trial.answer(&poses[..count], 0, seed);
+        let answer = trial.answer(&poses[..count], &touched, seed);
         (stated(&answer) <= trial.limit()).then(|| (count, trial.true_error(&answer)))
     };
     let counts: Vec<usize> = (FEWEST_ENOUGH..=poses.len()).step_by(2).collect();
@@ -506,9 +543,14 @@ fn main() {
                     (found, rendered) = (found + seen, rendered + count);
                 }
                 all.entry(Strategy::Planned).or_default().push(run);
-                let others = [Strategy::Random, Strategy::HalfSphere, Strategy::Pyramid];
-                let is_compared = !is_traced() && !is_known() && arm != "scara";
-                for strategy in others.into_iter().filter(|_| is_compared) {
+                let is_compared = !is_traced() && !is_known();
+                // an arm that cannot tilt its flange can go to neither half-sphere nor pyramid
+                let others: &[Strategy] = match (is_compared, arm) {
+                    (false, _) => &[],
+                    (true, "scara") => &[Strategy::Random],
+                    (true, _) => &[Strategy::Random, Strategy::HalfSphere, Strategy::Pyramid],
+                };
+                for &strategy in others {
                     all.entry(strategy).or_default().push(fixed(&trial, strategy, seed));
                 }
             }
@@ -564,8 +606,9 @@ fn main() {
              dimensions) and 0.03 degrees per axis, which {noise}; a first guess of the camera's place that is off by {GUESS_MM} mm \
              and {GUESS_DEG} degrees, one capture to begin with ({BY_HAND} of the arm with four axes). Views are taken one after the other, until the calibration states \
              an error (95 %) below {ENOUGH} of the tolerance of {TOLERANCE} mm, {MOST} at most. The views of an arm with four axes \
-             leave its height open: the corners that the planner then asks for are touched, with a tip that is known to 0.5 mm, so that its \
-             tolerance is {TOLERANCE_FOUR_AXES} mm.\n\n\
+             leave its height open: after {FEWEST_ENOUGH} captures the corners that the planner asks for are touched, with a tip that is \
+             known to {} mm per axis and off by as much, so that its tolerance is {TOLERANCE_FOUR_AXES} mm; random views are its only others, \
+             it cannot go to the rest.\n\n\
              - *captures*: median of those that were needed; *touches*: median of the corners touched; *over random*, *half-sphere*, *pyramid*: the same over the median \
              of views at random (board whole, up to 35 degrees of tilt), all around on a half-sphere, and on a pyramid; \
              *done*: cells that ended; *holds*: those whose true error (95 %) is below the tolerance then; *unseen*: views that \
@@ -573,6 +616,7 @@ fn main() {
              | arm | cells | captures | touches | over random | half-sphere | pyramid | done | holds | unseen |\n|---|---|---|---|---|---|---|---|---|---|\n{}\n\n\
              The next view of 2000 ways to look: {:.0} ms (median), {slowest:.0} ms (99 %). In rendered images of planned views the \
              whole board is found in {found} of {rendered}.",
+            four_axes::TIP_M * 1e3,
             rows.join("\n"),
             median(times.iter().copied()),
         );

@@ -70,10 +70,10 @@ fn split_mix(at: &mut u64) -> u64 {
 }
 
 /// Bases of [`halton`]'s coordinates.
-const BASES: [u32; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
+const BASES: [u32; 10] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29];
 
 /// Point number `k` of those that fill the unit cube evenly: the digits of `k + 1` in a base, behind the point in reverse
-/// order, another base for each coordinate (J. Halton, Numerische Mathematik 2, 1960). Beyond eight coordinates bases repeat.
+/// order, another base for each coordinate (J. Halton, Numerische Mathematik 2, 1960). Beyond ten coordinates bases repeat.
 pub fn halton(k: usize, coordinates: usize) -> Vec<f64> {
     let coordinate = |base: &u32| {
         let base = *base as usize;

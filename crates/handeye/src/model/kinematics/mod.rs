@@ -226,6 +226,11 @@ impl Arm {
 
     /// Frames in the base in which the parameters of each joint act.
     fn places(&self, values: &[f64]) -> Vec<Place> {
+        self.places_and_flange(values).0
+    }
+
+    /// The same, and where the flange is.
+    fn places_and_flange(&self, values: &[f64]) -> (Vec<Place>, Pose<Base, Flange>) {
         let mut chain = *self.base_from_first_joint.iso();
         let mut all = Vec::with_capacity(self.joints.len());
         for (joint, value) in self.joints.iter().zip(padded(values)) {
@@ -244,7 +249,8 @@ impl Arm {
             };
             all.push(place);
         }
-        all
+        let base_from_last_link = Pose::<Base, LastLink>::claim(chain);
+        (all, base_from_last_link * self.last_link_from_flange)
     }
 
     /// Frames in the base that move with each joint, for joint values: where the next joint begins.

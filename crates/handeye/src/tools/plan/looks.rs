@@ -44,6 +44,29 @@ impl Look {
     }
 }
 
+/// The centre of a look keeps these shares of the image's sides.
+const KEPT: (f64, f64) = (0.15, 0.7);
+
+impl Look {
+    /// Its centre drawn so near to the middle of the image that a target which is as large as its shorter side says is whole
+    /// in it at this depth (m).
+    pub fn whole_at(
+        &self,
+        depth_m: f64,
+        camera: &Intrinsics,
+        outline: &[Vector3<f64>; 4],
+    ) -> Vector2<f64> {
+        let side = (outline[1] - outline[0]).norm().min((outline[2] - outline[1]).norm());
+        let half_px = 0.5 * side * camera.fx.min(camera.fy) / depth_m;
+        let drawn = |pixel: f64, side: u32| {
+            let side = f64::from(side);
+            let room = (1.0 - 2.0 * half_px / side).clamp(0.0, KEPT.1) / KEPT.1;
+            0.5 * side - 0.5 + (pixel - 0.5 * side + 0.5) * room
+        };
+        Vector2::new(drawn(self.centre.x, camera.width), drawn(self.centre.y, camera.height))
+    }
+}
+
 /// Largest angle between a line of sight and the target's normal, unless something else is known: 55 degrees.
 pub const USUALLY_STEEPEST: f64 = 0.96;
 /// Free share of the image, unless something else is known.
@@ -89,14 +112,17 @@ pub fn middle(outline: &[Vector3<f64>; 4]) -> Vector3<f64> {
     (outline[0] + outline[2]) * 0.5
 }
 
+/// Numbers that tell one look from another.
+pub const COORDINATES: usize = 6;
+
 /// Looks number `k`, of any number of them spread evenly.
 pub fn look(camera: &Intrinsics, viewing: &Viewing, k: usize) -> Look {
-    let share = halton(k, 6);
+    let share = halton(k, COORDINATES);
     let (u, v, far) = (share[0], share[1], share[2]);
     let (tilt, towards, spin) = (share[3], share[4], share[5]);
     let turn = std::f64::consts::TAU;
     // near the border no target is whole: looks keep to the middle
-    let pixel = |side: u32, share: f64| f64::from(side) * (0.15 + 0.7 * share) - 0.5;
+    let pixel = |side: u32, share: f64| f64::from(side) * (KEPT.0 + KEPT.1 * share) - 0.5;
     Look {
         centre: Vector2::new(pixel(camera.width, u), pixel(camera.height, v)),
         depth_m: viewing.nearest_m + (viewing.farthest_m - viewing.nearest_m) * far,

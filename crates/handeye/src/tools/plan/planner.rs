@@ -16,11 +16,12 @@ use super::{
     travel,
 };
 use crate::{
-    Base, Camera, Error, Flange, Pose, Target,
+    Base, Camera, Error, Flange, Point, Pose, Setup, Target,
     estimate::predict::PredictedTre,
     math::{
         lie,
         linalg::{self, FREE_SIGMA},
+        random::halton,
     },
     model::residual::Residual,
     register::rigid_fit::point_jacobian,
@@ -111,6 +112,8 @@ const SURE: f64 = 2.0;
 const NOT_AGAIN: Residual = Residual { angle: 0.15, distance: 0.06 };
 /// So many looks are drawn for each that is to be compared, where few are seen.
 const DRAWS: usize = 12;
+/// The same of an arm that cannot turn its flange as it likes: each takes a search for joint values.
+const DRAWS_OF_FEW_JOINTS: usize = 8;
 /// Poses looked at in vain before no more are tried: the search for joint values takes time.
 const MOST_IN_VAIN: usize = 600;
 /// Captures are enough when the calibration states less than this share of the tolerance. Whoever stops at the first one that
@@ -306,7 +309,8 @@ impl Planner {
         let covariance = self.guess.map(|_| covariance);
         let outline = looks::outline(&self.setting.target);
         let mut all = vec![];
-        for k in 0..self.candidates * DRAWS {
+        let draws = if self.reach.has_few_joints() { DRAWS_OF_FEW_JOINTS } else { DRAWS };
+        for k in 0..self.candidates * draws {
             if all.len() == self.candidates {
                 break;
             }
@@ -332,17 +336,34 @@ impl Planner {
         all
     }
 
-    /// Candidate number `k`: a look at the target; or, of an arm that cannot turn its flange as it likes, joint values.
+    /// Candidate number `k`: a look at the target. An arm that cannot turn its flange as it likes brings the target's centre
+    /// where the look has it, turned as its joints allow.
     fn drawn(&self, k: usize, outline: &[Vector3<f64>; 4]) -> Option<Pose<Base, Flange>> {
+        let Setting { hand_eye, setup, camera, .. } = &self.setting;
+        let look = looks::look(camera, &self.viewing, k);
+        let centre = looks::middle(outline);
         match &self.reach {
-            Reach::Arm(arm) if arm.arm.joints.len() < 6 => {
-                Some(arm.arm.base_from_flange(&arm.drawn(k)))
+            Reach::Arm(arm) if self.reach.has_few_joints() => {
+                let shares = halton(k, looks::COORDINATES + arm.limits.len());
+                let start = arm.within_limits(&shares[looks::COORDINATES..]);
+                let centre = Point::from_vector(centre);
+                // few joints rarely have every distance to offer: that of where they start is kept
+                let view = hand_eye.camera_from_target(*setup, &arm.arm.base_from_flange(&start));
+                let depth = (view * centre).vector().z;
+                let Viewing { nearest_m, farthest_m, .. } = self.viewing;
+                let is_usual = (nearest_m..=farthest_m).contains(&depth);
+                let depth = if is_usual { depth } else { look.depth_m };
+                let pixel = look.whole_at(depth, camera, outline);
+                let seen = Point::from_vector(camera.ray(&pixel)? * depth);
+                let of_target = (hand_eye.anchor_from_target * centre).vector();
+                let of_camera = (hand_eye.mount_from_camera * seen).vector();
+                match setup {
+                    Setup::EyeInHand => arm.leading(&of_camera, &of_target, &start),
+                    Setup::EyeToHand => arm.leading(&of_target, &of_camera, &start),
+                }
             }
             _ => {
-                let look = looks::look(&self.setting.camera, &self.viewing, k);
-                let centre = looks::middle(outline);
-                let camera_from_target = look.pose(&self.setting.camera, &centre)?;
-                let Setting { hand_eye, setup, .. } = &self.setting;
+                let camera_from_target = look.pose(camera, &centre)?;
                 Some(hand_eye.base_from_flange(*setup, &camera_from_target))
             }
         }
@@ -363,14 +384,14 @@ impl Planner {
         let Setting { camera, .. } = &self.setting;
         let view = self.setting.pair(pose).camera_from_target;
         let (rotation, v) = (view.rotation(), &self.viewing);
-        let depth = (view * crate::Point::from_vector(looks::middle(outline))).vector().z;
+        let depth = (view * Point::from_vector(looks::middle(outline))).vector().z;
         if !(v.nearest_m..=v.farthest_m).contains(&depth) {
             return false;
         }
         let of_view = covariance.map(|s| view_covariance(&view, s));
         let size = [f64::from(camera.width), f64::from(camera.height)];
         outline.iter().all(|p| {
-            let seen = (view * crate::Point::from_vector(*p)).vector();
+            let seen = (view * Point::from_vector(*p)).vector();
             let flat = rotation.column(2).dot(&seen) < v.steepest.cos() * seen.norm();
             let Some((pixel, by_point)) = camera.project_with_jacobian(&seen) else { return false };
             let by_pose: SMatrix<f64, 3, 6> = rotation * point_jacobian(p);

@@ -1,6 +1,8 @@
 //! What the robot can reach: joint values within limits where the arm is known; elsewhere poses near those in which it has
 //! stood.
 
+use nalgebra::Vector3;
+
 use super::collision::{Collision, Surroundings};
 use crate::{
     Base, Error, Flange, Pose,
@@ -65,6 +67,8 @@ const FROM_LIMITS: f64 = 0.01;
 const STARTS: usize = 200;
 /// Steps of the search for joint values.
 const STEPS: usize = 25;
+/// Those of the search for joint values of a candidate: there are others.
+const STEPS_OF_CANDIDATE: usize = 6;
 /// A robot that has reached a pose reaches others within these.
 pub const USUALLY_NEAR: Residual = Residual { angle: 0.8, distance: 0.3 };
 
@@ -161,11 +165,29 @@ impl ArmReach {
     }
 
     /// Joint values number `k` of those that are spread over all that the joints can do.
-    pub(super) fn drawn(&self, k: usize) -> Vec<f64> {
-        let value = |((low, high), share): (&(f64, f64), f64)| {
+    fn drawn(&self, k: usize) -> Vec<f64> {
+        self.within_limits(&halton(k, self.limits.len()))
+    }
+
+    /// Joint values at these shares of what each joint can do.
+    pub(super) fn within_limits(&self, shares: &[f64]) -> Vec<f64> {
+        let value = |((low, high), share): (&(f64, f64), &f64)| {
             low + FROM_LIMITS + (high - low - 2.0 * FROM_LIMITS) * share
         };
-        self.limits.iter().zip(halton(k, self.limits.len())).map(value).collect()
+        self.limits.iter().zip(shares).map(value).collect()
+    }
+
+    /// Where the flange is when one of its points is led to a place in the base, m, from joint values where that begins;
+    /// `None` where it does not come there.
+    pub(super) fn leading(
+        &self,
+        point: &Vector3<f64>,
+        place: &Vector3<f64>,
+        start: &[f64],
+    ) -> Option<Pose<Base, Flange>> {
+        let values = self.arm.leading(point, place, start, STEPS_OF_CANDIDATE)?;
+        let values = self.unwound(values, &self.now);
+        self.keeps_limits(&values).then(|| self.arm.base_from_flange(&values))
     }
 }
 
@@ -200,6 +222,11 @@ impl Reach {
             }
             Reach::Near(near) => near.station(there),
         }
+    }
+
+    /// Whether the flange cannot be turned as one likes.
+    pub(super) fn has_few_joints(&self) -> bool {
+        matches!(self, Reach::Arm(arm) if arm.arm.joints.len() < 6)
     }
 
     /// Whether a pose is surely out of reach, without a search for joint values.

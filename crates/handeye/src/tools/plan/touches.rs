@@ -63,8 +63,8 @@ impl PlannedTouch {
 
 /// Where boards are laid: their centres as shares of the image's sides.
 const LAID: [(f64, f64); 3] = [(0.3, 0.35), (0.7, 0.35), (0.5, 0.7)];
-/// Corners that are considered on one board: the outermost ones, and one within.
-const MOST_CORNERS: usize = 5;
+/// Corners that are considered on one board: the outermost ones, and some within.
+const MOST_CORNERS: usize = 9;
 
 /// Camera, target, boards that were laid, the tip: all unknowns of touches.
 struct Unknowns {
@@ -143,6 +143,8 @@ impl Planner {
         tolerance_mm: Option<f64>,
     ) -> Vec<PlannedTouch> {
         let here = self.refined();
+        // the robot errs where it touches as it does where it takes captures
+        let sigma = noise.touch_m.hypot(here.setting.noise.robot_position_m);
         let nothing = Matrix12::identity() * FREE_SIGMA.powi(-2);
         let mut unknowns = Unknowns::of(&(nothing + here.of_taken()), noise);
         let place = |id: &u32| Some((*id, here.setting.target.corner(*id)?.vector()));
@@ -173,7 +175,7 @@ impl Planner {
                     return all;
                 }
                 let tried = free.iter().map(|(_, p)| {
-                    unknowns.touched(&here.setting.by_touch(view.as_ref(), p, board), noise.touch_m)
+                    unknowns.touched(&here.setting.by_touch(view.as_ref(), p, board), sigma)
                 });
                 let told = |u: &Unknowns| {
                     u.information.clone().cholesky().map_or(f64::NEG_INFINITY, |c| {
