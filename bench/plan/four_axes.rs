@@ -75,7 +75,7 @@ pub fn random_stations(
         let base_from_flange = reach.arm.base_from_flange(&joints);
         let is_free = cell.shows_target_at(&base_from_flange)
             && reach.surroundings.collision(&reach.arm, &joints).is_none();
-        is_free.then(|| Station { base_from_flange, joints: Some(joints) })
+        is_free.then_some(Station { base_from_flange, joints: Some(joints) })
     });
     drawn.take(most).collect()
 }
