@@ -607,8 +607,8 @@ fn main() {
              and {GUESS_DEG} degrees, one capture to begin with ({BY_HAND} of the arm with four axes). Views are taken one after the other, until the calibration states \
              an error (95 %) below {ENOUGH} of the tolerance of {TOLERANCE} mm, {MOST} at most. The views of an arm with four axes \
              leave its height open: after {FEWEST_ENOUGH} captures the corners that the planner asks for are touched, with a tip that is \
-             known to {} mm per axis and off by as much, so that its tolerance is {TOLERANCE_FOUR_AXES} mm; random views are its only others, \
-             it cannot go to the rest.\n\n\
+             known to {} mm per axis and off by as much, so that its tolerance is {TOLERANCE_FOUR_AXES} mm; only random views stand \
+             beside it: it can go to neither half-sphere nor pyramid.\n\n\
              - *captures*: median of those that were needed; *touches*: median of the corners touched; *over random*, *half-sphere*, *pyramid*: the same over the median \
              of views at random (board whole, up to 35 degrees of tilt), all around on a half-sphere, and on a pyramid; \
              *done*: cells that ended; *holds*: those whose true error (95 %) is below the tolerance then; *unseen*: views that \
