@@ -40,7 +40,7 @@ pub fn session(
     for (observation, says) in session.observations.iter_mut().zip(reported) {
         observation.base_from_flange = *says;
     }
-    let believed = recording.believed_tip();
+    let tip = recording.believed_tip();
     let mut random = Random::new(seed ^ 0x70c4);
     let touch = |corner: &u32| {
         let at = cell.hand_eye.anchor_from_target.rename::<Base, _>()
@@ -54,7 +54,7 @@ pub fn session(
         Touch {
             placement: "board".into(),
             corner: *corner,
-            in_base: says * believed,
+            in_base: says * tip,
             base_from_flange: Some(says),
             joints: vec![],
         }

@@ -248,7 +248,7 @@ impl Trial {
 
     /// All that is measured at these poses; board and lens are known well, as after a careful calibration of both.
     fn session(&self, poses: &[Pose<Base, Flange>], touched: &[u32], seed: u64) -> Session {
-        let mut session = match self.turns_about_the_vertical() {
+        let mut session = match self.exact.reach.has_few_joints() {
             true => four_axes::session(&self.cell, poses, touched, seed),
             false => {
                 let cell = Cell { captures: poses.len(), ..self.cell.clone() };
@@ -262,18 +262,13 @@ impl Trial {
         session
     }
 
-    /// Views leave something open: the arm cannot tilt its flange.
-    fn turns_about_the_vertical(&self) -> bool {
-        matches!(&self.exact.reach, Reach::Arm(reach) if reach.arm.joints.len() < 6)
-    }
-
     fn answer(&self, poses: &[Pose<Base, Flange>], touched: &[u32], seed: u64) -> Calibration {
         let robot = KnownNoise {
             robot_position_m: Some(0.5e-3 / 3f64.sqrt()),
             robot_rotation_rad: Some(0.03f64.to_radians()),
             ..KnownNoise::default()
         };
-        let tip_m = self.turns_about_the_vertical().then_some(four_axes::TIP_M);
+        let tip_m = self.exact.reach.has_few_joints().then_some(four_axes::TIP_M);
         let known = KnownNoise { tip_m, ..if is_known() { robot } else { KnownNoise::default() } };
         let config = Config { known, ..Config::default() };
         calibrate(&self.session(poses, touched, seed), &config).expect("a session")
@@ -287,11 +282,11 @@ impl Trial {
     /// Corners that the planner wants to have touched after the first captures: of a robot that only turns about the vertical,
     /// views leave its height open.
     fn touches(&self, planner: &Planner) -> Vec<u32> {
-        if !self.turns_about_the_vertical() {
+        if !self.exact.reach.has_few_joints() {
             return vec![];
         }
         let noise = TouchNoise { tip_m: four_axes::TIP_M, ..TouchNoise::default() };
-        let planned = planner.touches(MOST_TOUCHES, &noise, Some(self.limit()));
+        let planned = planner.touches(MOST_TOUCHES, &noise, Some(self.tolerance));
         planned.iter().map(|touch| touch.corner).collect()
     }
 
@@ -315,7 +310,7 @@ impl Trial {
         let turn = std::f64::consts::TAU;
         let mut all = self.first.clone();
         if let Reach::Arm(reach) = &self.exact.reach
-            && self.turns_about_the_vertical()
+            && self.exact.reach.has_few_joints()
         {
             all.extend(four_axes::random_stations(
                 reach,

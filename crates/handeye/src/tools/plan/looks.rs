@@ -33,6 +33,9 @@ pub struct Viewing {
     pub margin: f64,
 }
 
+/// The centre of a look keeps these shares of the image's sides.
+const KEPT: (f64, f64) = (0.15, 0.7);
+
 impl Look {
     /// Where the target is then; `None` where the pixel is seen by no ray.
     pub fn pose(&self, camera: &Intrinsics, centre: &Vector3<f64>) -> Option<Pose<Camera, Target>> {
@@ -42,14 +45,9 @@ impl Look {
         let centre_in_camera = camera.ray(&self.centre)? * self.depth_m;
         Some(Pose::from_parts(rotation.matrix(), centre_in_camera - rotation * centre))
     }
-}
 
-/// The centre of a look keeps these shares of the image's sides.
-const KEPT: (f64, f64) = (0.15, 0.7);
-
-impl Look {
-    /// Its centre drawn so near to the middle of the image that a target which is as large as its shorter side says is whole
-    /// in it at this depth (m).
+    /// Its centre, drawn so near to the middle of the image that a square with the target's shorter side is whole in it at
+    /// this depth (m).
     pub fn whole_at(
         &self,
         depth_m: f64,
@@ -151,6 +149,12 @@ mod tests {
         assert!((mean(&|l| l.centre.x) - 959.5).abs() < 5.0);
         assert!((mean(&|l| l.tilt) - 0.5 * viewing.steepest).abs() < 0.01);
         assert!(mean(&|l| l.spin).abs() < 0.02);
+        // near enough that little of the image is left, its centre keeps to the middle
+        let centres = |depth: f64| {
+            let of = |l: &Look| (l.whole_at(depth, &camera, &outline(&board)) - l.centre).norm();
+            all.iter().map(of).fold(0.0, f64::max)
+        };
+        assert!(centres(10.0) < 1e-9 && centres(0.3) > 100.0, "{} {}", centres(10.0), centres(0.3));
         let centre = middle(&outline(&board));
         assert!((centre - Vector3::new(0.12, 0.075, 0.0)).norm() < 1e-12);
         let seen = all[7].pose(&camera, &centre).unwrap() * Point::from_vector(centre);

@@ -11,7 +11,7 @@ use super::{
     log_determinant,
     looks::{self, Viewing},
     moment,
-    reach::{Reach, Station, Unreached},
+    reach::{ArmReach, Reach, Station, Unreached},
     refusals::Refusals,
     travel,
 };
@@ -336,36 +336,47 @@ impl Planner {
         all
     }
 
-    /// Candidate number `k`: a look at the target. An arm that cannot turn its flange as it likes brings the target's centre
-    /// where the look has it, turned as its joints allow.
+    /// Candidate number `k`: a look at the target.
     fn drawn(&self, k: usize, outline: &[Vector3<f64>; 4]) -> Option<Pose<Base, Flange>> {
         let Setting { hand_eye, setup, camera, .. } = &self.setting;
-        let look = looks::look(camera, &self.viewing, k);
-        let centre = looks::middle(outline);
         match &self.reach {
             Reach::Arm(arm) if self.reach.has_few_joints() => {
-                let shares = halton(k, looks::COORDINATES + arm.limits.len());
-                let start = arm.within_limits(&shares[looks::COORDINATES..]);
-                let centre = Point::from_vector(centre);
-                // few joints rarely have every distance to offer: that of where they start is kept
-                let view = hand_eye.camera_from_target(*setup, &arm.arm.base_from_flange(&start));
-                let depth = (view * centre).vector().z;
-                let Viewing { nearest_m, farthest_m, .. } = self.viewing;
-                let is_usual = (nearest_m..=farthest_m).contains(&depth);
-                let depth = if is_usual { depth } else { look.depth_m };
-                let pixel = look.whole_at(depth, camera, outline);
-                let seen = Point::from_vector(camera.ray(&pixel)? * depth);
-                let of_target = (hand_eye.anchor_from_target * centre).vector();
-                let of_camera = (hand_eye.mount_from_camera * seen).vector();
-                match setup {
-                    Setup::EyeInHand => arm.leading(&of_camera, &of_target, &start),
-                    Setup::EyeToHand => arm.leading(&of_target, &of_camera, &start),
-                }
+                self.drawn_by_few_joints(arm, k, outline)
             }
             _ => {
-                let camera_from_target = look.pose(camera, &centre)?;
+                let look = looks::look(camera, &self.viewing, k);
+                let camera_from_target = look.pose(camera, &looks::middle(outline))?;
                 Some(hand_eye.base_from_flange(*setup, &camera_from_target))
             }
+        }
+    }
+
+    /// The same of an arm that cannot turn its flange as it likes: the target's centre is where the look has it, turned as the
+    /// joints allow.
+    fn drawn_by_few_joints(
+        &self,
+        arm: &ArmReach,
+        k: usize,
+        outline: &[Vector3<f64>; 4],
+    ) -> Option<Pose<Base, Flange>> {
+        let Setting { hand_eye, setup, camera, .. } = &self.setting;
+        let look = looks::look(camera, &self.viewing, k);
+        let shares = halton(k, looks::COORDINATES + arm.limits.len());
+        let start = arm.within_limits(&shares[looks::COORDINATES..]);
+        let centre = Point::from_vector(looks::middle(outline));
+        // few joints rarely have every distance to offer: that of where they start is kept
+        let view = hand_eye.camera_from_target(*setup, &arm.arm.base_from_flange(&start));
+        let depth = (view * centre).vector().z;
+        let Viewing { nearest_m, farthest_m, .. } = self.viewing;
+        let is_usual = (nearest_m..=farthest_m).contains(&depth);
+        let depth = if is_usual { depth } else { look.depth_m };
+        let pixel = look.whole_at(depth, camera, outline);
+        let seen = Point::from_vector(camera.ray(&pixel)? * depth);
+        let of_target = (hand_eye.anchor_from_target * centre).vector();
+        let of_camera = (hand_eye.mount_from_camera * seen).vector();
+        match setup {
+            Setup::EyeInHand => arm.leading(&of_camera, &of_target, &start),
+            Setup::EyeToHand => arm.leading(&of_target, &of_camera, &start),
         }
     }
 

@@ -225,7 +225,7 @@ impl Reach {
     }
 
     /// Whether the flange cannot be turned as one likes.
-    pub(super) fn has_few_joints(&self) -> bool {
+    pub fn has_few_joints(&self) -> bool {
         matches!(self, Reach::Arm(arm) if arm.arm.joints.len() < 6)
     }
 

@@ -9,7 +9,10 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SMatrix, Vector2, Vector3};
 
-use super::{Planner, Setting, looks, planner::change};
+use super::{
+    Planner, Setting, looks,
+    planner::{ENOUGH, change},
+};
 use crate::{
     Camera, Point, Pose, Setup, Target, TargetModel,
     estimate::predict::PredictedTre,
@@ -135,7 +138,7 @@ fn by_pose(rotation: &Matrix3<f64>, p: &Vector3<f64>) -> DMatrix<f64> {
 
 impl Planner {
     /// Corners to touch, each of which lowers the expected error most beside those before it; no more than `most`, and no
-    /// further once the expected error (95 %) is below a tolerance (mm).
+    /// further once the expected error (95 %) is so far below a tolerance (mm) as that of views is to be: [`ENOUGH`].
     pub fn touches(
         &self,
         most: usize,
@@ -169,8 +172,9 @@ impl Planner {
             let mut free = corners.clone();
             while !free.is_empty() && all.len() < most {
                 let before = here.setting.expected(&unknowns.of_hand_eye(), count);
-                let is_enough =
-                    before.as_ref().is_some_and(|b| tolerance_mm.is_some_and(|mm| b.p95 <= mm));
+                let is_enough = before
+                    .as_ref()
+                    .is_some_and(|b| tolerance_mm.is_some_and(|mm| b.p95 <= ENOUGH * mm));
                 if is_enough {
                     return all;
                 }

@@ -1,12 +1,15 @@
 //! Views that are planned one after the other, in simulated cells of which the planner knows a guess.
 
-use nalgebra::{Matrix3, Vector3, Vector6};
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix3, UnitQuaternion, Vector3, Vector6};
 
 use super::super::*;
 use crate::{
     HandEye, Session, Verdict, calibrate,
     estimate::predict::difference,
     math::random::Random,
+    model::kinematics::{Arm, DhConvention, Joint},
     simulate::{Cell, CellNoise},
 };
 
@@ -156,4 +159,77 @@ fn what_is_not_seen_or_not_reached_is_said() {
     assert!(message.contains("the robot does not reach"), "{message}");
     away.viewing.nearest_m = 5.0;
     assert!(away.next().unwrap_err().to_string().contains("make no sense"));
+}
+
+/// An arm with four axes: its flange looks down and turns about the vertical alone.
+fn four_axes() -> ArmReach {
+    let joint = |a: f64, alpha: f64, d: f64, prismatic: bool| Joint {
+        a,
+        alpha,
+        d,
+        theta_offset: 0.0,
+        beta: 0.0,
+        prismatic,
+    };
+    let joints = vec![
+        joint(0.35, 0.0, 0.77, false),
+        joint(0.3, PI, 0.0, false),
+        joint(0.0, 0.0, 0.1, true),
+        joint(0.0, 0.0, 0.0, false),
+    ];
+    ArmReach {
+        arm: Arm::new(DhConvention::Standard, joints),
+        limits: vec![(-2.3, 2.3), (-2.5, 2.5), (0.0, 0.2), (-6.0, 6.0)],
+        now: vec![0.0; 4],
+        surroundings: Surroundings::default(),
+    }
+}
+
+#[test]
+fn an_arm_with_four_axes_has_views_enough_and_touches_close_its_height() {
+    let mut reach = four_axes();
+    let mut t = trial(Setup::EyeInHand, 4);
+    let down = UnitQuaternion::new(Vector3::x() * PI).to_rotation_matrix();
+    let centre = Vector3::new(0.12, 0.075, 0.0);
+    t.cell.hand_eye = HandEye {
+        mount_from_camera: Pose::from_parts(&Matrix3::identity(), Vector3::new(0.06, -0.03, 0.05)),
+        anchor_from_target: Pose::from_parts(
+            down.matrix(),
+            Vector3::new(0.45, 0.0, 0.02) - down * centre,
+        ),
+    };
+    let mut random = Random::new(3);
+    let drawn = (0..100_000).map(|_| -> Vec<f64> {
+        reach.limits.iter().map(|(low, high)| random.between(*low, *high)).collect()
+    });
+    let seen = |joints: &Vec<f64>| t.cell.shows_target_at(&reach.arm.base_from_flange(joints));
+    let first: Vec<Vec<f64>> = drawn.filter(seen).take(3).collect();
+    reach.now = first[2].clone();
+    t.poses = first.iter().map(|joints| reach.arm.base_from_flange(joints)).collect();
+    t.take(1);
+    t.planner.setting.hand_eye = t.cell.hand_eye;
+    let v = &mut t.planner.viewing;
+    (v.nearest_m, v.farthest_m) = (0.2, 0.8);
+    t.planner.reach = Reach::Arm(reach);
+    let route = t.planner.route(12, None).unwrap();
+    assert_eq!(route.views.len(), 12, "{:?}", route.stopped);
+    for view in &route.views {
+        let there = view.station.base_from_flange;
+        assert!(t.cell.shows_target_at(&there));
+        assert!((there.rotation().column(2) + Vector3::z()).norm() < 1e-9);
+    }
+    assert!(!route.undetermined.is_empty() && route.expected.is_none());
+    // a robot that errs more where it touches has more corners touched
+    t.poses.extend(route.views.iter().map(|view| view.station.base_from_flange));
+    t.take(1);
+    let tip_exact = TouchNoise { touch_m: 0.2e-3, tip_m: 1e-5 };
+    let touches = |robot_m: f64, tolerance: f64| {
+        let mut planner = t.planner.clone();
+        planner.setting.noise.robot_position_m = robot_m;
+        planner.touches(12, &tip_exact, Some(tolerance))
+    };
+    let (exact, usual) = (touches(0.05e-3, 0.7), touches(0.5e-3, 0.7));
+    assert!(exact.len() < usual.len(), "{} {}", exact.len(), usual.len());
+    let after = exact.last().unwrap().after.as_ref().unwrap().p95;
+    assert!(after <= ENOUGH * 0.7, "{after}");
 }
