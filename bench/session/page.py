@@ -4,13 +4,14 @@
     python bench/session/page.py PROGRAM IMAGES [BENCHMARK.md]
 
 Images of a simulated cell are sent by HTTP, of 2.3 MP at 10 Hz for 20 s, and the images that the page has drawn are counted.
-Then IMAGES of 640 x 480 are sent as fast as they are taken, the memory of program and page is printed on the way (somebody looks
+Then IMAGES of 640 x 480 are sent as fast as they are taken, the memory of the program, of the page's scripts and of the page's process is printed on the way (somebody looks
 at the page for the last twentieth of each tenth), and once more images come at 10 Hz. Writes its section of BENCHMARK.md.
 """
 
 import contextlib
 import http.client
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -78,7 +79,7 @@ def main():
         f"## The page of a session\n\n`bench/session/page.py`: the whole program, its page open in a browser that draws without a "
         f"graphics card. {large}\n\n{images} images of 640 x 480 (at 5 Hz those of {images / 18000:.1f} hours), sent as fast as they "
         f"are taken: memory of the program {first[0]:.0f} MB after the first tenth and {last[0]:.0f} MB after all, of the page's scripts "
-        f"{first[1]:.1f} and {last[1]:.1f} MB. {after}"
+        f"{first[1]:.1f} and {last[1]:.1f} MB, of the page's process {first[2]:.0f} and {last[2]:.0f} MB. {after}"
     )
     if len(sys.argv) > 3:
         write_section(pathlib.Path(sys.argv[3]), text)
@@ -110,6 +111,8 @@ def opened(program, width, height):
                 page.call("Page.addScriptToEvaluateOnNewDocument", source=COUNTER)
                 page.call("Page.navigate", url=address)
                 page.wait("document.body?.dataset.step == 'cell'", "the page opens")
+                # the log of its tools would hold every answer
+                page.call("Network.disable")
                 camera.command(do="confirm", step="cell")
                 camera.send()
                 camera.command(do="confirm", step="camera")
@@ -134,7 +137,7 @@ def soak(page, camera, pid, images):
         camera.send()
         if k % tenth == 0:
             held.append(memory_mb(page, pid))
-            print(f"{k} images, {time.monotonic() - begin:.0f} s: program {held[-1][0]:.0f} MB, page {held[-1][1]:.1f} MB, "
+            print(f"{k} images, {time.monotonic() - begin:.0f} s: program {held[-1][0]:.0f} MB, page {held[-1][1]:.1f} of {held[-1][2]:.0f} MB, "
                   f"{page.value('drawn')} drawn", flush=True)
     page.value("window.away = false")
     return held[0], held[-1]
@@ -142,7 +145,15 @@ def soak(page, camera, pid, images):
 
 def memory_mb(page, pid):
     page.call("HeapProfiler.collectGarbage")
-    return resident_mb(pid), page.call("Runtime.getHeapUsage")["usedSize"] / 2**20
+    return resident_mb(pid), page.call("Runtime.getHeapUsage")["usedSize"] / 2**20, max(map(resident_mb, renderers(page)))
+
+
+def renderers(page):
+    """The browser's processes that show pages; the one that holds most is the page's."""
+    for folder in pathlib.Path("/proc").iterdir():
+        with contextlib.suppress(OSError, ValueError):
+            if os.getpgid(int(folder.name)) == page.process.pid and b"--type=renderer" in (folder / "cmdline").read_bytes():
+                yield int(folder.name)
 
 
 def measure(page, camera, pid, hertz=10, seconds=20):
