@@ -33,14 +33,14 @@ pub struct PushedSession {
     session: Arc<Mutex<Option<Session>>>,
 }
 
-/// The name of a capture, or why there is none; the state as JSON.
+/// The name of a capture or placement, or why there is none; the state as JSON.
 type Answer = (Option<String>, Option<String>, String);
 
 #[pymethods]
 impl PushedSession {
     /// Begins a session in a new folder, or goes on with one.
     #[new]
-    #[pyo3(signature = (folder, *, setup_name=None, target_json=None, target_file=None, camera_json=None, tolerance_mm=None, notation=None))]
+    #[pyo3(signature = (folder, *, setup_name=None, target_json=None, target_file=None, camera_json=None, tolerance_mm=None, notation=None, tip_mm=None))]
     #[allow(clippy::too_many_arguments, reason = "each is one of Python's keywords")]
     fn new(
         py: Python<'_>,
@@ -51,6 +51,7 @@ impl PushedSession {
         camera_json: Option<String>,
         tolerance_mm: Option<f64>,
         notation: Option<String>,
+        tip_mm: Option<[f64; 3]>,
     ) -> PyResult<Self> {
         let has_target = target_json.is_some() || target_file.is_some();
         let declared = Declared {
@@ -59,6 +60,7 @@ impl PushedSession {
             camera_json,
             tolerance_mm,
             notation,
+            tip_mm,
         };
         let opened = working::run(py, None, move |_| Session::open(&folder, &declared))?;
         let session = opened.map_err(|error| exception(py, &error))?;
@@ -76,8 +78,7 @@ impl PushedSession {
         scan: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Answer> {
         let pose = pose(matrix, numbers)?;
-        let image =
-            Given::of(image, |array| Ok(CameraImage::in_memory(Arc::new(picture(array)?))))?;
+        let image = given_image(image)?;
         let scan = scan.map(|scan| Given::of(scan, |array| self::scan(array, "the scan")));
         let scan: Option<Given<Scan>> = scan.transpose()?;
         self.with(py, move |session| {
@@ -87,11 +88,42 @@ impl PushedSession {
                 Some(scan) => with_scan(image, &scan),
                 None => image,
             };
-            let (id, refused) = match session.push(pose, image)? {
-                Pushed::Taken(id) => (Some(id), None),
-                Pushed::Unseen(why) => (None, Some(why)),
-            };
-            Ok((id, refused, shown(session)))
+            let pushed = session.push(pose, image)?;
+            Ok(answer(session, pushed))
+        })
+    }
+
+    /// Takes a touch of a corner: the pose of the flange with the tip there. Its name, and the state as JSON.
+    #[pyo3(signature = (*, matrix=None, numbers=None, corner=None))]
+    fn touch(
+        &self,
+        py: Python<'_>,
+        matrix: Option<&Bound<'_, PyAny>>,
+        numbers: Option<String>,
+        corner: Option<u32>,
+    ) -> PyResult<(String, String)> {
+        let pose = pose(matrix, numbers)?;
+        self.with(py, move |session| {
+            let id = session.touch(pose, corner)?;
+            Ok((id, shown(session)))
+        })
+    }
+
+    /// Takes the image of a board that lies in the view to be touched, perhaps with the pose of its moment.
+    #[pyo3(signature = (image, *, matrix=None, numbers=None))]
+    fn place(
+        &self,
+        py: Python<'_>,
+        image: &Bound<'_, PyAny>,
+        matrix: Option<&Bound<'_, PyAny>>,
+        numbers: Option<String>,
+    ) -> PyResult<Answer> {
+        let is_known = matrix.is_some() || numbers.is_some();
+        let there = is_known.then(|| pose(matrix, numbers)).transpose()?;
+        let image = given_image(image)?;
+        self.with(py, move |session| {
+            let placed = session.place(image.read(|file| image_in(file))?, there)?;
+            Ok(answer(session, placed))
         })
     }
 
@@ -100,17 +132,27 @@ impl PushedSession {
         self.with(py, |session| Ok(shown(session)))
     }
 
-    /// Takes a capture out.
+    /// Takes a capture out, or a placement with its touches.
     fn delete(&self, py: Python<'_>, id: String) -> PyResult<String> {
         self.change(py, move |session| session.delete(&id))
     }
 
-    /// Takes a deleted capture in again.
+    /// Takes a capture out, and proposes its view as the next one.
+    fn retake(&self, py: Python<'_>, id: String) -> PyResult<String> {
+        self.change(py, move |session| session.retake(&id))
+    }
+
+    /// Takes a touch out.
+    fn untouch(&self, py: Python<'_>, id: String) -> PyResult<String> {
+        self.change(py, move |session| session.untouch(&id))
+    }
+
+    /// Takes a deleted capture, placement or touch in again.
     fn restore(&self, py: Python<'_>, id: String) -> PyResult<String> {
         self.change(py, move |session| session.restore(&id))
     }
 
-    /// Undoes the last capture, deletion or restoring.
+    /// Undoes the last capture, placement, touch, deletion or restoring.
     fn undo(&self, py: Python<'_>) -> PyResult<String> {
         self.change(py, Session::undo)
     }
@@ -193,8 +235,20 @@ fn pose(matrix: Option<&Bound<'_, PyAny>>, numbers: Option<String>) -> PyResult<
             Ok(PushedPose::Known(Pose::<Base, Flange>::from_parts(&r, t)))
         }
         (None, Some(numbers)) => Ok(PushedPose::Typed(numbers)),
-        (None, None) => Err(errors::input("an image needs the pose of its moment")),
+        (None, None) => Err(errors::input("the pose of the moment is needed")),
     }
+}
+
+fn given_image(image: &Bound<'_, PyAny>) -> PyResult<Given<CameraImage>> {
+    Given::of(image, |array| Ok(CameraImage::in_memory(Arc::new(picture(array)?))))
+}
+
+fn answer(session: &Session, pushed: Pushed) -> Answer {
+    let (id, refused) = match pushed {
+        Pushed::Taken(id) => (Some(id), None),
+        Pushed::Unseen(why) => (None, Some(why)),
+    };
+    (id, refused, shown(session))
 }
 
 fn shown(session: &Session) -> String {

@@ -239,6 +239,104 @@ def test_scans_go_along(shots, tmp_path):
             session.push(images[1], poses[1], scan=points)
 
 
+def touched_cell(folder, setup, captures):
+    """Captures of a simulated cell (image, pose), and its touches (placement, corner, pose)."""
+    handeye.simulate(folder, captures=captures, target=BOARD, setup=setup, **SIZE)
+    rows = {}
+    for name in ("robot.csv", "touches.csv"):
+        with open(folder / name, encoding="utf-8") as table:
+            rows[name] = list(csv.reader(table))[1:]
+    poses = handeye.poses_from([[float(x) for x in row[-7:]] for row in rows["robot.csv"]], "quaternion-xyzw", length_unit="m")
+    at = handeye.poses_from([[float(x) for x in row[-7:]] for row in rows["touches.csv"]], "quaternion-xyzw", length_unit="m")
+    shots = [(folder / "images" / f"{number + 1:03}.png", pose) for number, pose in enumerate(poses)]
+    return shots, [(row[0], int(row[1]), pose) for row, pose in zip(rows["touches.csv"], at)]
+
+
+TIP_MM = (4.0, -7.0, 182.0)
+
+
+def test_corners_are_touched(tmp_path):
+    shots, touches = touched_cell(tmp_path / "seen", "eye-in-hand", 5)
+    with handeye.Session(tmp_path / "cell", **DECLARED) as session:
+        with pytest.raises(handeye.InputError, match="first captures are taken"):
+            session.touch(touches[0][2])
+        for shot in shots:
+            before = session.push(*shot)
+        assert before.touch is None and before.touches == [] and before.next_corner in range(54)
+        with pytest.raises(handeye.InputError, match="where the tool's tip is"):
+            session.touch(touches[0][2], corner=touches[0][1])
+        with pytest.raises(handeye.InputError, match="no other one is laid down"):
+            session.place(shots[0][0])
+    for tip, said in [((1.0, 2.0), "three numbers"), ((0.0, 0.0, 0.0), "not zero"), ((0.0, 0.0, np.inf), "not more than 2 m")]:
+        with pytest.raises(handeye.InputError, match=said):
+            handeye.Session(tmp_path / "cell", tip_mm=tip)
+    with handeye.Session(tmp_path / "cell", tip_mm=TIP_MM) as session:
+        for number, (_, corner, pose) in enumerate(touches[:5], 1):
+            state = session.touch(pose, corner=corner)
+            assert (state.touch, state.capture) == (f"t{number:02}", None)
+        assert [touch["corner"] for touch in state.touches] == [corner for _, corner, _ in touches[:5]]
+        assert all(touch["used"] and touch["residual_mm"] < 2.0 for touch in state.touches)
+        assert state.next_corner not in [corner for _, corner, _ in touches[:5]]
+        assert state.error_mm < before.error_mm
+        in_mm = touches[5][2].matrix.copy()
+        in_mm[:3, 3] *= 1000
+        for pose, corner, said in [
+            (touches[4][2], None, "still where it touched corner"),
+            (touches[5][2], 54, "no corner 54"),
+            (touches[5][2], -1, "no corner -1"),
+            (in_mm, 3, "are its lengths in another unit"),
+            (None, 3, "4 x 4|finite"),
+        ]:
+            with pytest.raises(handeye.InputError, match=said):
+                session.touch(pose, corner=corner)
+        assert session.untouch("t02").deleted == ["t02"] and len(session.state.touches) == 4
+        with pytest.raises(handeye.InputError, match="no touch t02"):
+            session.untouch("t02")
+        assert len(session.undo().touches) == 5
+        found = session.finish()
+    again = handeye.calibrate(tmp_path / "cell", out=tmp_path / "again")
+    assert again.to_json() == found.to_json()
+    assert [touch["used"] for touch in found.to_dict()["touches"]] == [True] * 5
+
+
+def test_boards_are_laid_down_for_a_camera_beside_the_robot(tmp_path):
+    shots, touches = touched_cell(tmp_path / "seen", "eye-to-hand", 5)
+    declared = {**DECLARED, "setup": "eye-to-hand", "tip_mm": TIP_MM}
+    with handeye.Session(tmp_path / "cell", **declared) as session:
+        for shot in shots:
+            session.push(*shot)
+        with pytest.raises(handeye.InputError, match="cannot touch the board that it carries"):
+            session.touch(touches[0][2], corner=touches[0][1])
+        unseen = session.place(np.full((400, 640), 20, np.uint8))
+        assert unseen.placement is None and "not found" in unseen.refused
+        with pytest.raises(handeye.InputError, match="the board that the robot carries"):
+            session.place(shots[2][0], pose=shots[2][1])
+        for number in (1, 2):
+            image = tmp_path / "seen" / "images" / f"place-{number}.png"
+            assert session.place(array_of(image)).placement == f"p{number:02}"
+            with pytest.raises(handeye.InputError, match="still lies as in placement"):
+                session.place(image)
+            for _, corner, pose in [touch for touch in touches if touch[0] == f"place-{number}"]:
+                state = session.touch(pose, corner=corner)
+        assert [touch["placement"] for touch in state.touches] == ["p01"] * 4 + ["p02"] * 4
+        assert all(touch["used"] and touch["residual_mm"] < 3.0 for touch in state.touches)
+        found = session.finish()
+        assert len(session.delete("p01").touches) == 4 and len(session.restore("p01").touches) == 8
+    assert handeye.calibrate(tmp_path / "cell").to_json() == found.to_json()
+
+
+def test_a_capture_is_taken_again(shots, tmp_path):
+    images, poses, _, _ = shots
+    with handeye.Session(tmp_path / "cell", **DECLARED) as session:
+        for image, pose in zip(images[:5], poses[:5]):
+            session.push(image, pose)
+        state = session.retake("003")
+        assert state.deleted == ["003"] and np.allclose(state.next_pose.matrix, poses[2].matrix, atol=1e-9)
+        with pytest.raises(handeye.InputError, match="no capture 003"):
+            session.retake("003")
+        assert session.push(images[2], poses[2]).capture == "006"
+
+
 def test_a_camera_without_intrinsics_is_calibrated_on_the_way(shots, tmp_path):
     images, poses, _, truth = shots
     with handeye.Session(tmp_path / "cell", setup="eye-in-hand", target=BOARD, tolerance_mm=3.0) as session:

@@ -19,9 +19,16 @@ from ._types import Array, Path
 class SessionState:
     """What is known of a session at a moment; it does not change any more."""
 
-    def __init__(self, known: str, capture: Optional[str] = None, refused: Optional[str] = None) -> None:
+    def __init__(
+        self,
+        known: str,
+        capture: Optional[str] = None,
+        refused: Optional[str] = None,
+        touch: Optional[str] = None,
+        placement: Optional[str] = None,
+    ) -> None:
         self._known: Dict[str, Any] = json.loads(known)
-        self._capture, self._refused = capture, refused
+        self._capture, self._refused, self._touch, self._placement = capture, refused, touch, placement
 
     @property
     def capture(self) -> Optional[str]:
@@ -30,8 +37,19 @@ class SessionState:
 
     @property
     def refused(self) -> Optional[str]:
-        """Why the image that was pushed is no capture: the board was not found in it. Nothing is lost by that."""
+        """Why the image that was handed over is no capture or placement: the board was not found in it. Nothing is lost by
+        that."""
         return self._refused
+
+    @property
+    def touch(self) -> Optional[str]:
+        """Name of the touch that this call of :meth:`Session.touch` took, such as ``t03``."""
+        return self._touch
+
+    @property
+    def placement(self) -> Optional[str]:
+        """Name of the placement that this call of :meth:`Session.place` took, such as ``p01``; None where it took none."""
+        return self._placement
 
     @property
     def sentence(self) -> str:
@@ -114,8 +132,20 @@ class SessionState:
         return copy.deepcopy(list(self._known["captures"]))
 
     @property
+    def next_corner(self) -> Optional[int]:
+        """The corner of the board to touch next; None while there are no captures."""
+        touch = self._known["touch"]
+        return None if touch is None else int(touch["corner"])
+
+    @property
+    def touches(self) -> List[Dict[str, Any]]:
+        """The touches that stand: ``id``, ``corner``, ``placement``, ``used``, and ``residual_mm``, how far the tip was from
+        where the captures put the corner."""
+        return copy.deepcopy(list((self._known["touch"] or {}).get("touches", [])))
+
+    @property
     def deleted(self) -> List[str]:
-        """Names of the captures that were deleted, and can be restored."""
+        """Names of the captures, placements and touches that were deleted, and can be restored."""
         return [str(capture["id"]) for capture in self._known["deleted"]]
 
     def to_dict(self) -> Dict[str, Any]:
@@ -157,6 +187,7 @@ class Session:
         distortion: Optional[Sequence[float]] = None,
         tolerance_mm: Optional[float] = None,
         notation: Optional[str] = None,
+        tip_mm: Optional[Sequence[float]] = None,
     ) -> None:
         """Begins a session in a new or empty folder, or goes on with the one in it.
 
@@ -169,6 +200,7 @@ class Session:
         :param distortion: OpenCV's coefficients (4, 5, 8 or 12) of a camera matrix; none where it is not given.
         :param tolerance_mm: error that is tolerated (95 %) [default: 0.5].
         :param notation: how the robot writes poses, such as ``"kuka"``; see :func:`poses_from` [default: ``"ur"``].
+        :param tip_mm: where the tip of the tool that touches corners is in the flange, x, y and z.
         :raises InputError: what is declared wrongly or of another cell; a folder that holds other files, or that another
             session has open.
         """
@@ -182,6 +214,7 @@ class Session:
             camera_json=None if camera is None else json_of(camera),
             tolerance_mm=None if tolerance_mm is None else float(tolerance_mm),
             notation=notation,
+            tip_mm=None if tip_mm is None else _tip(tip_mm),
         )
 
     def push(self, image: Any, pose: Any, *, scan: Any = None) -> SessionState:
@@ -205,6 +238,39 @@ class Session:
         capture, refused, state = self._session.push(image, scan=scan, **given)
         return SessionState(state, capture, refused)
 
+    def touch(self, pose: Any, *, corner: Optional[int] = None) -> SessionState:
+        """Takes a touch: the tip of the tool is at a corner of the board, and the robot stands. Touches are a second instrument
+        beside the camera, and the result is made with them.
+
+        With a camera on the robot the board of the captures is touched where it lies; with one beside the robot, the board of
+        the newest placement (see :meth:`place`).
+
+        :param pose: ``base_from_flange`` with the tip at the corner, as for :meth:`push`.
+        :param corner: which [default: ``next_corner`` of the state].
+        :returns: the state with ``touch``, its name.
+        :raises InputError: no captures yet, no ``tip_mm``, no placement where the robot carries the board; a corner that the
+            board does not have; a pose that no robot has, or that was not read anew. The session is as it was.
+        """
+        if corner is not None and not 0 <= corner < 2**32:
+            raise InputError(f"the board has no corner {corner}")
+        touch, state = self._session.touch(corner=corner, **_pose(pose))
+        return SessionState(state, touch=touch)
+
+    def place(self, image: Any, *, pose: Any = None) -> SessionState:
+        """Takes the image of a board that was laid into the view of a camera beside the robot, of the kind of the captures'
+        board, which the robot cannot touch itself. The corners that are touched from now on are this board's.
+
+        :param image: as for :meth:`push`; the board lies still, and the robot may be anywhere.
+        :param pose: ``base_from_flange`` of that moment, as for :meth:`push`. Without it, a board in the robot's hand is not told
+            from one that lies.
+        :returns: the state with ``placement``, its name; or, where the board is not found in the image, with ``refused``.
+        :raises InputError: no captures yet; a camera on the robot; a board that lies as before, or that the robot carries; an image
+            of another size. The session is as it was.
+        """
+        given = {} if pose is None else _pose(pose)
+        placement, refused, state = self._session.place(image, **given)
+        return SessionState(state, refused=refused, placement=placement)
+
     @property
     def state(self) -> SessionState:
         """What is known now."""
@@ -216,16 +282,25 @@ class Session:
         return self.state.captures
 
     def delete(self, id: str) -> SessionState:
-        """Takes a capture out; its files are kept aside. Raises InputError for a name that no capture has."""
+        """Takes a capture out, or a placement with its touches; files are kept aside. Raises InputError for a name that none
+        has."""
         return SessionState(self._session.delete(id))
 
+    def retake(self, id: str) -> SessionState:
+        """Takes a capture out, and has its view proposed as ``next_pose``. Raises InputError for a name that no capture has."""
+        return SessionState(self._session.retake(id))
+
+    def untouch(self, id: str) -> SessionState:
+        """Takes a touch out. Raises InputError for a name that no touch has."""
+        return SessionState(self._session.untouch(id))
+
     def restore(self, id: str) -> SessionState:
-        """Takes a deleted capture in again. Raises InputError for a name that no deleted one has."""
+        """Takes a deleted capture, placement or touch in again. Raises InputError for a name that no deleted one has."""
         return SessionState(self._session.restore(id))
 
     def undo(self) -> SessionState:
-        """Undoes the last capture, deletion or restoring since the folder was opened. Raises InputError where there is
-        none."""
+        """Undoes the last capture, placement, touch, deletion or restoring since the folder was opened. Raises InputError where
+        there is none."""
         return SessionState(self._session.undo())
 
     def skip(self) -> SessionState:
@@ -251,6 +326,14 @@ class Session:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _tip(tip_mm: Sequence[float]) -> Sequence[float]:
+    """As the compiled half takes it."""
+    numbers = [float(x) for x in tip_mm]
+    if len(numbers) != 3:
+        raise InputError(f"the tip is three numbers of millimetres in the flange, not {len(numbers)}")
+    return numbers
 
 
 def _pose(pose: Any) -> Dict[str, Any]:

@@ -17,7 +17,7 @@ pub mod rest;
 mod say;
 pub mod shown;
 mod taking;
-mod touch;
+pub(crate) mod touch;
 mod verify;
 mod view;
 

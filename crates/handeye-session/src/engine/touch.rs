@@ -29,6 +29,20 @@ const SETTING_OFF_S: f64 = 0.3;
 pub(super) const WHERE_IS_THE_TIP: &str =
     "Where is the tip of the touching tool in the flange? Enter it in millimetres.";
 
+/// Where the tip of a tool is in the flange, mm.
+///
+/// # Errors
+/// Where none is.
+pub(crate) fn tip(in_flange_mm: [f64; 3]) -> Result<[f64; 3], Refusal> {
+    let far = Vector3::from(in_flange_mm).norm();
+    match far > 0.0 && far < FARTHEST_TIP_MM {
+        true => Ok(in_flange_mm),
+        false => Err(wrong(
+            "the tip is three numbers of millimetres in the flange, not zero and not more than 2 m away",
+        )),
+    }
+}
+
 impl Engine {
     /// Whether corners can be touched.
     pub(super) fn may_touch(&self) -> Result<(), Refusal> {
@@ -53,14 +67,8 @@ impl Engine {
     }
 
     pub(super) fn tip(&mut self, in_flange_mm: [f64; 3]) -> Result<Vec<Effect>, Refusal> {
-        let far = Vector3::from(in_flange_mm).norm();
-        if !(far > 0.0 && far < FARTHEST_TIP_MM) {
-            return Err(wrong(
-                "the tip is three numbers of millimetres in the flange, not zero and not more than 2 m away",
-            ));
-        }
         self.configure(handeye_io::CellSettings {
-            tip_mm: Some(in_flange_mm),
+            tip_mm: Some(tip(in_flange_mm)?),
             ..self.settings().clone()
         })
     }

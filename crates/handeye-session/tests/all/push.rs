@@ -38,12 +38,17 @@ fn declared(cell: &VirtualCell) -> Declared {
         camera_json: Some(keys.to_string()),
         tolerance_mm: Some(0.5),
         notation: Some("kuka".into()),
+        tip_mm: settings.tip_mm,
     }
 }
 
 impl Program {
     fn new(seed: u64) -> Self {
-        let cell = VirtualCell::new(Setup::EyeInHand, seed, Faults::default()).unwrap();
+        Self::of(Setup::EyeInHand, seed)
+    }
+
+    fn of(setup: Setup, seed: u64) -> Self {
+        let cell = VirtualCell::new(setup, seed, Faults::default()).unwrap();
         let root = new_folder();
         fs::create_dir_all(&root).unwrap();
         Self { cell, root, now: 0.0 }
@@ -72,6 +77,14 @@ impl Program {
             None => self.cell.show_board(number, self.now).unwrap(),
         }
         self.now += 20.0;
+    }
+
+    /// Brings the tip to the proposed corner, and touches it.
+    fn touch(&mut self, session: &mut PushedSession) -> Result<String, PushError> {
+        let corner = session.state().touch.unwrap().corner;
+        self.cell.drive_tip(corner, self.now);
+        self.now += 20.0;
+        session.touch(self.pose(), None)
     }
 
     fn push(&self, session: &mut PushedSession) -> Result<Pushed, PushError> {
@@ -307,4 +320,124 @@ fn numbers_as_typed_and_files_as_they_are_lie_in_the_folder() {
     let mut session = PushedSession::open(&root, &Declared::default()).unwrap();
     let small = CameraImage::in_memory(Arc::new(GrayImage::new(64, 48, vec![0.0; 3072]).unwrap()));
     refuses(session.push(program.pose(), small), "those before it have 1280 x 800");
+}
+
+/// Whether the folder's own result is the session's.
+#[track_caller]
+fn assert_is_of_folder(program: &Program, session: &mut PushedSession) -> handeye::Calibration {
+    let found = session.finish().unwrap().calibration;
+    let dataset = Dataset::open(&program.folder()).unwrap();
+    let (again, _) = calibrate_dataset(&dataset, &Config::default(), &|_, _| {}).unwrap();
+    assert_eq!(again, found);
+    found
+}
+
+#[test]
+fn corners_are_touched_and_the_result_is_made_with_them() {
+    let mut program = Program::new(7);
+    let mut session = program.open();
+    refuses(session.touch(program.pose(), None), "first captures are taken");
+    program.take(&mut session, 6);
+    let error = |session: &PushedSession| session.state().progress.unwrap().p95_mm.unwrap();
+    let before = error(&session);
+    refuses(session.place(program.image(), None), "no other one is laid down");
+    for number in 1..=4 {
+        assert_eq!(program.touch(&mut session).unwrap(), format!("t{number:02}"));
+    }
+    let state = session.state();
+    let touched = state.touch.unwrap();
+    assert_eq!(touched.touches.len(), 4);
+    assert!(touched.touches.iter().all(|t| t.used && t.residual_mm.unwrap() < 1.5), "{touched:?}");
+    assert!(error(&session) < before, "{} {before}", error(&session));
+    assert!(state.say.starts_with("Bring the tip to corner"), "{}", state.say);
+
+    // the same pose once more, none of the board's corners, a pose in another unit
+    refuses(session.touch(program.pose(), None), "still where it touched corner");
+    program.cell.drive_tip(touched.corner, program.now);
+    program.now += 20.0;
+    refuses(session.touch(program.pose(), Some(54_321)), "no corner 54321");
+    refuses(session.touch(PushedPose::Typed("1 2 3".into()), None), "");
+    assert_eq!(session.touch(program.pose(), Some(touched.corner)).unwrap(), "t05");
+
+    session.untouch("t02").unwrap();
+    refuses(session.untouch("t02"), "no touch t02");
+    session.restore("t02").unwrap();
+    session.undo().unwrap(); // the restoring
+    session.undo().unwrap(); // the deletion
+    let names = |session: &PushedSession| -> Vec<String> {
+        session.state().touch.unwrap().touches.into_iter().map(|t| t.id).collect()
+    };
+    assert_eq!(names(&session), ["t01", "t02", "t03", "t04", "t05"]);
+    // captures may follow, and another who opens the folder finds all of it
+    program.take(&mut session, 1);
+    let found = assert_is_of_folder(&program, &mut session);
+    assert_eq!(found.touches.iter().filter(|touch| touch.used).count(), 5);
+    drop(session);
+    session = program.open();
+    assert_eq!(names(&session).len(), 5);
+}
+
+#[test]
+fn a_tip_is_needed_and_one_that_no_tool_has_is_refused() {
+    let mut program = Program::new(7);
+    let open = |tip_mm| {
+        PushedSession::open(&program.folder(), &Declared { tip_mm, ..declared(&program.cell) })
+    };
+    refuses(open(Some([0.0, f64::NAN, 1.0])), "three numbers of millimetres");
+    refuses(open(Some([0.0; 3])), "three numbers of millimetres");
+    let mut session = open(None).unwrap();
+    program.take(&mut session, 2);
+    refuses(session.touch(program.pose(), Some(0)), "where the tool's tip is");
+    drop(session);
+    // who opens it again may say it
+    session = program.open();
+    assert_eq!(session.state().touch.unwrap().tip_mm, program.cell.settings().tip_mm);
+    program.touch(&mut session).unwrap();
+}
+
+#[test]
+fn boards_are_laid_into_the_view_and_touched() {
+    let mut program = Program::of(Setup::EyeToHand, 9);
+    let mut session = program.open();
+    program.take(&mut session, 5);
+    refuses(program.touch(&mut session), "cannot touch the board that it carries");
+    program.drive(&session, 0);
+    let carried = session.place(program.image(), Some(program.pose()));
+    refuses(carried, "the board that the robot carries");
+    for number in 1..=2 {
+        program.cell.lay(program.now);
+        program.now += 20.0;
+        let unseen = session.place(blank(), None).unwrap();
+        assert!(matches!(&unseen, Pushed::Unseen(why) if why.contains("not found")), "{unseen:?}");
+        let placed = session.place(program.image(), Some(program.pose())).unwrap();
+        assert_eq!(placed, Pushed::Taken(format!("p{number:02}")));
+        refuses(session.place(program.image(), None), "still lies as in placement");
+        for _ in 0..3 {
+            program.touch(&mut session).unwrap();
+        }
+    }
+    let touched = session.state().touch.unwrap();
+    assert_eq!(touched.placements.iter().map(|p| p.touches).collect::<Vec<_>>(), [3, 3]);
+    assert!(touched.touches.iter().all(|t| t.used && t.residual_mm.unwrap() < 2.0), "{touched:?}");
+    program.cell.take_away();
+    let found = assert_is_of_folder(&program, &mut session);
+    assert_eq!(found.touches.len(), 6);
+    session.delete("p01").unwrap();
+    assert_eq!(session.state().touch.unwrap().touches.len(), 3);
+}
+
+#[test]
+fn a_capture_is_taken_again_from_its_view() {
+    let mut program = Program::new(8);
+    let mut session = program.open();
+    program.take(&mut session, 6);
+    refuses(session.retake("009"), "no capture 009");
+    let poses = |session: &PushedSession| session.state().captures[1].base_from_flange;
+    let wanted = poses(&session);
+    session.retake("002").unwrap();
+    assert_eq!(session.state().captures.len(), 5);
+    let next = session.state().next.unwrap().base_from_flange;
+    assert!(next.distance_to(&wanted) < 1e-9, "{next:?} {wanted:?}");
+    program.drive(&session, 0);
+    assert_eq!(program.push(&mut session).unwrap(), Pushed::Taken("007".into()));
 }

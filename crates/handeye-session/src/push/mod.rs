@@ -5,15 +5,20 @@
 //! pose, image ─▶ Engine ─▶ Store, Assess ─▶ Host ─▶ Pushed (its name, or why it shows nothing), State
 //! ```
 //!
+//! Corners that the tip of its tool touches are handed over likewise, and images of boards that are laid down for that.
+//!
 //! A call returns when all that it leads to is done. There are no threads, and the only clock is the number of pushes: the same
 //! pushes give the same bytes. The folder is that of any session; `handeye session` and a program can take turns.
 
+mod declared;
+mod touching;
+
 use std::{collections::VecDeque, fs, path::Path, sync::Arc};
 
-use handeye::{Base, Flange, Pose, Scan, Setup, TargetModel};
+use handeye::{Base, Flange, Pose, Scan};
 use handeye_io::{
-    CellSettings, Error, RefusedCapture, ScanSettings, SessionFolder, Writing, image_size,
-    intrinsics_from_json, read_image, simulated,
+    Error, RefusedCapture, ScanSettings, SessionFolder, image_size, intrinsics_from_json,
+    read_image, simulated,
 };
 
 use crate::{
@@ -28,21 +33,7 @@ use crate::{
         outlet::{CameraImage, Wanted},
     },
 };
-
-/// What is declared of a cell: all of a new one, and of one that goes on what is to be otherwise.
-#[derive(Debug, Clone, Default)]
-pub struct Declared {
-    /// Who carries the camera.
-    pub setup: Option<Setup>,
-    /// The board.
-    pub target: Option<TargetModel>,
-    /// The camera: the keys of `[camera]` of a manifest, as JSON. Without it the intrinsics are calibrated from the views.
-    pub camera_json: Option<String>,
-    /// Error that is tolerated (95 %), mm.
-    pub tolerance_mm: Option<f64>,
-    /// How poses are written: a name of a robot's notation.
-    pub notation: Option<String>,
-}
+pub use declared::Declared;
 
 /// Where the flange was in the base.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,10 +44,10 @@ pub enum PushedPose {
     Typed(String),
 }
 
-/// What became of an image and its pose.
+/// What became of an image, with or without a pose.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Pushed {
-    /// A capture of this name.
+    /// A capture, or a placement, of this name.
     Taken(String),
     /// Nothing: the image does not show the board.
     Unseen(String),
@@ -89,10 +80,6 @@ type Size = (u32, u32);
 
 /// Between two pushes, s: so long that nothing of the one is taken for a motion to the other.
 const PUSH_S: f64 = 60.0;
-/// Unless said otherwise, mm.
-const TOLERANCE_MM: f64 = 0.5;
-/// Unless said otherwise.
-const NOTATION: &str = "ur";
 
 impl PushedSession {
     /// Begins a session in a new folder, or goes on with one.
@@ -143,18 +130,12 @@ impl PushedSession {
         self.know_size(size)?;
         self.pairs(image.scan.is_some())?;
         let (now, frame) = (self.now + PUSH_S, self.frame + 1);
-        let mut engine = self.at_captures()?;
+        let mut engine = self.at(Step::Capture)?;
         engine.step(Input::Clock(now))?;
-        engine.step(match pose {
-            PushedPose::Known(base_from_flange) => {
-                let (typed, joints) = (vec![], vec![]);
-                Input::Robot(RobotSample { time_s: now, base_from_flange, typed, joints })
-            }
-            PushedPose::Typed(text) => Input::Command(Command::Pose { text }),
-        })?;
+        engine.step(there(pose, now))?;
         let found = Wanted::of(engine.settings()).found_in(&image.grey, frame, now);
         engine.step(Input::Image(found))?;
-        can_be(&engine)?;
+        can_be(&engine, &[Step::Camera, Step::Robot])?;
         let effects = engine.step(Input::Command(Command::Take))?;
         (self.engine, self.now, self.frame) = (engine, now, frame);
         let outcome = self.perform(effects, Some(image))?.outcome()?;
@@ -165,15 +146,15 @@ impl PushedSession {
         Ok(outcome)
     }
 
-    /// Takes a capture out.
+    /// Takes a capture out, or a placement with its touches.
     ///
     /// # Errors
-    /// A name that no capture has; a folder that cannot be written.
+    /// A name that none has; a folder that cannot be written.
     pub fn delete(&mut self, id: &str) -> Result<(), PushError> {
         self.obey(Command::Delete { id: id.into() })
     }
 
-    /// Takes a deleted capture in again.
+    /// Takes a deleted one in again; a touch likewise.
     ///
     /// # Errors
     /// As [`PushedSession::delete`].
@@ -181,7 +162,15 @@ impl PushedSession {
         self.obey(Command::Restore { id: id.into() })
     }
 
-    /// Undoes the last capture, deletion or restoring since the session was opened.
+    /// Takes a capture out, and proposes its view as the next one.
+    ///
+    /// # Errors
+    /// As [`PushedSession::delete`].
+    pub fn retake(&mut self, id: &str) -> Result<(), PushError> {
+        self.obey(Command::Retake { id: id.into() })
+    }
+
+    /// Undoes the last capture, placement, touch, deletion or restoring since the session was opened.
     ///
     /// # Errors
     /// Nothing to undo; a folder that cannot be written.
@@ -210,16 +199,21 @@ impl PushedSession {
     }
 
     fn obey(&mut self, command: Command) -> Result<(), PushError> {
-        let mut engine = self.at_captures()?;
+        self.obey_at(Step::Capture, command)
+    }
+
+    /// Does it at a step.
+    fn obey_at(&mut self, step: Step, command: Command) -> Result<(), PushError> {
+        let mut engine = self.at(step)?;
         let effects = engine.step(Input::Command(command))?;
         self.engine = engine;
         self.perform(effects, None).map(|_| ())
     }
 
-    /// The engine at the step of the captures, to try something: what it refuses has not happened.
-    fn at_captures(&self) -> Result<Engine, Refusal> {
+    /// The engine at a step, to try something: what it refuses has not happened.
+    fn at(&self, step: Step) -> Result<Engine, Refusal> {
         let mut engine = self.engine.clone();
-        engine.step(Input::Command(Command::Go { step: Step::Capture }))?;
+        engine.step(Input::Command(Command::Go { step }))?;
         Ok(engine)
     }
 
@@ -268,7 +262,7 @@ impl PushedSession {
         let mut waiting = VecDeque::from(effects);
         while let Some(effect) = waiting.pop_front() {
             let own = match &effect {
-                Effect::Store { .. } => image.take(),
+                Effect::Store { .. } | Effect::StorePlacement { .. } => image.take(),
                 Effect::Refuse(refused) => {
                     done.refused = Some(refused.clone());
                     None
@@ -298,8 +292,10 @@ struct Done {
 impl Done {
     fn note(&mut self, input: &Input) {
         match input {
-            Input::Stored(Ok(id)) => self.taken = Some(id.clone()),
-            Input::Stored(Err(why)) | Input::Failed(why) => self.failed = Some(why.clone()),
+            Input::Stored(Ok(id)) | Input::Touched(Ok(id)) => self.taken = Some(id.clone()),
+            Input::Stored(Err(why)) | Input::Touched(Err(why)) | Input::Failed(why) => {
+                self.failed = Some(why.clone());
+            }
             _ => {}
         }
     }
@@ -317,44 +313,14 @@ impl Done {
     }
 }
 
-impl Declared {
-    /// The cell of a new session.
-    fn cell(&self) -> Result<CellSettings, PushError> {
-        let (Some(setup), Some(target)) = (self.setup, self.target.clone()) else {
-            return Err(refused("a new session needs to know setup and target".into()));
-        };
-        Ok(CellSettings {
-            setup,
-            target,
-            intrinsics: None,
-            tolerance_mm: TOLERANCE_MM,
-            notation: NOTATION.into(),
-            guess: None,
-            tip_mm: None,
-            scans: None,
-            arm: None,
-        })
-    }
-
-    /// Settings with what is declared; `size` is that of the images, where it is known.
-    fn over(&self, settings: &CellSettings, size: Option<Size>) -> Result<CellSettings, PushError> {
-        if self.tolerance_mm.is_some_and(|mm| !(mm > 0.0 && mm.is_finite())) {
-            return Err(refused("the tolerance is a positive number of millimetres".into()));
+/// A pose as it comes to the engine.
+fn there(pose: PushedPose, now: f64) -> Input {
+    match pose {
+        PushedPose::Known(base_from_flange) => {
+            let (typed, joints) = (vec![], vec![]);
+            Input::Robot(RobotSample { time_s: now, base_from_flange, typed, joints })
         }
-        let notation = self.notation.clone().unwrap_or_else(|| settings.notation.clone());
-        Writing::of(&notation)
-            .map_err(|known| refused(format!("the notation {notation:?} is not known: {known}")))?;
-        let target = self.target.clone().unwrap_or_else(|| settings.target.clone());
-        target.check().map_err(|e| refused(e.to_string()))?;
-        let given = self.camera_json.as_deref().map(|text| intrinsics(text, size)).transpose()?;
-        Ok(CellSettings {
-            setup: self.setup.unwrap_or(settings.setup),
-            target,
-            intrinsics: given.flatten().or(settings.intrinsics),
-            tolerance_mm: self.tolerance_mm.unwrap_or(settings.tolerance_mm),
-            notation,
-            ..settings.clone()
-        })
+        PushedPose::Typed(text) => Input::Command(Command::Pose { text }),
     }
 }
 
@@ -378,14 +344,6 @@ pub fn with_scan(image: CameraImage, scan: &Scan) -> CameraImage {
     CameraImage { scan: Some(("ply".into(), simulated::cloud(scan).into())), ..image }
 }
 
-/// Intrinsics; `None` where the size of their images is open.
-fn intrinsics(text: &str, size: Option<Size>) -> Result<Option<handeye::Intrinsics>, Error> {
-    match intrinsics_from_json(text, size) {
-        Err(Error::Undeclared { key, .. }) if ["width", "height"].contains(&&key[..]) => Ok(None),
-        found => found.map(Some),
-    }
-}
-
 /// The size of the images that a folder holds.
 fn size_of_images(folder: &SessionFolder) -> Option<Size> {
     let given = folder.settings().intrinsics.map(|camera| (camera.width, camera.height));
@@ -407,11 +365,10 @@ fn last_time(host: &Host) -> f64 {
     captures.chain(state.refused.iter().map(|refused| refused.time_s)).fold(0.0, f64::max)
 }
 
-/// Refuses a camera and a robot that cannot be those of the cell.
-fn can_be(engine: &Engine) -> Result<(), PushError> {
+/// Refuses a camera or a robot, those of the steps, that cannot be that of the cell.
+fn can_be(engine: &Engine, which: &[Step]) -> Result<(), PushError> {
     let steps = engine.view("", "").steps;
-    let is_wrong =
-        |step: &&StepView| matches!(step.name, Step::Camera | Step::Robot) && !step.proven;
+    let is_wrong = |step: &&StepView| which.contains(&step.name) && !step.proven;
     match steps.iter().find(is_wrong).and_then(|step| step.proof.clone()) {
         Some(why) => Err(refused(why)),
         None => Ok(()),
