@@ -267,7 +267,7 @@ def test_corners_are_touched(tmp_path):
             session.touch(touches[0][2], corner=touches[0][1])
         with pytest.raises(handeye.InputError, match="no other one is laid down"):
             session.place(shots[0][0])
-    for tip, said in [((1.0, 2.0), "three numbers"), ((0.0, 0.0, 0.0), "not zero"), ((0.0, 0.0, np.inf), "not more than 2 m")]:
+    for tip, said in [((1.0, 2.0), "three numbers"), (182.0, "three numbers"), ("123", "three numbers"), ((0.0, 0.0, 0.0), "not zero"), ((0.0, 0.0, np.inf), "not more than 2 m")]:
         with pytest.raises(handeye.InputError, match=said):
             handeye.Session(tmp_path / "cell", tip_mm=tip)
     with handeye.Session(tmp_path / "cell", tip_mm=TIP_MM) as session:
@@ -278,12 +278,17 @@ def test_corners_are_touched(tmp_path):
         assert all(touch["used"] and touch["residual_mm"] < 2.0 for touch in state.touches)
         assert state.next_corner not in [corner for _, corner, _ in touches[:5]]
         assert state.error_mm < before.error_mm
+        with pytest.raises(handeye.InputError, match="the robot's pose is that of the touch t05"):
+            session.push(shots[0][0], touches[4][2])
         in_mm = touches[5][2].matrix.copy()
         in_mm[:3, 3] *= 1000
         for pose, corner, said in [
             (touches[4][2], None, "still where it touched corner"),
             (touches[5][2], 54, "no corner 54"),
             (touches[5][2], -1, "no corner -1"),
+            (touches[5][2], True, "no corner True"),
+            (touches[5][2], "3", "no corner '3'"),
+            (shots[4][1], 3, "the robot's pose is that of capture 005"),
             (in_mm, 3, "are its lengths in another unit"),
             (None, 3, "4 x 4|finite"),
         ]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+from operator import index
 from os import PathLike, fspath
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
@@ -133,7 +134,8 @@ class SessionState:
 
     @property
     def next_corner(self) -> Optional[int]:
-        """The corner of the board to touch next; None while there are no captures."""
+        """The corner of the board to touch next; None while there are no captures, or where the board has no
+        corners that could be touched."""
         touch = self._known["touch"]
         return None if touch is None else int(touch["corner"])
 
@@ -251,9 +253,7 @@ class Session:
         :raises InputError: no captures yet, no ``tip_mm``, no placement where the robot carries the board; a corner that the
             board does not have; a pose that no robot has, or that was not read anew. The session is as it was.
         """
-        if corner is not None and not 0 <= corner < 2**32:
-            raise InputError(f"the board has no corner {corner}")
-        touch, state = self._session.touch(corner=corner, **_pose(pose))
+        touch, state = self._session.touch(corner=_corner(corner), **_pose(pose))
         return SessionState(state, touch=touch)
 
     def place(self, image: Any, *, pose: Any = None) -> SessionState:
@@ -261,8 +261,8 @@ class Session:
         board, which the robot cannot touch itself. The corners that are touched from now on are this board's.
 
         :param image: as for :meth:`push`; the board lies still, and the robot may be anywhere.
-        :param pose: ``base_from_flange`` of that moment, as for :meth:`push`. Without it, a board in the robot's hand is not told
-            from one that lies.
+        :param pose: ``base_from_flange`` of that moment, as for :meth:`push`. Without it, a board in the robot's hand may be
+            taken for one that lies.
         :returns: the state with ``placement``, its name; or, where the board is not found in the image, with ``refused``.
         :raises InputError: no captures yet; a camera on the robot; a board that lies as before, or that the robot carries; an image
             of another size. The session is as it was.
@@ -287,7 +287,8 @@ class Session:
         return SessionState(self._session.delete(id))
 
     def retake(self, id: str) -> SessionState:
-        """Takes a capture out, and has its view proposed as ``next_pose``. Raises InputError for a name that no capture has."""
+        """Takes a capture out, and has its view proposed as ``next_pose``, if the board is seen in it. Raises
+        InputError for a name that no capture has."""
         return SessionState(self._session.retake(id))
 
     def untouch(self, id: str) -> SessionState:
@@ -330,10 +331,28 @@ class Session:
 
 def _tip(tip_mm: Sequence[float]) -> Sequence[float]:
     """As the compiled half takes it."""
-    numbers = [float(x) for x in tip_mm]
-    if len(numbers) != 3:
-        raise InputError(f"the tip is three numbers of millimetres in the flange, not {len(numbers)}")
-    return numbers
+    import numpy as np
+
+    try:
+        numbers: Array = np.asarray(tip_mm, dtype=np.float64)
+    except (TypeError, ValueError):
+        numbers = np.empty(0)
+    if numbers.shape != (3,):
+        raise InputError(f"the tip is three numbers of millimetres in the flange, not {tip_mm!r}")
+    return [float(x) for x in numbers]
+
+
+def _corner(corner: Any) -> Optional[int]:
+    """As the compiled half takes it."""
+    if corner is None:
+        return None
+    try:
+        number = None if isinstance(corner, bool) else index(corner)
+    except TypeError:
+        number = None
+    if number is None or not 0 <= number < 2**32:
+        raise InputError(f"the board has no corner {corner!r}")
+    return number
 
 
 def _pose(pose: Any) -> Dict[str, Any]:

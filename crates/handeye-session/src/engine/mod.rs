@@ -55,8 +55,8 @@ pub struct Engine {
     storing: bool,
     changes: Vec<Change>,
     skipped: Vec<Pose<Base, Flange>>,
-    /// The view of a capture that is to be taken again.
-    again: Option<ProposedView>,
+    /// A capture that is to be taken again, and its view.
+    again: Option<(String, ProposedView)>,
     assessed: Option<Arc<Assessment>>,
     generation: u64,
     assessing: bool,
@@ -192,6 +192,7 @@ impl Engine {
         let has_changed = folder != self.folder;
         self.rereading = false;
         self.folder = folder;
+        self.again.take_if(|(id, _)| self.folder.captures.iter().any(|c| c.id == *id));
         if !has_changed {
             return vec![];
         }
@@ -206,10 +207,12 @@ impl Engine {
                 let is_placement = self.folder.placements.iter().any(|p| p.id == id);
                 let change = match is_placement {
                     true => self.placed(id),
-                    false => Change::Taken(id),
+                    false => {
+                        self.again = None;
+                        Change::Taken(id)
+                    }
                 };
                 self.changes.push(change);
-                self.again = None;
             }
             Err(why) => self.trouble("not-written", why),
         }
@@ -278,7 +281,10 @@ impl Engine {
         self.farthest = self.farthest.max(step);
         if step != self.step {
             // what was asked for in one step is not done in another
-            (self.wish, self.again) = (None, None);
+            self.wish = None;
+            if ![self.step, step].iter().all(|s| matches!(s, Step::Capture | Step::Touch)) {
+                self.again = None;
+            }
         }
         self.step = step;
     }

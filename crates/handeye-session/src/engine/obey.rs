@@ -78,7 +78,8 @@ impl Engine {
     /// The view to take next: that of a capture which is to be taken again, else the most informative one.
     pub(super) fn next(&self) -> Option<&ProposedView> {
         let assessed = self.assessed.as_ref().filter(|_| !self.assessing);
-        self.again.as_ref().or_else(|| assessed?.next.as_ref())
+        let again = self.again.as_ref().map(|(_, view)| view);
+        again.or_else(|| assessed?.next.as_ref())
     }
 
     fn go(&mut self, step: Step) -> Result<Vec<Effect>, Refusal> {
@@ -133,9 +134,12 @@ impl Engine {
         if self.step != Step::Capture {
             return Err(later("captures are retaken in the step `capture`".into()));
         }
+        if !self.folder.captures.iter().any(|capture| capture.id == id) {
+            return Err(wrong(format!("there is no capture {id}")));
+        }
         let again = self.assessed.as_ref().and_then(|assessed| assessed.view_of(&id));
-        let effects = self.delete(id)?;
-        self.again = again;
+        let effects = self.delete(id.clone())?;
+        self.again = again.map(|view| (id, view));
         Ok(effects)
     }
 

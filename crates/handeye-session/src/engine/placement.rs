@@ -15,6 +15,8 @@ use crate::assess::MeasuredCapture;
 
 /// A board nearer than this to where the carried one is expected is the carried one, mm.
 const CARRIED_MM: f64 = 5.0;
+/// Names of placements begin with it.
+const PLACEMENT: char = 'p';
 /// So many touches of a placement, then another one brings more.
 const ENOUGH_TOUCHES: usize = 4;
 
@@ -32,9 +34,13 @@ impl Engine {
     }
 
     /// The board whose corners are touched, to verify or not; `None` where none lies in the view for that, or the captures' own
-    /// board is touched.
+    /// board is touched. One before a placement that was deleted is none: the board was laid elsewhere since.
     pub(super) fn newest_placement(&self, verifies: bool) -> Option<&StoredPlacement> {
-        self.folder.placements.last().filter(|newest| self.is_for(newest, verifies))
+        let newest = self.folder.placements.last()?;
+        let is_later = |id: &&String| (id.len(), *id) > (newest.id.len(), &newest.id);
+        let mut deleted = self.folder.deleted.iter().filter(|id| id.starts_with(PLACEMENT));
+        let stands = !deleted.any(|id| is_later(&id));
+        Some(newest).filter(|newest| stands && self.is_for(newest, verifies))
     }
 
     /// Whether touches of a placement verify, or do not: those of one board are all of one kind.

@@ -4,7 +4,7 @@ use handeye::{Base, Flange, Pose, model::residual::Residual};
 use handeye_io::{RefusedCapture, StoredCapture};
 
 use super::{
-    Effect, Engine, Problem, Step,
+    Effect, Engine, Flow, Problem, Step,
     rest::{self, ImageSample, Motion, RobotSample},
 };
 
@@ -157,7 +157,7 @@ impl Engine {
                     (None, true) => self.view_of_another(&here),
                     (other, false) => other,
                 };
-                if let Some(why) = why {
+                if let Some(why) = why.or_else(|| self.pose_of_touch(&here)) {
                     return self.refuse(why, false);
                 }
                 let effect = Effect::Store {
@@ -210,6 +210,18 @@ impl Engine {
                 of.id
             )
         })
+    }
+
+    /// Where a pose that is handed over is that of a touch: why that is no capture.
+    fn pose_of_touch(&self, here: &Pose<Base, Flange>) -> Option<String> {
+        let is_handed = self.sources.robot == Flow::Single;
+        let mut touches = self.folder.touches.iter().filter(|_| is_handed);
+        let of = touches
+            .find(|t| Residual::between(&t.base_from_flange, here).is_within(THE_SAME_POSE))?;
+        Some(format!(
+            "the robot's pose is that of the touch {} of corner {}: it was not read anew",
+            of.id, of.corner
+        ))
     }
 
     /// Takes no capture; where the board was not found, nobody is sent there again.

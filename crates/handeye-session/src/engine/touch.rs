@@ -141,6 +141,15 @@ impl Engine {
             return Err(later("no touch was taken: the robot is on its way to the corner".into()));
         }
         let here = &robot.base_from_flange;
+        let mut captures = self.folder.captures.iter().chain(&self.folder.verification);
+        if let Some(of) =
+            captures.find(|c| Residual::between(&c.base_from_flange, here).is_within(THE_SAME_POSE))
+        {
+            return Err(later(format!(
+                "the robot's pose is that of capture {}: bring the tip to the corner, and read the pose anew",
+                of.id
+            )));
+        }
         let same = |t: &&StoredTouch| {
             Residual::between(&t.base_from_flange, here).is_within(THE_SAME_POSE)
         };

@@ -126,7 +126,7 @@ impl PushedSession {
     /// A pose or an image that cannot be, an image that is not of its pose, a scan with some captures only, a folder that
     /// cannot be written.
     pub fn push(&mut self, pose: PushedPose, image: CameraImage) -> Result<Pushed, PushError> {
-        let size = (image.grey.width() as u32, image.grey.height() as u32);
+        let size = size_of(&image);
         self.know_size(size)?;
         self.pairs(image.scan.is_some())?;
         let (now, frame) = (self.now + PUSH_S, self.frame + 1);
@@ -199,12 +199,7 @@ impl PushedSession {
     }
 
     fn obey(&mut self, command: Command) -> Result<(), PushError> {
-        self.obey_at(Step::Capture, command)
-    }
-
-    /// Does it at a step.
-    fn obey_at(&mut self, step: Step, command: Command) -> Result<(), PushError> {
-        let mut engine = self.at(step)?;
+        let mut engine = self.at(Step::Capture)?;
         let effects = engine.step(Input::Command(command))?;
         self.engine = engine;
         self.perform(effects, None).map(|_| ())
@@ -223,6 +218,11 @@ impl PushedSession {
             let intrinsics = Some(intrinsics_from_json(text, Some(size))?);
             self.obey(Command::Camera { intrinsics })?;
         }
+        self.has_size(size)
+    }
+
+    /// Whether an image has the size of those before it; for a camera that is given the engine says that.
+    fn has_size(&self, size: Size) -> Result<(), PushError> {
         let is_given = self.engine.settings().intrinsics.is_some();
         match self.size.filter(|before| !is_given && *before != size) {
             None => Ok(()),
@@ -356,6 +356,10 @@ fn size_of_images(folder: &SessionFolder) -> Option<Size> {
         true => None,
         false => given.or_else(first),
     }
+}
+
+fn size_of(image: &CameraImage) -> Size {
+    (image.grey.width() as u32, image.grey.height() as u32)
 }
 
 /// The time of the last thing that happened, s.

@@ -1,6 +1,8 @@
 //! Corners that a program's tool touches, and boards that are laid into the view for that.
 
-use super::{PUSH_S, PushError, Pushed, PushedPose, PushedSession, can_be, refused, there};
+use super::{
+    PUSH_S, PushError, Pushed, PushedPose, PushedSession, can_be, refused, size_of, there,
+};
 use crate::{
     engine::{Command, Input, Step},
     sources::outlet::{CameraImage, Wanted},
@@ -30,11 +32,12 @@ impl PushedSession {
     /// # Errors
     /// A name that no touch has; a folder that cannot be written.
     pub fn untouch(&mut self, id: &str) -> Result<(), PushError> {
-        self.obey_at(Step::Touch, Command::Untouch { id: id.into() })
+        let effects = self.engine.step(Input::Command(Command::Untouch { id: id.into() }))?;
+        self.perform(effects, None).map(|_| ())
     }
 
     /// Takes the image of a board that lies still in the view of a camera beside the robot, to be touched. Where the flange is at
-    /// that moment need not be said; then a board that the robot carries is not told from one that lies.
+    /// that moment need not be said; then a board that the robot carries may be taken for one that lies.
     ///
     /// # Errors
     /// No captures yet, a camera on the robot, a board that lies as before or is the one that the robot carries, an image of
@@ -44,7 +47,7 @@ impl PushedSession {
         image: CameraImage,
         pose: Option<PushedPose>,
     ) -> Result<Pushed, PushError> {
-        self.know_size((image.grey.width() as u32, image.grey.height() as u32))?;
+        self.has_size(size_of(&image))?;
         let (now, frame) = (self.now + PUSH_S, self.frame + 1);
         let mut engine = self.at(Step::Touch)?;
         engine.step(Input::Clock(now))?;

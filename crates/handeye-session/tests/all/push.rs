@@ -338,6 +338,7 @@ fn corners_are_touched_and_the_result_is_made_with_them() {
     let mut session = program.open();
     refuses(session.touch(program.pose(), None), "first captures are taken");
     program.take(&mut session, 6);
+    let seen = program.image();
     let error = |session: &PushedSession| session.state().progress.unwrap().p95_mm.unwrap();
     let before = error(&session);
     refuses(session.place(program.image(), None), "no other one is laid down");
@@ -351,23 +352,35 @@ fn corners_are_touched_and_the_result_is_made_with_them() {
     assert!(error(&session) < before, "{} {before}", error(&session));
     assert!(state.say.starts_with("Bring the tip to corner"), "{}", state.say);
 
-    // the same pose once more, none of the board's corners, a pose in another unit
+    // a pose that was not read anew, none of the board's corners, no pose
+    let stale = PushedPose::Known(session.state().captures[5].base_from_flange);
+    refuses(session.touch(stale, None), "the robot's pose is that of capture 006");
     refuses(session.touch(program.pose(), None), "still where it touched corner");
     program.cell.drive_tip(touched.corner, program.now);
     program.now += 20.0;
     refuses(session.touch(program.pose(), Some(54_321)), "no corner 54321");
-    refuses(session.touch(PushedPose::Typed("1 2 3".into()), None), "");
+    refuses(session.touch(PushedPose::Typed("1 2 3".into()), None), "3 numbers");
     assert_eq!(session.touch(program.pose(), Some(touched.corner)).unwrap(), "t05");
 
-    session.untouch("t02").unwrap();
-    refuses(session.untouch("t02"), "no touch t02");
-    session.restore("t02").unwrap();
-    session.undo().unwrap(); // the restoring
-    session.undo().unwrap(); // the deletion
+    refuses(session.push(program.pose(), seen), "the robot's pose is that of the touch t05");
+
     let names = |session: &PushedSession| -> Vec<String> {
         session.state().touch.unwrap().touches.into_iter().map(|t| t.id).collect()
     };
-    assert_eq!(names(&session), ["t01", "t02", "t03", "t04", "t05"]);
+    let (all, without) = (["t01", "t02", "t03", "t04", "t05"], ["t01", "t03", "t04", "t05"]);
+    session.untouch("t02").unwrap();
+    assert_eq!(names(&session), without);
+    refuses(session.untouch("t02"), "no touch t02");
+    session.restore("t02").unwrap();
+    assert_eq!(names(&session), all);
+    session.undo().unwrap();
+    assert_eq!(names(&session), without);
+    session.undo().unwrap();
+    assert_eq!(names(&session), all);
+    session.undo().unwrap(); // the last touch
+    assert_eq!(names(&session), all[..4]);
+    session.restore("t05").unwrap();
+    assert_eq!(names(&session), all);
     // captures may follow, and another who opens the folder finds all of it
     program.take(&mut session, 1);
     let found = assert_is_of_folder(&program, &mut session);
@@ -424,6 +437,11 @@ fn boards_are_laid_into_the_view_and_touched() {
     assert_eq!(found.touches.len(), 6);
     session.delete("p01").unwrap();
     assert_eq!(session.state().touch.unwrap().touches.len(), 3);
+    session.restore("p01").unwrap();
+    refuses(session.retake("p01"), "no capture p01");
+    // where the board of the one before lay, none lies now
+    session.delete("p02").unwrap();
+    refuses(session.touch(program.pose(), Some(1)), "cannot touch the board that it carries");
 }
 
 #[test]
@@ -438,6 +456,16 @@ fn a_capture_is_taken_again_from_its_view() {
     assert_eq!(session.state().captures.len(), 5);
     let next = session.state().next.unwrap().base_from_flange;
     assert!(next.distance_to(&wanted) < 1e-9, "{next:?} {wanted:?}");
+    // what is done with touches leaves it; a capture that stands again need not be taken again
+    let is_proposed = |session: &PushedSession| {
+        session.state().next.is_some_and(|next| next.base_from_flange.distance_to(&wanted) < 1e-9)
+    };
+    program.touch(&mut session).unwrap();
+    assert!(is_proposed(&session));
+    session.restore("002").unwrap();
+    assert!(!is_proposed(&session));
+    session.retake("002").unwrap();
     program.drive(&session, 0);
     assert_eq!(program.push(&mut session).unwrap(), Pushed::Taken("007".into()));
+    assert!(!is_proposed(&session));
 }
