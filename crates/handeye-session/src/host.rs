@@ -55,6 +55,7 @@ impl Host {
             deleted: self.deleted(),
             refused: self.folder.refused().into_iter().cloned().collect(),
             placements: self.folder.placements().into_iter().cloned().collect(),
+            laid_last: self.folder.laid_last().map(Into::into),
             touches: self.folder.touches().into_iter().cloned().collect(),
             arm: self.folder.urdf().cloned(),
         }

@@ -262,6 +262,7 @@ fn boards_that_are_laid_down_and_touched_are_those_of_the_dataset() {
     folder.delete("p02").unwrap();
     assert_eq!(seen(&folder), (vec!["p01".into()], vec![on("p01", 3)]));
     assert_eq!(folder.deleted_beside(), ["p02"]);
+    assert_eq!(folder.laid_last(), Some("p02"));
     assert!(folder.restore("t03").is_err());
     drop(folder);
     let mut folder = SessionFolder::open(&root, None).unwrap();

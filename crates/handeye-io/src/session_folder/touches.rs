@@ -42,6 +42,11 @@ impl SessionFolder {
         self.journal.placements()
     }
 
+    /// The name of the placement that was made last, also where it was deleted since.
+    pub fn laid_last(&self) -> Option<&str> {
+        self.journal.placed().last().map(|placement| &placement.id[..])
+    }
+
     /// Names of placements and touches that were deleted.
     pub fn deleted_beside(&self) -> Vec<&str> {
         let placements = self.journal.deleted_placements().into_iter().map(|p| &p.id[..]);

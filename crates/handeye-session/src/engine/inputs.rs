@@ -125,6 +125,8 @@ pub struct FolderState {
     pub refused: Vec<RefusedCapture>,
     /// Boards that lie in the view to be touched (eye-to-hand).
     pub placements: Vec<StoredPlacement>,
+    /// The name of the one that was laid there last, also where that was deleted since.
+    pub laid_last: Option<String>,
     /// Corners that were touched.
     pub touches: Vec<StoredTouch>,
     /// The robot's model.
@@ -141,6 +143,7 @@ impl FolderState {
             deleted: vec![],
             refused: vec![],
             placements: vec![],
+            laid_last: None,
             touches: vec![],
             arm: None,
         }

@@ -15,8 +15,6 @@ use crate::assess::MeasuredCapture;
 
 /// A board nearer than this to where the carried one is expected is the carried one, mm.
 const CARRIED_MM: f64 = 5.0;
-/// Names of placements begin with it.
-const PLACEMENT: char = 'p';
 /// So many touches of a placement, then another one brings more.
 const ENOUGH_TOUCHES: usize = 4;
 
@@ -37,10 +35,8 @@ impl Engine {
     /// board is touched. One before a placement that was deleted is none: the board was laid elsewhere since.
     pub(super) fn newest_placement(&self, verifies: bool) -> Option<&StoredPlacement> {
         let newest = self.folder.placements.last()?;
-        let is_later = |id: &&String| (id.len(), *id) > (newest.id.len(), &newest.id);
-        let mut deleted = self.folder.deleted.iter().filter(|id| id.starts_with(PLACEMENT));
-        let stands = !deleted.any(|id| is_later(&id));
-        Some(newest).filter(|newest| stands && self.is_for(newest, verifies))
+        let lies = self.folder.laid_last.as_ref() == Some(&newest.id);
+        Some(newest).filter(|newest| lies && self.is_for(newest, verifies))
     }
 
     /// Whether touches of a placement verify, or do not: those of one board are all of one kind.

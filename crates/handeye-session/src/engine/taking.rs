@@ -1,7 +1,7 @@
 //! Poses and images as they come, and the capture that is waited for.
 
 use handeye::{Base, Flange, Pose, model::residual::Residual};
-use handeye_io::{RefusedCapture, StoredCapture};
+use handeye_io::RefusedCapture;
 
 use super::{
     Effect, Engine, Flow, Problem, Step,
@@ -17,7 +17,7 @@ pub(super) const LOOKING_S: f64 = 2.5;
 /// A robot stands at another pose, rad and m.
 pub(super) const ELSEWHERE: Residual = Residual { angle: 0.03, distance: 0.01 };
 /// A robot that has moved is not within this of where it was, rad and m.
-pub(super) const THE_SAME_POSE: Residual = Residual { angle: 2e-5, distance: 2e-5 };
+const THE_SAME_POSE: Residual = Residual { angle: 2e-5, distance: 2e-5 };
 /// An image of the same pose is not this far from it, px.
 pub(super) const ANOTHER_IMAGE_PX: f64 = 3.0;
 /// Approaches from which the delay of the images is known.
@@ -198,10 +198,7 @@ impl Engine {
     /// Where the robot says that it is where a capture was taken, and the image shows something else: why that is no capture.
     fn pose_of_another(&self, here: &Pose<Base, Flange>, image: &ImageSample) -> Option<String> {
         let assessed = self.assessed.as_ref()?;
-        let same = |c: &&StoredCapture| {
-            Residual::between(&c.base_from_flange, here).is_within(THE_SAME_POSE)
-        };
-        let of = self.folder.captures.iter().find(same)?;
+        let of = self.folder.captures.iter().find(|c| is_same(&c.base_from_flange, here))?;
         let before = assessed.measured.iter().find(|m| m.id == of.id)?;
         let moved_px = rest::moved(&before.corners, image.corners.as_ref().ok()?)?;
         (moved_px > ANOTHER_IMAGE_PX).then(|| {
@@ -215,9 +212,7 @@ impl Engine {
     /// Where a pose that is handed over is that of a touch: why that is no capture.
     fn pose_of_touch(&self, here: &Pose<Base, Flange>) -> Option<String> {
         let is_handed = self.sources.robot == Flow::Single;
-        let mut touches = self.folder.touches.iter().filter(|_| is_handed);
-        let of = touches
-            .find(|t| Residual::between(&t.base_from_flange, here).is_within(THE_SAME_POSE))?;
+        let of = self.touch_at(here).filter(|_| is_handed)?;
         Some(format!(
             "the robot's pose is that of the touch {} of corner {}: it was not read anew",
             of.id, of.corner
@@ -244,4 +239,9 @@ impl Engine {
         let base_from_flange = here.filter(|_| is_unseen);
         vec![Effect::Refuse(RefusedCapture { why, base_from_flange, time_s: self.now })]
     }
+}
+
+/// Whether the robot has not moved from one pose to the other.
+pub(super) fn is_same(one: &Pose<Base, Flange>, other: &Pose<Base, Flange>) -> bool {
+    Residual::between(one, other).is_within(THE_SAME_POSE)
 }

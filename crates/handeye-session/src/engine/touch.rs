@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use handeye::{
-    calibrate::result::TouchResult, model::residual::Residual, nalgebra::Vector3,
+    Base, Flange, Pose, calibrate::result::TouchResult, nalgebra::Vector3,
     tools::plan::spread_corners,
 };
 use handeye_io::StoredTouch;
@@ -15,7 +15,7 @@ use super::{
     rest::{Motion, RobotSample},
     say::{Proof, capitalised, contradiction, proof},
     shown::{TouchShown, TouchView},
-    taking::THE_SAME_POSE,
+    taking::is_same,
 };
 
 /// No tip is farther from the flange, mm.
@@ -142,24 +142,24 @@ impl Engine {
         }
         let here = &robot.base_from_flange;
         let mut captures = self.folder.captures.iter().chain(&self.folder.verification);
-        if let Some(of) =
-            captures.find(|c| Residual::between(&c.base_from_flange, here).is_within(THE_SAME_POSE))
-        {
+        if let Some(of) = captures.find(|c| is_same(&c.base_from_flange, here)) {
             return Err(later(format!(
                 "the robot's pose is that of capture {}: bring the tip to the corner, and read the pose anew",
                 of.id
             )));
         }
-        let same = |t: &&StoredTouch| {
-            Residual::between(&t.base_from_flange, here).is_within(THE_SAME_POSE)
-        };
-        if let Some(before) = self.folder.touches.iter().find(same) {
+        if let Some(before) = self.touch_at(here) {
             return Err(later(format!(
                 "the tip is still where it touched corner {}: bring it to the next one",
                 before.corner
             )));
         }
         Ok(robot)
+    }
+
+    /// The touch that was made at this pose.
+    pub(super) fn touch_at(&self, here: &Pose<Base, Flange>) -> Option<&StoredTouch> {
+        self.folder.touches.iter().find(|touch| is_same(&touch.base_from_flange, here))
     }
 
     /// Whether the tip of a virtual cell's tool was led to a corner, and stands there.

@@ -256,6 +256,15 @@ impl<'a> Heard<'a> {
         }
     }
 
+    /// A robot that carries the board touches another one, which views do not leave there.
+    fn lay_anew(&mut self, setup: Setup) {
+        if setup == BASE {
+            self.command(Command::Drive { to: Destination::Placement });
+            self.player.pass(3.0);
+            self.command(Command::Place);
+        }
+    }
+
     fn listen(&mut self) {
         let state = self.player.state();
         self.hear(shown(&state));
@@ -350,11 +359,7 @@ fn sessions_with_touches_are_heard_in_german() {
         let wrong = heard.player.state().touch.unwrap().touches.pop().unwrap().id;
         heard.command(Command::Untouch { id: wrong });
         heard.command(Command::Go { step: Step::Verify });
-        if setup == BASE {
-            heard.command(Command::Drive { to: Destination::Placement });
-            heard.player.pass(3.0);
-            heard.command(Command::Place);
-        }
+        heard.lay_anew(setup);
         for _ in 0..2 {
             heard.command(Command::Drive { to: Destination::Touch });
             assert!(heard.command(Command::Touch { corner: None }));
@@ -365,6 +370,7 @@ fn sessions_with_touches_are_heard_in_german() {
         let tip = heard.player.cell().settings().tip_mm.unwrap();
         heard.command(Command::Tip { in_flange_mm: [tip[0] + 3.0, tip[1], tip[2] - 4.0] });
         heard.command(Command::Tip { in_flange_mm: tip });
+        heard.lay_anew(setup);
         heard.command(Command::Drive { to: Destination::Touch });
         heard.command(Command::Touch { corner: Some(11) });
         assert!(heard.player.state().say.contains("at corner 11"));
