@@ -242,6 +242,7 @@ impl Trial {
             viewing,
             reach: Reach::Arm(reach),
             candidates: 2000,
+            threads: std::thread::available_parallelism().map_or(1, usize::from),
         };
         Some(Trial { cell, exact, first, works, tolerance: tolerance(arm) })
     }

@@ -148,14 +148,10 @@ pub fn measure_again(
     let mut warnings = dataset.warnings.clone();
     let colour_step = depth::settle_step(&shots, &mut seen, &mut warnings);
     tell_diameter(dataset, &seen, &mut warnings);
-    let (camera, camera_rms_px) = camera(dataset, &shots, &seen, &mut warnings)?;
+    let (mut camera, camera_rms_px) = camera(dataset, &shots, &seen, &mut warnings)?;
+    let excess = settle_lens(dataset, &seen, &mut camera, &mut warnings);
     shots.iter().zip(&seen).for_each(|(shot, s)| depth::warn_missing(shot, s, &mut warnings));
-    let excess = typical_excess(dataset, &seen, camera.as_ref());
-    let poses: Vec<Vec<TargetPose>> = shots
-        .iter()
-        .zip(&mut seen)
-        .map(|(shot, s)| target_poses(dataset, shot, s, camera.as_ref(), excess))
-        .collect();
+    let poses = poses_of_targets(dataset, &shots, &mut seen, camera.as_ref(), excess);
     let captures = dataset.captures.iter().zip(&seen);
     let not_found = captures.filter_map(|(c, s)| Some((c.id.clone(), s.not_found.clone()?)));
     let not_found = not_found.collect();
@@ -273,7 +269,7 @@ fn camera(
         check_size(&given, shots, seen)?;
         warnings.extend(cross_checked(&given, dataset, seen));
         warnings.extend(shifted(&given, dataset, shots, seen));
-        return Ok((Some(unbent(given, dataset, seen, warnings)), None));
+        return Ok((Some(given), None));
     }
     let Some(target) = &dataset.target else { return Ok((None, None)) };
     let views: Vec<Vec<ImageCorner>> =
@@ -348,28 +344,34 @@ fn shifted(
     pixel_origin::half_pixel(&views, target, given, origin)
 }
 
-/// The camera as given, or with the radial distortion that was not declared and that the corners
-/// prove. The corners of a board that is bent prove nothing of the lens.
-fn unbent(
-    given: Intrinsics,
+/// What lens model and print typically leave in a corner, px, and with it a camera that was given without distortion: it gets
+/// the radial distortion that the corners prove. The corners of a board that is bent prove nothing of the lens.
+fn settle_lens(
     dataset: &Dataset,
     seen: &[Seen],
+    camera: &mut Option<Intrinsics>,
     warnings: &mut Vec<Warning>,
-) -> Intrinsics {
-    let Some(target) = &dataset.target else { return given };
-    if depth::is_bent(seen, target) {
-        return given;
+) -> Option<f64> {
+    let (target, straight) = (dataset.target.as_ref()?, (*camera)?);
+    let views: Vec<&[ImageCorner]> = seen.iter().map(|s| &s.corners[..]).collect();
+    let posed = |camera| detect::best_poses(&views, target, camera, parallel::all_cores());
+    let mut poses = posed(&straight);
+    let is_given = dataset.intrinsics.is_some();
+    if is_given
+        && !depth::is_bent(seen, target)
+        && let Some(bend) = lens::bend(&views, &poses, target, &straight)
+    {
+        let finding = CameraFinding::Bends {
+            k1: bend.k1,
+            sigma: bend.sigma,
+            rms_given_px: bend.rms_given_px,
+            rms_px: bend.rms_px,
+        };
+        warnings.push(finding.into());
+        poses = posed(&bend.intrinsics);
+        *camera = Some(bend.intrinsics);
     }
-    let views: Vec<Vec<ImageCorner>> = seen.iter().map(|s| s.corners.clone()).collect();
-    let Some(bend) = lens::bend(&views, target, &given) else { return given };
-    let finding = CameraFinding::Bends {
-        k1: bend.k1,
-        sigma: bend.sigma,
-        rms_given_px: bend.rms_given_px,
-        rms_px: bend.rms_px,
-    };
-    warnings.push(finding.into());
-    bend.intrinsics
+    detect::typical_excess(poses.iter().flatten())
 }
 
 fn uncalibrated(dataset: &Dataset, error: &handeye::Error) -> Error {
@@ -405,32 +407,41 @@ fn all_of_size(
     Ok(())
 }
 
-fn typical_excess(dataset: &Dataset, seen: &[Seen], camera: Option<&Intrinsics>) -> Option<f64> {
-    let (target, camera) = (dataset.target.as_ref()?, camera?);
-    detect::typical_excess(seen.iter().map(|s| s.corners.as_slice()), target, camera)
+/// Poses of the target in every capture and placement; where the corners give none, the capture says why.
+fn poses_of_targets(
+    dataset: &Dataset,
+    shots: &[Shot],
+    seen: &mut [Seen],
+    camera: Option<&Intrinsics>,
+    excess: Option<f64>,
+) -> Vec<Vec<TargetPose>> {
+    let of = |k: usize| target_poses(dataset, &shots[k], &seen[k], camera, excess);
+    let all = parallel::in_order(shots.len(), parallel::all_cores(), of);
+    let or_why = |(found, s): (Result<Vec<TargetPose>, handeye::Error>, &mut Seen)| {
+        found.unwrap_or_else(|error| {
+            s.not_found = Some(error.to_string());
+            vec![]
+        })
+    };
+    all.into_iter().zip(seen).map(or_why).collect()
 }
 
 fn target_poses(
     dataset: &Dataset,
     shot: &Shot,
-    seen: &mut Seen,
+    seen: &Seen,
     camera: Option<&Intrinsics>,
     excess: Option<f64>,
-) -> Vec<TargetPose> {
+) -> Result<Vec<TargetPose>, handeye::Error> {
     if let Some(camera_from_target) = shot.pose {
-        return vec![TargetPose { camera_from_target, covariance: None }];
+        return Ok(vec![TargetPose { camera_from_target, covariance: None }]);
     }
     let (Some(target), Some(camera), false) = (&dataset.target, camera, seen.corners.is_empty())
     else {
-        return vec![];
+        return Ok(vec![]);
     };
-    match detect::target_poses_with(&seen.corners, &seen.surface, target, camera, excess) {
-        Ok(poses) => detect::with_symmetries(&poses, target),
-        Err(error) => {
-            seen.not_found = Some(error.to_string());
-            vec![]
-        }
-    }
+    let poses = detect::target_poses_with(&seen.corners, &seen.surface, target, camera, excess)?;
+    Ok(detect::with_symmetries(&poses, target))
 }
 
 fn session(

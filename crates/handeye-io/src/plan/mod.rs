@@ -22,6 +22,7 @@ use crate::{
     calibrate::calibrate_dataset,
     dataset::Guess,
     error::{malformed, unusable},
+    parallel,
     robot::{self, Urdf},
 };
 pub use programs::{Maker, program};
@@ -219,7 +220,8 @@ fn planner(
     let (reach, joint_names, notes) = reach(dataset, session, options)?;
     let candidates = USUAL_CANDIDATES;
     let guess = Some(guess);
-    let planner = Planner { setting, guess, taken, failed, viewing, reach, candidates };
+    let threads = parallel::all_cores();
+    let planner = Planner { setting, guess, taken, failed, viewing, reach, candidates, threads };
     Ok((planner, joint_names, notes))
 }
 

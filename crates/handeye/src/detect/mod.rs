@@ -38,7 +38,7 @@ mod view;
 pub use board::{detect, detect_with};
 pub use outcome::NotFound;
 pub use planar_pose::{
-    PosedTarget, target_poses, target_poses_with, typical_excess, with_symmetries,
+    PosedTarget, best_poses, target_poses, target_poses_with, typical_excess, with_symmetries,
 };
 pub(crate) use planar_pose::{relabelled, symmetry_turn, target_pose_near, typical_excess_near};
 pub use recognise::{Recognised, recognise};

@@ -28,7 +28,7 @@ pub(crate) use symmetry::{relabelled, symmetry_turn};
 
 use crate::{
     Camera, Error, ImageCorner, Intrinsics, Pose, SurfaceCorner, Target, TargetModel, TargetPose,
-    math::linalg::median,
+    math::{linalg::median, parallel},
 };
 
 /// A pose of the target and how well it explains the image.
@@ -114,14 +114,34 @@ pub(crate) fn target_pose_near(
 /// Fewest images that tell what is typical.
 const FEWEST_TYPICAL: usize = 4;
 
-/// What lens model and print leave in the corners of all images of one camera, px: the median.
-/// `None` where the images are too few to tell.
-pub fn typical_excess<'a>(
-    pictures: impl IntoIterator<Item = &'a [ImageCorner]>,
+/// The pose of the target that explains the corners of each image best; `None` where they have none.
+///
+/// `threads` share the work; the poses do not depend on how many they are.
+pub fn best_poses(
+    pictures: &[&[ImageCorner]],
     target: &TargetModel,
     intrinsics: &Intrinsics,
-) -> Option<f64> {
-    typical_excess_near(pictures.into_iter().map(|corners| (corners, &[][..])), target, intrinsics)
+    threads: usize,
+) -> Vec<Option<PosedTarget>> {
+    parallel::in_order(pictures.len(), threads, |k| best_pose(pictures[k], target, intrinsics))
+}
+
+fn best_pose(
+    corners: &[ImageCorner],
+    target: &TargetModel,
+    intrinsics: &Intrinsics,
+) -> Option<PosedTarget> {
+    target_poses(corners, &[], target, intrinsics).ok()?.into_iter().next()
+}
+
+/// What lens model and print leave in the corners of all images of one camera, px: the median over the poses that
+/// [`best_poses`] finds. `None` where the images are too few to tell.
+pub fn typical_excess<'a>(posed: impl IntoIterator<Item = &'a PosedTarget>) -> Option<f64> {
+    typical(posed.into_iter().map(|p| p.excess_px).collect())
+}
+
+fn typical(all: Vec<f64>) -> Option<f64> {
+    (all.len() >= FEWEST_TYPICAL).then(|| median(all))
 }
 
 /// As [`typical_excess`], of images with poses of the target that are nearly right.
@@ -133,10 +153,7 @@ pub(crate) fn typical_excess_near<'a>(
     let excess = |(corners, poses): (&[ImageCorner], &[TargetPose])| {
         let mut fit = Fit::new(corners, &[], target, intrinsics).ok()?;
         let near = fit.nearest(poses).and_then(|start| fit.polish(start));
-        let posed = near
-            .or_else(|| target_poses(corners, &[], target, intrinsics).ok()?.into_iter().next());
-        posed.map(|p| p.excess_px)
+        near.or_else(|| best_pose(corners, target, intrinsics)).map(|p| p.excess_px)
     };
-    let all: Vec<f64> = pictures.into_iter().filter_map(excess).collect();
-    (all.len() >= FEWEST_TYPICAL).then(|| median(all))
+    typical(pictures.into_iter().filter_map(excess).collect())
 }

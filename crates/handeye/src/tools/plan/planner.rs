@@ -1,30 +1,26 @@
 //! The next best view, and a route of views: of thousands of candidates those that are reachable and free of collisions,
 //! that show the whole target although its pose is not known exactly, and that are most informative.
 
+mod candidates;
+
 use std::cmp::Reverse;
 
-use nalgebra::{Matrix6, SMatrix, Vector3};
+use candidates::Offer;
 
 use super::{
     FIRST, Setting, alike, error, finite,
     guess::{GuessSigma, Taken, refined},
     log_determinant,
-    looks::{self, Viewing},
+    looks::Viewing,
     moment,
-    reach::{ArmReach, Reach, Station, Unreached},
+    reach::{Reach, Station, Unreached},
     refusals::Refusals,
     travel,
 };
 use crate::{
-    Base, Camera, Error, Flange, Point, Pose, Setup, Target,
+    Base, Camera, Error, Flange, Pose, Target,
     estimate::predict::PredictedTre,
-    math::{
-        lie,
-        linalg::{self, FREE_SIGMA},
-        random::halton,
-    },
-    model::residual::Residual,
-    register::rigid_fit::point_jacobian,
+    math::{linalg::FREE_SIGMA, parallel},
     solve::least_squares::Matrix12,
 };
 
@@ -45,6 +41,8 @@ pub struct Planner {
     pub reach: Reach,
     /// Candidates that are compared.
     pub candidates: usize,
+    /// Threads that share the work; the views do not depend on how many they are.
+    pub threads: usize,
 }
 
 /// A view to take.
@@ -106,14 +104,6 @@ impl Route {
     }
 }
 
-/// The target is seen as a whole when this many standard deviations of its predicted place leave it in the image.
-const SURE: f64 = 2.0;
-/// Around a pose that failed nothing is tried again, rad and m.
-const NOT_AGAIN: Residual = Residual { angle: 0.15, distance: 0.06 };
-/// So many looks are drawn for each that is to be compared, where few are seen.
-const DRAWS: usize = 12;
-/// The same of an arm that cannot turn its flange as it likes: each takes a search for joint values.
-const DRAWS_OF_FEW_JOINTS: usize = 8;
 /// Poses looked at in vain before no more are tried: the search for joint values takes time.
 const MOST_IN_VAIN: usize = 600;
 /// Captures are enough when the calibration states less than this share of the tolerance. Whoever stops at the first one that
@@ -125,12 +115,6 @@ pub const ENOUGH: f64 = 0.8;
 pub const FEWEST_ENOUGH: usize = 5;
 /// Usual number of candidates.
 pub const USUAL_CANDIDATES: usize = 2000;
-
-/// A candidate, and its information.
-struct Offer {
-    base_from_flange: Pose<Base, Flange>,
-    information: Matrix12,
-}
 
 impl Planner {
     /// # Errors
@@ -246,7 +230,10 @@ impl Planner {
                 true => log_determinant(&(sum + h)),
                 false => -error(&(sum + h), &moment),
             };
-            offers.sort_by_cached_key(|offer| Reverse(in_order(gain(&offer.information))));
+            let gains = parallel::in_order(offers.len(), self.threads, |k| {
+                Reverse(by_total_order(gain(&offers[k].information)))
+            });
+            offers = sorted_by(gains, offers);
             let Some((station, information)) = self.best(&mut offers, &stations, &mut refusals)
             else {
                 break;
@@ -302,123 +289,6 @@ impl Planner {
         found
     }
 
-    /// All candidates that show the target, with their information.
-    fn offers(&self, information: &Matrix12, refusals: &mut Refusals) -> Vec<Offer> {
-        let covariance = linalg::invert_spd(information).unwrap_or_else(Matrix12::zeros);
-        // without a guess the place of both is known as well as it has to be
-        let covariance = self.guess.map(|_| covariance);
-        let outline = looks::outline(&self.setting.target);
-        let mut all = vec![];
-        let draws = if self.reach.has_few_joints() { DRAWS_OF_FEW_JOINTS } else { DRAWS };
-        for k in 0..self.candidates * draws {
-            if all.len() == self.candidates {
-                break;
-            }
-            let Some(base_from_flange) = self.drawn(k, &outline) else {
-                refusals.unseen += 1;
-                continue;
-            };
-            if self.is_known(&base_from_flange) {
-                refusals.alike += 1;
-                continue;
-            }
-            let seen = self.is_seen(&base_from_flange, &outline, covariance.as_ref());
-            if seen && self.reach.is_surely_too_far(&base_from_flange) {
-                refusals.unreached += 1;
-                continue;
-            }
-            let told = seen.then(|| self.setting.information(&base_from_flange)).flatten();
-            match told {
-                Some(information) => all.push(Offer { base_from_flange, information }),
-                None => refusals.unseen += 1,
-            }
-        }
-        all
-    }
-
-    /// Candidate number `k`: a look at the target.
-    fn drawn(&self, k: usize, outline: &[Vector3<f64>; 4]) -> Option<Pose<Base, Flange>> {
-        let Setting { hand_eye, setup, camera, .. } = &self.setting;
-        match &self.reach {
-            Reach::Arm(arm) if self.reach.has_few_joints() => {
-                self.drawn_by_few_joints(arm, k, outline)
-            }
-            _ => {
-                let look = looks::look(camera, &self.viewing, k);
-                let camera_from_target = look.pose(camera, &looks::middle(outline))?;
-                Some(hand_eye.base_from_flange(*setup, &camera_from_target))
-            }
-        }
-    }
-
-    /// The same of an arm that cannot turn its flange as it likes: the target's centre is where the look has it, turned as the
-    /// joints allow.
-    fn drawn_by_few_joints(
-        &self,
-        arm: &ArmReach,
-        k: usize,
-        outline: &[Vector3<f64>; 4],
-    ) -> Option<Pose<Base, Flange>> {
-        let Setting { hand_eye, setup, camera, .. } = &self.setting;
-        let look = looks::look(camera, &self.viewing, k);
-        let shares = halton(k, looks::COORDINATES + arm.limits.len());
-        let start = arm.within_limits(&shares[looks::COORDINATES..]);
-        let centre = Point::from_vector(looks::middle(outline));
-        // few joints rarely have every distance to offer: that of where they start is kept
-        let view = hand_eye.camera_from_target(*setup, &arm.arm.base_from_flange(&start));
-        let depth = (view * centre).vector().z;
-        let Viewing { nearest_m, farthest_m, .. } = self.viewing;
-        let is_usual = (nearest_m..=farthest_m).contains(&depth);
-        let depth = if is_usual { depth } else { look.depth_m };
-        let pixel = look.whole_at(depth, camera, outline);
-        let seen = Point::from_vector(camera.ray(&pixel)? * depth);
-        let of_target = (hand_eye.anchor_from_target * centre).vector();
-        let of_camera = (hand_eye.mount_from_camera * seen).vector();
-        match setup {
-            Setup::EyeInHand => arm.leading(&of_camera, &of_target, &start),
-            Setup::EyeToHand => arm.leading(&of_target, &of_camera, &start),
-        }
-    }
-
-    fn is_known(&self, pose: &Pose<Base, Flange>) -> bool {
-        self.taken.iter().any(|t| alike(&t.base_from_flange, pose))
-            || self.failed.iter().any(|f| Residual::between(f, pose).is_within(NOT_AGAIN))
-    }
-
-    /// Whether the whole target is in the image, not too flat and sharp, as far as its place is known.
-    fn is_seen(
-        &self,
-        pose: &Pose<Base, Flange>,
-        outline: &[Vector3<f64>; 4],
-        covariance: Option<&Matrix12>,
-    ) -> bool {
-        let Setting { camera, .. } = &self.setting;
-        let view = self.setting.pair(pose).camera_from_target;
-        let (rotation, v) = (view.rotation(), &self.viewing);
-        let depth = (view * Point::from_vector(looks::middle(outline))).vector().z;
-        if !(v.nearest_m..=v.farthest_m).contains(&depth) {
-            return false;
-        }
-        let of_view = covariance.map(|s| view_covariance(&view, s));
-        let size = [f64::from(camera.width), f64::from(camera.height)];
-        outline.iter().all(|p| {
-            let seen = (view * Point::from_vector(*p)).vector();
-            let flat = rotation.column(2).dot(&seen) < v.steepest.cos() * seen.norm();
-            let Some((pixel, by_point)) = camera.project_with_jacobian(&seen) else { return false };
-            let by_pose: SMatrix<f64, 3, 6> = rotation * point_jacobian(p);
-            let j = by_point * by_pose;
-            let off = of_view.map_or([0.0; 2], |s| {
-                let s = j * s * j.transpose();
-                [s[(0, 0)], s[(1, 1)]].map(|variance| SURE * variance.max(0.0).sqrt())
-            });
-            let inside = |k: usize| {
-                let margin = v.margin * size[k] + off[k];
-                pixel[k] > margin && pixel[k] < size[k] - 1.0 - margin
-            };
-            !flat && inside(0) && inside(1)
-        })
-    }
-
     /// The views in an order that keeps the way short, with what is expected after each.
     fn arranged(&self, views: Vec<NextView>) -> Vec<NextView> {
         let Some(start) = self.reach.now() else { return views };
@@ -438,18 +308,17 @@ impl Planner {
     }
 }
 
-/// A number with the order of `x` by [`f64::total_cmp`].
-fn in_order(x: f64) -> i64 {
-    let bits = x.to_bits() as i64;
-    bits ^ ((bits >> 63) as u64 >> 1) as i64
+/// These in the order of their keys; of the same keys, in the order that they have.
+fn sorted_by<K: Ord, T>(keys: Vec<K>, all: Vec<T>) -> Vec<T> {
+    let mut keyed: Vec<(K, T)> = keys.into_iter().zip(all).collect();
+    keyed.sort_by(|a, b| a.0.cmp(&b.0));
+    keyed.into_iter().map(|(_, one)| one).collect()
 }
 
-/// Covariance of where the target will be seen, in the target: `δB = -Ad(B⁻¹) δX + δY`.
-fn view_covariance(view: &Pose<Camera, Target>, covariance: &Matrix12) -> Matrix6<f64> {
-    let mut j = SMatrix::<f64, 6, 12>::zeros();
-    j.fixed_view_mut::<6, 6>(0, 0).copy_from(&-lie::adjoint(view.inverse().iso()));
-    j.fixed_view_mut::<6, 6>(0, 6).fill_with_identity();
-    j * covariance * j.transpose()
+/// A number with the order of `x` by [`f64::total_cmp`].
+fn by_total_order(x: f64) -> i64 {
+    let bits = x.to_bits() as i64;
+    bits ^ ((bits >> 63) as u64 >> 1) as i64
 }
 
 impl NextView {
