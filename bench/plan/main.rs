@@ -242,7 +242,7 @@ impl Trial {
             viewing,
             reach: Reach::Arm(reach),
             candidates: 2000,
-            threads: std::thread::available_parallelism().map_or(1, usize::from),
+            threads: handeye_io::parallel::threads([]),
         };
         Some(Trial { cell, exact, first, works, tolerance: tolerance(arm) })
     }

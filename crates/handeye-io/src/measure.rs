@@ -344,8 +344,8 @@ fn shifted(
     pixel_origin::half_pixel(&views, target, given, origin)
 }
 
-/// What lens model and print typically leave in a corner, px, and with it a camera that was given without distortion: it gets
-/// the radial distortion that the corners prove. The corners of a board that is bent prove nothing of the lens.
+/// Gives a camera that was given without distortion the radial distortion that the corners prove; those of a bent board prove
+/// none. Returns what lens model and print then typically leave in a corner, px.
 fn settle_lens(
     dataset: &Dataset,
     seen: &[Seen],
@@ -354,7 +354,7 @@ fn settle_lens(
 ) -> Option<f64> {
     let (target, straight) = (dataset.target.as_ref()?, (*camera)?);
     let views: Vec<&[ImageCorner]> = seen.iter().map(|s| &s.corners[..]).collect();
-    let posed = |camera| detect::best_poses(&views, target, camera, parallel::all_cores());
+    let posed = |camera| detect::best_poses(&views, target, camera, parallel::threads([]));
     let mut poses = posed(&straight);
     let is_given = dataset.intrinsics.is_some();
     if is_given
@@ -416,7 +416,7 @@ fn poses_of_targets(
     excess: Option<f64>,
 ) -> Vec<Vec<TargetPose>> {
     let of = |k: usize| target_poses(dataset, &shots[k], &seen[k], camera, excess);
-    let all = parallel::in_order(shots.len(), parallel::all_cores(), of);
+    let all = parallel::in_order(shots.len(), parallel::threads([]), of);
     let or_why = |(found, s): (Result<Vec<TargetPose>, handeye::Error>, &mut Seen)| {
         found.unwrap_or_else(|error| {
             s.not_found = Some(error.to_string());

@@ -220,7 +220,7 @@ fn planner(
     let (reach, joint_names, notes) = reach(dataset, session, options)?;
     let candidates = USUAL_CANDIDATES;
     let guess = Some(guess);
-    let threads = parallel::all_cores();
+    let threads = parallel::threads([]);
     let planner = Planner { setting, guess, taken, failed, viewing, reach, candidates, threads };
     Ok((planner, joint_names, notes))
 }

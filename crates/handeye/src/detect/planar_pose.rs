@@ -116,7 +116,7 @@ const FEWEST_TYPICAL: usize = 4;
 
 /// The pose of the target that explains the corners of each image best; `None` where they have none.
 ///
-/// `threads` share the work; the poses do not depend on how many they are.
+/// `threads` share the work, 0 and 1 the caller's own alone; the poses do not depend on how many they are.
 pub fn best_poses(
     pictures: &[&[ImageCorner]],
     target: &TargetModel,

@@ -2,10 +2,12 @@
 //! that show the whole target although its pose is not known exactly, and that are most informative.
 
 mod candidates;
+mod known;
 
 use std::cmp::Reverse;
 
 use candidates::Offer;
+pub use known::Planner;
 
 use super::{
     FIRST, Setting, alike, error, finite,
@@ -23,27 +25,6 @@ use crate::{
     math::{linalg::FREE_SIGMA, parallel},
     solve::least_squares::Matrix12,
 };
-
-/// What is known of a cell, and what its robot reaches.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Planner {
-    /// The cell; its `hand_eye` is what is known of it by now.
-    pub setting: Setting,
-    /// How well the camera's pose is known beside the captures taken; `None` where it is known well.
-    pub guess: Option<GuessSigma>,
-    /// Captures that were taken.
-    pub taken: Vec<Taken>,
-    /// Poses in which the target was not found, or that the robot could not go to.
-    pub failed: Vec<Pose<Base, Flange>>,
-    /// From where the camera may look.
-    pub viewing: Viewing,
-    /// What the robot reaches.
-    pub reach: Reach,
-    /// Candidates that are compared.
-    pub candidates: usize,
-    /// Threads that share the work; the views do not depend on how many they are.
-    pub threads: usize,
-}
 
 /// A view to take.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, SMatrix, Vector3};
 
-use super::Planner;
+use super::known::Planner;
 use crate::{
     Base, Camera, Flange, Point, Pose, Setup, Target,
     math::{lie, linalg, parallel, random::halton},
@@ -34,8 +34,8 @@ pub(super) struct Offer {
     pub(super) information: Matrix12,
 }
 
-/// What a look at the target is.
-enum Look {
+/// What comes of a look at the target.
+enum Outcome {
     /// A candidate.
     Offered(Box<Offer>),
     /// It does not show the whole target for sure.
@@ -65,17 +65,17 @@ impl Planner {
         let (mut all, mut begun) = (vec![], 0);
         while begun < most && all.len() < self.candidates {
             let count = AT_ONCE.min(most - begun);
-            let look = |k: usize| self.look(begun + k, &sought);
-            for look in parallel::in_order(count, self.threads, look) {
+            let look = |k: usize| self.outcome(begun + k, &sought);
+            for outcome in parallel::in_order(count, self.threads, look) {
                 // the same ones, however many were looked at by then
                 if all.len() == self.candidates {
                     break;
                 }
-                match look {
-                    Look::Offered(offer) => all.push(*offer),
-                    Look::Unseen => refusals.unseen += 1,
-                    Look::Alike => refusals.alike += 1,
-                    Look::TooFar => refusals.unreached += 1,
+                match outcome {
+                    Outcome::Offered(offer) => all.push(*offer),
+                    Outcome::Unseen => refusals.unseen += 1,
+                    Outcome::Alike => refusals.alike += 1,
+                    Outcome::TooFar => refusals.unreached += 1,
                 }
             }
             begun += count;
@@ -83,21 +83,23 @@ impl Planner {
         all
     }
 
-    /// Look number `k`.
-    fn look(&self, k: usize, sought: &Sought) -> Look {
-        let Some(base_from_flange) = self.drawn(k, &sought.outline) else { return Look::Unseen };
+    /// What comes of look number `k`.
+    fn outcome(&self, k: usize, sought: &Sought) -> Outcome {
+        let Some(base_from_flange) = self.drawn(k, &sought.outline) else { return Outcome::Unseen };
         if self.is_known(&base_from_flange) {
-            return Look::Alike;
+            return Outcome::Alike;
         }
         if !self.is_seen(&base_from_flange, sought) {
-            return Look::Unseen;
+            return Outcome::Unseen;
         }
         if self.reach.is_surely_too_far(&base_from_flange) {
-            return Look::TooFar;
+            return Outcome::TooFar;
         }
         match self.setting.information(&base_from_flange) {
-            Some(information) => Look::Offered(Box::new(Offer { base_from_flange, information })),
-            None => Look::Unseen,
+            Some(information) => {
+                Outcome::Offered(Box::new(Offer { base_from_flange, information }))
+            }
+            None => Outcome::Unseen,
         }
     }
 
