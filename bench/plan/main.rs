@@ -610,10 +610,11 @@ fn main() {
              *done*: cells that ended; *holds*: those whose true error (95 %) is below the tolerance then; *unseen*: views that \
              did not show the whole board.\n\n\
              | arm | cells | captures | touches | over random | half-sphere | pyramid | done | holds | unseen |\n|---|---|---|---|---|---|---|---|---|---|\n{}\n\n\
-             The next view of 2000 ways to look: {:.0} ms (median), {slowest:.0} ms (99 %). In rendered images of planned views the \
+             The next view of 2000 ways to look, by {} threads: {:.0} ms (median), {slowest:.0} ms (99 %). In rendered images of planned views the \
              whole board is found in {found} of {rendered}.",
             four_axes::TIP_M * 1e3,
             rows.join("\n"),
+            handeye_io::parallel::threads([]),
             median(times.iter().copied()),
         );
         section::write(file, name, &text);
