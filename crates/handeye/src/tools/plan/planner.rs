@@ -10,17 +10,15 @@ use candidates::Offer;
 pub use known::Planner;
 
 use super::{
-    FIRST, Setting, alike, error, finite,
-    guess::{GuessSigma, Taken, refined},
-    log_determinant,
-    looks::Viewing,
-    moment,
-    reach::{Reach, Station, Unreached},
+    FIRST, alike, error, finite,
+    guess::{Taken, refined},
+    log_determinant, moment,
+    reach::{Station, Unreached},
     refusals::Refusals,
     travel,
 };
 use crate::{
-    Base, Camera, Error, Flange, Pose, Target,
+    Camera, Error, Pose, Target,
     estimate::predict::PredictedTre,
     math::{linalg::FREE_SIGMA, parallel},
     solve::least_squares::Matrix12,
