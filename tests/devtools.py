@@ -4,6 +4,7 @@ The tests of the report, of the page that calibrates, and of the book use it.
 """
 
 import base64
+import contextlib
 import json
 import os
 import pathlib
@@ -50,7 +51,8 @@ class Browser:
         return self
 
     def __exit__(self, *_):
-        os.killpg(self.process.pid, signal.SIGKILL)
+        with contextlib.suppress(ProcessLookupError):  # one that was closed is gone
+            os.killpg(self.process.pid, signal.SIGKILL)
 
     def call(self, method, **given):
         """A command and its result; events in the meantime are kept."""

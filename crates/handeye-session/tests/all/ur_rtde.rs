@@ -81,7 +81,8 @@ fn is_of(sample: &RobotSample, arm: &Arm) -> bool {
 #[test]
 fn poses_are_the_controllers_without_its_tool() {
     for (protocol, split) in [(2, false), (1, false), (2, true), (1, true)] {
-        let simulator = Simulator::start(Manner { protocol, split, ..GOOD });
+        let one_each = !split;
+        let simulator = Simulator::start(Manner { protocol, split, one_each, ..GOOD });
         let listener = Listener::follow(simulator.port(), LONG);
         let other = Arm { tcp_offset: [0.0; 6], mode: 5, ..ARM };
         let mut times = vec![];

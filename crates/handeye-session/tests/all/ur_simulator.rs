@@ -63,6 +63,8 @@ pub struct Manner {
     pub end: End,
     /// Byte by byte.
     pub split: bool,
+    /// Of what it reads at once it obeys the first request, and loses the others.
+    pub one_each: bool,
     /// A field that it does not have, and one that has another type.
     pub missing: &'static [&'static str],
     pub retyped: &'static str,
@@ -77,6 +79,7 @@ pub const GOOD: Manner = Manner {
     protocol: 2,
     end: End::Never,
     split: false,
+    one_each: false,
     missing: &[],
     retyped: "",
     starts: true,
@@ -205,6 +208,9 @@ impl Talk {
                 }
                 let request: Vec<u8> = pending.drain(..size).collect();
                 self.obey(request[2], &request[3..])?;
+                if self.manner().one_each {
+                    pending.clear();
+                }
             }
         }
         Ok(())

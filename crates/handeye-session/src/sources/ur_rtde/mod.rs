@@ -23,7 +23,7 @@ use std::{
 
 use self::{
     outage::Outage,
-    package::{DATA, OUTPUTS, PROTOCOL, Request, START, Wire},
+    package::{CONTROLLER, DATA, OUTPUTS, PROTOCOL, Request, START, Wire},
     recipe::{FREQUENCY_HZ, Recipe, RobotState},
 };
 use super::outlet::Outlet;
@@ -186,7 +186,8 @@ fn connect(robot: &UrRobot) -> Result<TcpStream, Outage> {
     Err(why)
 }
 
-/// Agrees on protocol and fields, and lets the data begin.
+/// Agrees on protocol and fields, and lets the data begin. Each request waits for the answer to the one before it, as in the
+/// makers' own clients: not everything that speaks RTDE takes two at once.
 fn agree(wire: &mut Wire, until: Instant) -> Result<Recipe, Outage> {
     wire.send(&Request::Protocol(2))?;
     let protocol = match wire.answer(PROTOCOL, until)?[..] {
@@ -195,6 +196,7 @@ fn agree(wire: &mut Wire, until: Instant) -> Result<Recipe, Outage> {
         _ => return Err(Outage::Garbled("an answer of another length than asked for".into())),
     };
     wire.send(&Request::Controller)?;
+    wire.answer(CONTROLLER, until)?;
     wire.send(&Request::Outputs {
         names: &Recipe::names(),
         frequency_hz: (protocol == 2).then_some(FREQUENCY_HZ),

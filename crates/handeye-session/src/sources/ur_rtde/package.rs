@@ -13,7 +13,7 @@ use super::outage::Outage;
 /// Asks for a version of the protocol.
 pub(super) const PROTOCOL: u8 = b'V';
 /// Asks for the controller's version.
-const CONTROLLER: u8 = b'v';
+pub(super) const CONTROLLER: u8 = b'v';
 /// Asks for fields.
 pub(super) const OUTPUTS: u8 = b'O';
 /// Begins.
@@ -118,10 +118,12 @@ impl Wire {
         loop {
             let package = self.next(until)?;
             match package.kind {
-                got if got == kind => return Ok(package.body),
                 CONTROLLER => self.software = version(&package.body),
                 TEXT => self.said = text(&package.body),
                 _ => {}
+            }
+            if package.kind == kind {
+                return Ok(package.body);
             }
             // whoever talks of other things for ever does not answer
             if Instant::now() > until {
