@@ -59,6 +59,13 @@ HEAR = """(() => { window.heard = new Set(); new MutationObserver(() => {
         if (element.checkVisibility() && element.dataset.name !== 'in_english') heard.add(element.textContent);
 }).observe(document.body, { subtree: true, childList: true, characterData: true, attributes: true }); })()"""
 
+# what is wider than the card that it is in, where it is not to be scrolled
+OVERHANG = """[...document.querySelectorAll('.card')].flatMap((card) => {
+    const ends = card.getBoundingClientRect().right + 1;
+    const scrolls = (part) => part !== card && (getComputedStyle(part).overflowX !== 'visible' || scrolls(part.parentElement));
+    return [...card.querySelectorAll('*')].filter((part) => part.checkVisibility() && part.getBoundingClientRect().right > ends
+        && !scrolls(part.parentElement)).map((part) => part.outerHTML.slice(0, 150)); })"""
+
 
 class Page(devtools.Browser):
     """The page of a session, under a person's hands."""
@@ -404,6 +411,8 @@ def look(page, step, pictures):
             page.picture(pictures / f"{step}-{scheme}{name}.png")
         wide = page.value("document.documentElement.scrollWidth")
         assert wide <= size[0], f"the step {step} is {wide} pixels wide on a screen of {size[0]}"
+        overhang = page.value(OVERHANG)
+        assert not overhang, f"wider than their cards in the step {step}, {scheme}{name}: {overhang}"
         if AXE.is_file():
             page.value(f"window.axe ? 0 : (() => {{ {AXE.read_text()} }})() || 0")
             found = page.value("axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations"

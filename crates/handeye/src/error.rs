@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum Error {
     /// Not enough captures that can be used.
-    #[error("{found} usable captures, at least {needed} are needed: {advice}")]
+    #[error("{}, at least {needed} are needed: {advice}", usable(*found))]
     TooFewPoses {
         /// How many there are.
         found: usize,
@@ -62,4 +62,11 @@ pub enum Error {
     /// A value that makes no sense.
     #[error("{0}")]
     Invalid(String),
+}
+
+fn usable(captures: usize) -> String {
+    match captures {
+        1 => "1 usable capture".into(),
+        _ => format!("{captures} usable captures"),
+    }
 }

@@ -131,7 +131,7 @@ impl Engine {
     fn capture_proof(&self) -> Proof {
         let count = self.folder.captures.len();
         let Some(assessed) = self.assessed.as_ref().filter(|_| !self.assessing) else {
-            return proof(false, format!("{count} captures"));
+            return proof(false, captures(count));
         };
         let limit = self.folder.settings.tolerance_mm;
         match assessed.p95_mm() {
@@ -143,6 +143,7 @@ impl Engine {
                 false,
                 format!("{count} captures; {mm:.2} mm (95 %), {limit} mm are tolerated"),
             ),
+            None if count == 1 => proof(false, "1 capture does not determine the answer yet"),
             None => proof(false, format!("{count} captures do not determine the answer yet")),
         }
     }
@@ -331,6 +332,13 @@ fn remedy(code: &str) -> &'static str {
 
 /// What to do about a newest capture that does not fit.
 pub(super) const WHETHER_MOVED: &str = "Take another one: it shows whether camera or board were moved. If one was, begin a new session; if none was, delete this capture";
+
+fn captures(count: usize) -> String {
+    match count {
+        1 => "1 capture".into(),
+        _ => format!("{count} captures"),
+    }
+}
 
 /// Views before anything can be planned: they differ in what every cell needs.
 fn first_views(captures: &[StoredCapture]) -> String {
