@@ -84,7 +84,7 @@ impl Route {
 }
 
 /// Poses looked at in vain before no more are tried: the search for joint values takes time.
-const MOST_IN_VAIN: usize = 600;
+const MOST_IN_VAIN: usize = 2000;
 /// Captures are enough when the calibration states less than this share of the tolerance. Whoever stops at the first one that
 /// states less than the tolerance itself, stops too early: errors (95 %) are stated of all points of all such calibrations, and
 /// the points of one are off together. Where the robot's noise was declared, the true error (95 %) was below the tolerance in 127
