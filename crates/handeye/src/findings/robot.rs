@@ -58,6 +58,15 @@ pub enum RobotFinding {
         /// What captures miss that are left out in blocks (mm), with poses corrected and without, where that is offered.
         corrected: Option<(f64, f64)>,
     },
+    /// Whether it errs by place is open, and that is much of the predicted error.
+    MayErrByPlace {
+        /// How likely it is, of 1.
+        probability: f64,
+        /// The predicted error (root mean square) with that in it, mm.
+        predicted_mm: f64,
+        /// The same if its errors are independent from pose to pose, mm.
+        independent_mm: f64,
+    },
     /// Joint values do not lead to the flange pose beside them.
     JointsAndPosesDiffer {
         /// Where, in words.
@@ -143,6 +152,10 @@ impl RobotFinding {
                             .into(),
                 }
             ),
+            Self::MayErrByPlace { probability, predicted_mm, independent_mm } => format!(
+                "whether the robot's error depends on its pose is open: with a probability of {:.0} % it does, so the predicted error is {predicted_mm:.2} mm RMS instead of {independent_mm:.2} mm. Joint values and a model of the arm decide it; touches where the robot works verify the result",
+                100.0 * probability
+            ),
             Self::JointsAndPosesDiffer { at } => format!(
                 "{at}: forward kinematics of the joint values does not give the flange pose of the same capture; check the \
                  arm's parameters, their units, and the order of the joints. The arm was not calibrated"
@@ -175,6 +188,7 @@ const ROBOT_ERRS_BY_PLACE: Row = Row::changes(
     "the robot's error depends on its pose, and no fixed transform is exact everywhere",
     "take captures in the work area, with the tool oriented as at work; have the robot's kinematics calibrated",
 );
+const ROBOT_MAY_ERR_BY_PLACE: Row = Row::info("robot-may-err-by-place");
 const JOINTS_AND_POSES_DIFFER: Row = Row::info("joints-and-poses-differ");
 const DETERMINED_BY_KNOWN_POSITION: Row = Row::info("determined-by-known-position");
 const KNOWN_POSITION_DISAGREES: Row = Row::changes(
@@ -193,6 +207,7 @@ pub(super) const ROWS: &[&Row] = &[
     &TARGET_LENGTH_UNIT,
     &ARM_DEVIATES,
     &ROBOT_ERRS_BY_PLACE,
+    &ROBOT_MAY_ERR_BY_PLACE,
     &JOINTS_AND_POSES_DIFFER,
     &DETERMINED_BY_KNOWN_POSITION,
     &KNOWN_POSITION_DISAGREES,
@@ -209,6 +224,7 @@ impl Found for RobotFinding {
             Self::TargetLengthUnit { .. } => &TARGET_LENGTH_UNIT,
             Self::ArmDeviates { .. } => &ARM_DEVIATES,
             Self::ErrsByPlace { .. } => &ROBOT_ERRS_BY_PLACE,
+            Self::MayErrByPlace { .. } => &ROBOT_MAY_ERR_BY_PLACE,
             Self::JointsAndPosesDiffer { .. } => &JOINTS_AND_POSES_DIFFER,
             Self::DeterminedByKnownPosition { .. } => &DETERMINED_BY_KNOWN_POSITION,
             Self::KnownPositionDisagrees { .. } => &KNOWN_POSITION_DISAGREES,
@@ -248,6 +264,11 @@ impl Found for RobotFinding {
                 ];
                 own.into_iter().chain(corrected).collect()
             }
+            Self::MayErrByPlace { probability, predicted_mm, independent_mm } => vec![
+                ("probability", *probability),
+                ("predicted_mm", *predicted_mm),
+                ("independent_mm", *independent_mm),
+            ],
             Self::OtherConvention { .. } | Self::JointsAndPosesDiffer { .. } => vec![],
             Self::DeterminedByKnownPosition { given_mm, .. } => vec![("given_mm", *given_mm)],
             Self::KnownPositionDisagrees { given_mm, found_mm } => {

@@ -126,7 +126,7 @@ fn fuse(
         None => robot.compensation(views, without, &workpiece, config),
         Some(_) => None,
     };
-    evidence.notes.add(robot.notes(compensation.as_ref()).then(refined.notes));
+    evidence.notes.add(robot.notes(compensation.as_ref(), &workpiece).then(refined.notes));
     let has_board = views.session.target.is_some();
     let evidence = Evidence {
         determined,

@@ -46,6 +46,18 @@ pub(crate) fn budget(
             at_workpiece_mm: at_workpiece(None),
         });
     }
+    let uncorrectable = at.uncorrectable_rms_mm();
+    if uncorrectable > 0.0 {
+        all.push(BudgetEntry {
+            source: "robot, by its pose".into(),
+            sigma: "errors that depend on its pose, as far as no fixed transform corrects them"
+                .into(),
+            sigma_mm: None,
+            sigma_deg: None,
+            sigma_uncertainty: None,
+            at_workpiece_mm: Some(uncorrectable),
+        });
+    }
     all
 }
 
@@ -100,7 +112,9 @@ pub(crate) fn advice(
 ) -> Vec<Advice> {
     let mut all = vec![];
     let mut add = |change: &str, covariance: Option<DMatrix<f64>>| {
-        if let Some(mm) = covariance.and_then(|c| at.rms_mm(&c)) {
+        if let Some(own) = covariance.and_then(|c| at.rms_mm(&c)) {
+            // no change on this list corrects the robot's poses
+            let mm = own.hypot(at.uncorrectable_rms_mm());
             all.push(Advice { change: change.into(), predicted_tre_mm: mm });
         }
     };

@@ -83,9 +83,13 @@ impl Robot {
     }
 
     /// What is found of it.
-    pub(crate) fn notes(&self, compensation: Option<&CompensationResult>) -> Notes {
+    pub(crate) fn notes(
+        &self,
+        compensation: Option<&CompensationResult>,
+        workpiece: &Workpiece,
+    ) -> Notes {
         let corrected = compensation.filter(|c| c.model.is_some()).map(CompensationResult::worse);
-        let of_place = self.place.as_ref().and_then(|p| p.finding(corrected));
+        let of_place = self.place.as_ref().and_then(|p| p.finding(corrected, workpiece));
         let of_arm = self.arm.as_ref().map(ArmFit::finding);
         Notes::of(self.inconsistent.iter().cloned().chain(of_place).chain(of_arm))
     }

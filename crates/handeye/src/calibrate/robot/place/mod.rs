@@ -5,7 +5,8 @@
 //! which they change; they are part of the model where the likelihood gains clearly. The answer is then the rigid one
 //! that fits best where the captures are ([`crate::estimate::projection`]), and what it misses there is part of its
 //! predicted error. Which model is right remains open: answer and covariance are those of the mixture of all, weighted
-//! by their likelihood, independent errors among them. Where the gain is small that is all: nothing is said of the robot.
+//! by their likelihood, independent errors among them. Where the gain is small nothing is said of the robot but that this is
+//! open, if the predicted error is much larger for it.
 
 mod captures;
 mod mixture;
@@ -19,7 +20,7 @@ use crate::{
         flow::{config::Config, limits::MOST_PREDICTED_MM, views::Views},
         prediction::{
             reach::{Reach, ToolReach, UsedTouches},
-            workpiece::inflation,
+            workpiece::{Workpiece, inflation},
         },
         result::BlockGain,
     },
@@ -37,6 +38,8 @@ const FEWEST_VIEWS: usize = 8;
 /// Gain of the logarithm of the likelihood that errors by place must bring from many captures: their two levels gain as
 /// much by chance in one of two hundred sets, and there are several lengths over which errors may change.
 const GAIN: f64 = 4.0;
+/// Where it is open whether a robot errs by place, that is said once it raises the predicted error to so much.
+const MUCH: f64 = 1.5;
 /// So few captures double it: there the noise itself is hardly known, and chance gains more.
 const FEW_FOR_GAIN: f64 = 10.0;
 
@@ -145,9 +148,14 @@ impl ByPlace {
         self.model.as_ref().is_some_and(|m| !m.wrong_tip)
     }
 
-    /// That it does, by how much, and what is left where its poses are corrected; `None` where that is open.
-    pub(crate) fn finding(&self, corrected: Option<BlockGain>) -> Option<RobotFinding> {
-        let model = self.model.as_ref()?;
+    /// That it does, by how much, and what is left where its poses are corrected; or that it is open, where that is much
+    /// of the predicted error.
+    pub(crate) fn finding(
+        &self,
+        corrected: Option<BlockGain>,
+        workpiece: &Workpiece,
+    ) -> Option<RobotFinding> {
+        let Some(model) = self.model.as_ref() else { return self.open(workpiece) };
         let sigma = |source| model.fit.noise.sigma(source).unwrap_or(0.0);
         Some(RobotFinding::ErrsByPlace {
             position_mm: 3f64.sqrt() * sigma(Source::PlacePosition) * 1e3,
@@ -156,6 +164,15 @@ impl ByPlace {
             gain: model.gain,
             corrected: corrected.map(|c| (c.corrected_mm, c.rigid_mm)),
         })
+    }
+
+    fn open(&self, workpiece: &Workpiece) -> Option<RobotFinding> {
+        let (answer, _) = workpiece.rigid()?;
+        let predicted_mm = workpiece.predicted_rms_mm(&answer)?;
+        let independent_mm = workpiece.rms_of_best_mm()?;
+        let finding =
+            RobotFinding::MayErrByPlace { probability: self.share, predicted_mm, independent_mm };
+        (predicted_mm > MUCH * independent_mm).then_some(finding)
     }
 }
 
