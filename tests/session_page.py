@@ -73,7 +73,7 @@ class Page(devtools.Browser):
     def __init__(self, work, more=()):
         self.work, self.clicks, self.keys = pathlib.Path(work), 0, 0
         self.net_log = self.work / "net.json"
-        super().__init__(work, NO_OTHER_HOST, more=(*more, ONLY_PAGES, f"--log-net-log={self.net_log}"))
+        super().__init__(work, more=(*more, NO_OTHER_HOST, ONLY_PAGES, f"--log-net-log={self.net_log}"))
         self.size(*DESK)
 
     def size(self, width, height):
@@ -111,8 +111,7 @@ class Page(devtools.Browser):
         """What went wrong in the page, and what it asked of others."""
         for trouble in self.troubles():
             kind, _, url = trouble.partition(" ")
-            # the browser's own first page consists of chrome://
-            if kind != "loads" or not url.startswith((self.home, "chrome:")):
+            if kind != "loads" or not url.startswith(self.home):
                 yield trouble
 
     def sent_elsewhere(self):
