@@ -187,7 +187,7 @@ fn connect(robot: &UrRobot) -> Result<TcpStream, Outage> {
 }
 
 /// Agrees on protocol and fields, and lets the data begin. Each request waits for the answer to the one before it, as in the
-/// makers' own clients: not everything that speaks RTDE takes two at once.
+/// maker's own client: not everything that speaks RTDE takes two at once.
 fn agree(wire: &mut Wire, until: Instant) -> Result<Recipe, Outage> {
     wire.send(&Request::Protocol(2))?;
     let protocol = match wire.answer(PROTOCOL, until)?[..] {

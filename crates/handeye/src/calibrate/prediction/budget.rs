@@ -113,7 +113,7 @@ pub(crate) fn advice(
     let mut all = vec![];
     let mut add = |change: &str, covariance: Option<DMatrix<f64>>| {
         if let Some(own) = covariance.and_then(|c| at.rms_mm(&c)) {
-            // no change on this list corrects the robot's poses
+            // no change on this list corrects the robot's poses; that they may tell more of its errors is not counted
             let mm = own.hypot(at.uncorrectable_rms_mm());
             all.push(Advice { change: change.into(), predicted_tre_mm: mm });
         }

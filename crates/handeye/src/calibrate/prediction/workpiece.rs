@@ -153,8 +153,8 @@ impl<'a> Workpiece<'a> {
         self.reach.map_or_else(Matrix3::zeros, |r| r.scatter(p))
     }
 
-    /// Root mean square (mm) over the volume of the robot's errors that no fixed transform corrects: they add to the error,
-    /// whatever the covariance.
+    /// Root mean square (mm) over the volume of the robot's errors that no fixed transform corrects, and of what is uncertain
+    /// about them: they add to the error, whatever the covariance.
     pub fn uncorrectable_rms_mm(&self) -> f64 {
         let sum: f64 = self.volume.points.iter().map(|p| self.scatter(p).trace()).sum();
         (sum / self.volume.points.len().max(1) as f64).max(0.0).sqrt() * 1e3

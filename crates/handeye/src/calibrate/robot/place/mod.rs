@@ -38,10 +38,11 @@ const FEWEST_VIEWS: usize = 8;
 /// Gain of the logarithm of the likelihood that errors by place must bring from many captures: their two levels gain as
 /// much by chance in one of two hundred sets, and there are several lengths over which errors may change.
 const GAIN: f64 = 4.0;
-/// Where it is open whether a robot errs by place, that is said once it raises the predicted error to so much.
-const MUCH: f64 = 1.5;
 /// So few captures double it: there the noise itself is hardly known, and chance gains more.
 const FEW_FOR_GAIN: f64 = 10.0;
+/// Where it is open whether a robot errs by place, that is said once the predicted error is more than so many times as large
+/// for it.
+const MUCH: f64 = 1.5;
 
 /// A robot that may err by place.
 pub(crate) struct ByPlace {
@@ -166,6 +167,7 @@ impl ByPlace {
         })
     }
 
+    /// That it is open, where that makes the predicted error much larger.
     fn open(&self, workpiece: &Workpiece) -> Option<RobotFinding> {
         let (answer, _) = workpiece.rigid()?;
         let predicted_mm = workpiece.predicted_rms_mm(&answer)?;

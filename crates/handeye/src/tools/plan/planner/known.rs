@@ -1,4 +1,4 @@
-//! What a planner is told.
+//! What is given to a planner.
 
 use crate::{
     Base, Flange, Pose,
